@@ -9,7 +9,7 @@ use flexbody::elements::{beam, rod};
 use flexbody::math::eigen;
 use flexbody::math::lanes::{self, PACK};
 use flexbody::scene::{Scene, assemble};
-use flexbody::system::{Dynamics, Model, State, System, Work};
+use flexbody::system::{Dynamics, Model, State, System, Workspace};
 use nalgebra::Complex;
 
 const MESHES: [u32; 4] = [1, 10, 100, 1000];
@@ -22,7 +22,7 @@ const STEP: f64 = 1e-3;
 struct Bench<const D: usize> {
     system: System<D>,
     state: State,
-    work: Work<D>,
+    work: Workspace<D>,
 }
 
 impl<const D: usize> Bench<D> {
@@ -41,7 +41,7 @@ impl<const D: usize> Bench<D> {
         let scene = Scene::from_json(&json.to_string()).expect("a valid scene");
         let assembled = assemble(&scene).expect("a system");
         let system = assembled.system;
-        let mut work = Work::new(&system);
+        let mut work = Workspace::new(&system);
         let state = system.blank_state(0.0);
         let mut model = Model::new(&system, &[], &mut work, &state);
         let (q, v) = (&state.coordinates, &state.rates);
@@ -219,7 +219,7 @@ impl Rods {
     }
 }
 
-impl lanes::Work for &mut Rods {
+impl lanes::Workspace for &mut Rods {
     #[inline(always)]
     fn run<S: lanes::Simd>(self, simd: S) {
         for _ in 0..self.packs {
@@ -304,7 +304,7 @@ impl Beams {
     }
 }
 
-impl lanes::Work for &mut Beams {
+impl lanes::Workspace for &mut Beams {
     #[inline(always)]
     fn run<S: lanes::Simd>(self, simd: S) {
         for _ in 0..self.packs {

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::path::PathBuf;
 
 use flexbody::scene::assemble;
-use flexbody::system::{Dynamics as _, Model, Work};
+use flexbody::system::{Dynamics as _, Model, Workspace};
 use serde_json::json;
 
 use crate::accelerate::median;
@@ -25,7 +25,7 @@ pub fn dynamics(arguments: &Dynamics) -> Outcome<()> {
     let scene = read(&arguments.scene, &[])?;
     let assembled = assemble::<3>(&scene).map_err(|error| error.to_string())?;
     let system = &assembled.system;
-    let mut work = Work::new(system);
+    let mut work = Workspace::new(system);
     let state = system.blank_state(0.0);
     let mut model = Model::new(system, &[], &mut work, &state);
     let mut a = vec![0.0; system.coordinates()];

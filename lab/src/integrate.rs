@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use flexbody::integrators::{Attempt, Counts, Method, Stop, Tolerance, advance};
+use flexbody::integrators::{Attempt, Counts, Method, StepError, Tolerance, advance};
 use flexbody::math::switches::grain;
 use flexbody::scene::Experiment;
-use flexbody::system::{Accepted, Dynamics, Evaluation, Model, State, natural_frequencies};
+use flexbody::system::{Dynamics, Evaluation, Model, State, StepOutcome, natural_frequencies};
 
 use crate::integrators::{self, Build, Probe, Tally};
 use crate::outputs::Outputs;
@@ -137,7 +137,7 @@ fn fixed(
     state: &mut State,
     (until, step): (f64, f64),
     tolerance: &Tolerance,
-) -> (Counts, Result<(), Stop>) {
+) -> (Counts, Result<(), StepError>) {
     let mut counts = Counts::default();
     while state.time < until {
         let (from, near) = (state.time, grain(state.time));
@@ -161,12 +161,12 @@ fn fixed(
                 return (counts, Err(stop));
             }
         }
-        if let Accepted::Jumped(drive) = dynamics.end_stretch(state) {
-            return (counts, Err(Stop::Jumped(drive)));
+        if let StepOutcome::Jumped(drive) = dynamics.end_stretch(state) {
+            return (counts, Err(StepError::Jumped(drive)));
         }
         counts.newton_iterations += method.newton_iterations() - before;
         if !state.coordinates.iter().all(|q| q.is_finite()) {
-            return (counts, Err(Stop::NotFinite));
+            return (counts, Err(StepError::NotFinite));
         }
     }
     (counts, Ok(()))
@@ -179,7 +179,7 @@ fn whole(
     state: &mut State,
     (target, tolerance): (f64, &Tolerance),
     counts: &mut Counts,
-) -> Result<(), Stop> {
+) -> Result<(), StepError> {
     let way = target - state.time;
     let mut h = way;
     while state.time < target {
@@ -191,7 +191,7 @@ fn whole(
             counts.rejected += 1;
             h *= 0.5;
             if h < way / MOST_PIECES {
-                return Err(Stop::StepTooSmall);
+                return Err(StepError::StepTooSmall);
             }
             continue;
         };
@@ -199,16 +199,18 @@ fn whole(
         state.time = if last { target } else { state.time + h };
         counts.steps += 1;
         match dynamics.accepted(state) {
-            Accepted::AsIs => {}
-            Accepted::Moved => {
+            StepOutcome::AsIs => {}
+            StepOutcome::Moved => {
                 method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
             }
-            Accepted::RanOff(joint) => return Err(Stop::RanOff(joint)),
-            Accepted::TakenIn(drive) => return Err(Stop::TakenIn(drive)),
-            Accepted::Overbent(rod, place) => return Err(Stop::Overbent(rod, place)),
-            Accepted::Broken => return Err(Stop::Broken),
-            Accepted::Jumped(drive) => return Err(Stop::Jumped(drive)),
-            Accepted::NotFinite => return Err(Stop::NotFinite),
+            StepOutcome::SliderLeftCable(joint) => return Err(StepError::SliderLeftCable(joint)),
+            StepOutcome::WinchEmpty(drive) => return Err(StepError::WinchEmpty(drive)),
+            StepOutcome::ElementOverDeformed(rod, place) => {
+                return Err(StepError::ElementOverDeformed(rod, place));
+            }
+            StepOutcome::ConstraintsViolated => return Err(StepError::ConstraintsViolated),
+            StepOutcome::Jumped(drive) => return Err(StepError::Jumped(drive)),
+            StepOutcome::NotFinite => return Err(StepError::NotFinite),
         }
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use flexbody::body::Marker;
 use flexbody::scene::{Of, Output, OutputKind};
-use flexbody::system::{Evaluation, State, Work};
+use flexbody::system::{Evaluation, State, Workspace};
 
 use crate::scene::Start;
 
@@ -47,7 +47,7 @@ impl Outputs {
     }
 
     /// A row at a state.
-    pub fn add(&mut self, start: &Start, state: &State, work: &mut Work) {
+    pub fn add(&mut self, start: &Start, state: &State, work: &mut Workspace) {
         let (system, values) = (&start.assembled.system, &mut self.evaluation);
         values.kinematics(system, state, work);
         let mut row = vec![state.time];

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use flexbody::scene::{Assembled, InitialState, MarkerId, Scene};
-use flexbody::system::{Drive, State, Work, equilibrium};
+use flexbody::system::{Drive, State, Workspace, equilibrium};
 use serde_json::Value;
 
 /// What is wrong, in words.
@@ -66,7 +66,7 @@ pub struct Start {
     /// The state to start from.
     pub state: State,
     /// Scratch.
-    pub work: Work,
+    pub work: Workspace,
 }
 
 impl Start {
@@ -82,7 +82,7 @@ impl Start {
         let inputs = resolved.inputs.iter();
         let inputs: Vec<f64> = inputs.flat_map(|input| input.start.clone()).collect();
         let system = &assembled.system;
-        let mut work = Work::new(system);
+        let mut work = Workspace::new(system);
         let described = (&assembled.nodes[..], &assembled.rates[..]);
         let state = system.initial_state(0.0, &inputs, described, &mut work);
         let mut state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;

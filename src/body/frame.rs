@@ -17,8 +17,8 @@
 //! Multibody System Dynamics 4 (2000) 129-193 (Cayley-Gibbs-Rodrigues parameters); H. Munthe-Kaas, BIT 38 (1998) 92-111
 //! (one-step methods in coordinates that are renewed every step).
 
-mod carried;
 mod lean;
+mod section_frame;
 mod tangent;
 mod turn;
 
@@ -30,7 +30,7 @@ use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, quaternion};
 use crate::math::space::{Vector, components, is_nothing, vector};
 
-pub use carried::{Carried, Carry, Derivative};
+pub use section_frame::{Derivative, SectionFrame, SectionFrameState};
 pub use tangent::turning_block;
 pub use turn::Turn;
 
@@ -222,7 +222,7 @@ const NO_FRAME: usize = usize::MAX;
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
     list: Vec<Frame>,
-    carried: Vec<Carried>,
+    carried: Vec<SectionFrame>,
     /// For every node its body, or after those its carried frame, and whether it is the second node of that.
     of_node: Vec<Option<(usize, bool)>>,
 }
@@ -232,7 +232,7 @@ impl Frames {
     /// planar sections.
     pub fn new(
         list: Vec<Frame>,
-        carried: Vec<Carried>,
+        carried: Vec<SectionFrame>,
         nodes: (
             usize,
             impl Iterator<Item = usize>,
@@ -299,7 +299,7 @@ impl Frames {
     pub fn place<const D: usize>(
         &self,
         from: &[Quaternion],
-        (turns, carries): (&mut [Turn], &mut [Carry]),
+        (turns, carries): (&mut [Turn], &mut [SectionFrameState]),
         x: &mut [Node<D>],
     ) {
         if D == 2 {
@@ -316,7 +316,7 @@ impl Frames {
     pub fn place_rates<const D: usize>(
         &self,
         x: &[Node<D>],
-        (turns, carries): (&mut [Turn], &mut [Carry]),
+        (turns, carries): (&mut [Turn], &mut [SectionFrameState]),
         v: &mut [Node<D>],
     ) {
         if D == 2 {

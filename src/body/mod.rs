@@ -23,8 +23,8 @@ pub use connectivity::{
 };
 pub use elimination::Elimination;
 pub use frame::{
-    Axes, Carried, Carry, Derivative, Frame, Frames, NodeKind, RENEWED, Turn, axes_at, combined,
-    spin_at, turned, turning_block,
+    Axes, Derivative, Frame, Frames, NodeKind, RENEWED, SectionFrame, SectionFrameState, Turn,
+    axes_at, combined, spin_at, turned, turning_block,
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};

@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 
 use super::assembly::{NodeBlock, no_block};
 use super::connectivity::{Node, no_node};
-use super::frame::{Carried, Frames, axes_at, combined};
+use super::frame::{Frames, SectionFrame, axes_at, combined};
 use super::marker::Marker;
 use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::section::{Section, SpinInertia};
@@ -213,7 +213,7 @@ impl RodChain {
     }
 
     /// Its carried frame at a node.
-    fn frame<'a>(&self, k: usize, frames: &'a Frames) -> &'a Carried {
+    fn frame<'a>(&self, k: usize, frames: &'a Frames) -> &'a SectionFrame {
         &frames.carried()[self.carried + k]
     }
 

@@ -40,7 +40,7 @@ pub struct Stages<const D: usize> {
     base: Vec<SVector<f64, D>>,
     /// Unit directions at the stages.
     turned: [Vec<SVector<f64, D>>; STAGES],
-    knots: Vec<Knot>,
+    knots: Vec<TiedCluster>,
     /// Whether nodes belong to cables.
     elastic: Vec<bool>,
     /// Beams turn with these.
@@ -59,7 +59,7 @@ const APART: f64 = 3e-3;
 /// How the free coordinates of a cluster with cables turn at the stages: by least squares with the weights `W` above,
 /// `(N^T W N)^-1 N^T W R N`.
 #[derive(Clone, Debug)]
-struct Knot {
+struct TiedCluster {
     cluster: usize,
     range: Range<usize>,
     /// Factors of `N^T W N` at the stages; what of it is the same in all directions.
@@ -125,7 +125,7 @@ impl<const D: usize> Stages<D> {
     }
 
     /// Turns the forces on a stage back to where the tangent was made; their sum stays.
-    pub(super) fn turn_back(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
+    pub(super) fn to_corotated(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
         for f in &mut self.floating {
             f.remember(|f| &f.translation, y);
         }
@@ -135,7 +135,7 @@ impl<const D: usize> Stages<D> {
         assembly.prolong(y, &mut self.nodes);
         self.weigh(assembly, stage);
         turn_all(&mut self.nodes, (&self.turned[stage], &self.base));
-        self.sections.turn_back(stage, &mut self.nodes);
+        self.sections.to_corotated(stage, &mut self.nodes);
         assembly.restrict(&self.nodes, y);
         for f in &self.floating {
             f.restore((&f.translation, &f.momentum), y);
@@ -143,13 +143,13 @@ impl<const D: usize> Stages<D> {
     }
 
     /// Turns displacements forth to a stage; their mean translation stays.
-    pub(super) fn turn_forth(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
+    pub(super) fn from_corotated(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
         for f in &mut self.floating {
             f.remember(|f| &f.momentum, y);
         }
         assembly.prolong(y, &mut self.nodes);
         turn_all(&mut self.nodes, (&self.base, &self.turned[stage]));
-        self.sections.turn_forth(stage, &mut self.nodes);
+        self.sections.from_corotated(stage, &mut self.nodes);
         self.weigh(assembly, stage);
         assembly.restrict(&self.nodes, y);
         for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
@@ -177,7 +177,7 @@ impl<const D: usize> Stages<D> {
     }
 }
 
-fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<Knot> {
+fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<TiedCluster> {
     let clusters = assembly.clusters().iter().enumerate();
     // A single node turns as it is; without a cable nothing is stiff.
     let stiff = clusters.filter(|(_, c)| c.nodes.len() > 1 && c.nodes.iter().any(|n| elastic[*n]));
@@ -194,7 +194,7 @@ fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<Knot> 
             for (i, row) in cluster.basis.row_iter().enumerate() {
                 add_square(weight(i), row.transpose().as_slice(), &mut across.values);
             }
-            Knot {
+            TiedCluster {
                 cluster: index,
                 range: assembly.cluster_range(index),
                 normal: [across.clone(), across.clone(), across.clone()],
@@ -207,7 +207,7 @@ fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<Knot> 
         .collect()
 }
 
-impl Knot {
+impl TiedCluster {
     /// Factors `N^T W N` at a stage.
     fn tie<const D: usize>(
         &mut self,
@@ -347,7 +347,7 @@ impl<const D: usize> Tangent<D> {
         let assembly = &elimination.assembly;
         for (i, q) in q.iter_mut().enumerate() {
             elimination.forces(q);
-            self.stages.turn_back(assembly, i, q);
+            self.stages.to_corotated(assembly, i, q);
             if assembly.constraints() > 0 {
                 self.y.copy_from_slice(q);
                 elimination.project_in_place(&mut self.y);
@@ -360,7 +360,7 @@ impl<const D: usize> Tangent<D> {
             _ => self.solve_together::<3>(assembly, [forward, back], q),
         }
         for (i, q) in q.iter_mut().enumerate() {
-            self.stages.turn_forth(assembly, i, q);
+            self.stages.from_corotated(assembly, i, q);
             elimination.coordinates_of(q);
         }
     }

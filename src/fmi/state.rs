@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use super::lifecycle;
 use super::status::Fault;
 use crate::simulation::{Snapshot, Spectra};
-use crate::system::{DenseStep, Pace, State};
+use crate::system::{DenseStep, MethodStatistics, State};
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
 const VERSION: u32 = 8;
@@ -22,7 +22,7 @@ const ARRAYS: usize = 13;
 /// Numbers of every motion that inputs drive.
 const DRIVEN: usize = 5;
 /// Numbers that every state has.
-const NUMBERS: usize = 6 + Pace::NUMBERS + DenseStep::NUMBERS;
+const NUMBERS: usize = 6 + MethodStatistics::NUMBERS + DenseStep::NUMBERS;
 /// Magic, version, GUID, two bytes, numbers, lengths of the arrays and the scene.
 const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + NUMBERS * 8 + (ARRAYS + 1) * 8;
 const INITIALIZED: u8 = 1;
@@ -121,7 +121,7 @@ impl SavedState {
         let [mode, flags] = reader.take()?;
         let (lifecycle, initialized, started) = stage(mode, flags)?;
         let [start_time, stop, time, step, input, lost] = reader.numbers()?;
-        let pace = Pace::from_numbers(reader.numbers()?);
+        let pace = MethodStatistics::from_numbers(reader.numbers()?);
         let step_numbers = reader.numbers()?;
         let arrays = reader.arrays()?;
         let scene = std::str::from_utf8(reader.0).map_err(|_| refused("holds no scene"))?;
@@ -361,7 +361,9 @@ mod tests {
                 state: State {
                     time: 0.25,
                     step: 1e-3,
-                    pace: Pace::from_numbers([1.0, 0.0, 120.0, 0.1, 60.0, 1e-4, 2e-3, 1e3]),
+                    pace: MethodStatistics::from_numbers([
+                        1.0, 0.0, 120.0, 0.1, 60.0, 1e-4, 2e-3, 1e3,
+                    ]),
                     coordinates: vec![0.1, 0.2],
                     rates: vec![0.3, 0.4],
                     frames: vec![[1.0, 0.0, 0.0, 0.0]],

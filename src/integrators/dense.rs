@@ -9,7 +9,7 @@
 //! polynomial of Radau IIA as dense output).
 
 use super::controller::{Pitch, Trial};
-use super::{Method, RELAXATIONS, Rival, Stop, Tolerance, outcome, shortest};
+use super::{AlternativeMethod, Method, RELAXATIONS, StepError, Tolerance, outcome, shortest};
 use crate::math::radau::{A_INVERSE, C};
 use crate::math::sums::{Term, sum};
 use crate::system::{DenseStep, Dynamics, State};
@@ -66,8 +66,8 @@ pub(super) fn follow(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    (tolerance, rival, pitch): (&Tolerance, Option<Rival>, Pitch),
-) -> Result<(), Stop> {
+    (tolerance, rival, pitch): (&Tolerance, Option<AlternativeMethod>, Pitch),
+) -> Result<(), StepError> {
     let (end, before) = (state.dense.end(), state.time);
     let near = shortest(until, end);
     let is_over = until >= end - near;
@@ -76,7 +76,7 @@ pub(super) fn follow(
     state.dense.operations += POINT * pitch.points(state.time - before);
     match come_to_rest(method, dynamics, state, (state.time >= until, tolerance)) {
         Ok(true) => (),
-        Ok(false) | Err(Stop::Broken | Stop::Overbent(..)) => {
+        Ok(false) | Err(StepError::ConstraintsViolated | StepError::ElementOverDeformed(..)) => {
             take_back(state);
             return Ok(());
         }
@@ -100,7 +100,7 @@ fn come_to_rest(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     (is_read, tolerance): (bool, &Tolerance),
-) -> Result<bool, Stop> {
+) -> Result<bool, StepError> {
     outcome(dynamics.accepted(state))?;
     if !is_read {
         return Ok(true);

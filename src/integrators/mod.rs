@@ -21,9 +21,9 @@ pub use runge_kutta::{Bounds, Coefficients, RK4, RungeKutta};
 pub use selection::Methods;
 
 use crate::math::vector::norm as size;
-use crate::system::{Accepted, DenseStep, Dynamics, State};
+use crate::system::{DenseStep, Dynamics, State, StepOutcome};
 use controller::{Controller, Pitch, Trial};
-use selection::Rival;
+use selection::AlternativeMethod;
 
 /// Error that a step may make, in the mass norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,7 +157,7 @@ pub struct Counts {
 
 /// Why a step could not be finished.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum StepError {
     /// The tolerance cannot be met: the step shrank to the roundoff of time.
     StepTooSmall,
     /// The state is no longer finite.
@@ -165,13 +165,13 @@ pub enum Stop {
     /// The way to the communication point takes more work than the system allows.
     TooMuchWork,
     /// A slide has left its cable; the joint.
-    RanOff(usize),
+    SliderLeftCable(usize),
     /// A winch has taken in its whole cable; its driven coordinate.
-    TakenIn(usize),
+    WinchEmpty(usize),
     /// A rod is bent or twisted beyond what its frames hold: which one, and where.
-    Overbent(usize, usize),
+    ElementOverDeformed(usize, usize),
     /// Constraints cannot be kept.
-    Broken,
+    ConstraintsViolated,
     /// A driven coordinate jumps; its index.
     Jumped(usize),
 }
@@ -195,7 +195,7 @@ pub fn advance(
     state: &mut State,
     until: f64,
     tolerance: &Tolerance,
-) -> (Counts, Result<(), Stop>) {
+) -> (Counts, Result<(), StepError>) {
     let aim = (tolerance, Pitch::default());
     advance_choosing(&mut [method], dynamics, state, until, aim)
 }
@@ -207,7 +207,7 @@ fn advance_choosing(
     state: &mut State,
     until: f64,
     (tolerance, pitch): (&Tolerance, Pitch),
-) -> (Counts, Result<(), Stop>) {
+) -> (Counts, Result<(), StepError>) {
     let mut counts = Counts::default();
     let mut result = Ok(());
     // Where one of two methods gave up last, s.
@@ -218,7 +218,9 @@ fn advance_choosing(
             // The rival's as well, which is measured by what it would take.
             method.take_up(state.pace.variant());
         }
-        let rival = methods.get(1 - index).map(|method| Rival::of(&**method));
+        let rival = methods
+            .get(1 - index)
+            .map(|method| AlternativeMethod::of(&**method));
         let method = &mut *methods[index];
         if state.dense.is_under_way() {
             dynamics.begin_stretch(state.dense.start, until);
@@ -230,7 +232,7 @@ fn advance_choosing(
             counts.newton_iterations += method.newton_iterations();
         }
         // What one method cannot do the other may.
-        if result == Err(Stop::StepTooSmall) && rival.is_some() && state.time > given_up {
+        if result == Err(StepError::StepTooSmall) && rival.is_some() && state.time > given_up {
             given_up = state.time;
             selection::give_up(state);
             result = Ok(());
@@ -247,8 +249,8 @@ fn advance_smoothly(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    (tolerance, rival, pitch, counts): (&Tolerance, Option<Rival>, Pitch, &mut Counts),
-) -> Result<(), Stop> {
+    (tolerance, rival, pitch, counts): (&Tolerance, Option<AlternativeMethod>, Pitch, &mut Counts),
+) -> Result<(), StepError> {
     let follows = state.dense.has_ended_at(state.time);
     let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
     let mut counted = dynamics.operations();
@@ -264,7 +266,7 @@ fn advance_smoothly(
             take_up_cheaper(method, state, (pitch.way(remaining), is_settled));
         }
         if dynamics.is_exhausted() {
-            return Err(Stop::TooMuchWork);
+            return Err(StepError::TooMuchWork);
         }
         if dynamics.renew(state) {
             method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
@@ -396,7 +398,7 @@ fn settle(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
-) -> Result<(), Stop> {
+) -> Result<(), StepError> {
     if outcome(dynamics.accepted(state))? {
         method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
     }
@@ -409,7 +411,7 @@ fn relax(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     (until, tolerance): (f64, &Tolerance),
-) -> Result<(), Stop> {
+) -> Result<(), StepError> {
     if state.time < until {
         return Ok(());
     }
@@ -424,24 +426,26 @@ fn relax(
 }
 
 /// Whether a state was moved, or why it cannot go on.
-fn outcome(accepted: Accepted) -> Result<bool, Stop> {
+fn outcome(accepted: StepOutcome) -> Result<bool, StepError> {
     match accepted {
-        Accepted::AsIs => Ok(false),
-        Accepted::Moved => Ok(true),
-        Accepted::RanOff(joint) => Err(Stop::RanOff(joint)),
-        Accepted::TakenIn(drive) => Err(Stop::TakenIn(drive)),
-        Accepted::Overbent(rod, place) => Err(Stop::Overbent(rod, place)),
-        Accepted::Broken => Err(Stop::Broken),
-        Accepted::Jumped(drive) => Err(Stop::Jumped(drive)),
-        Accepted::NotFinite => Err(Stop::NotFinite),
+        StepOutcome::AsIs => Ok(false),
+        StepOutcome::Moved => Ok(true),
+        StepOutcome::SliderLeftCable(joint) => Err(StepError::SliderLeftCable(joint)),
+        StepOutcome::WinchEmpty(drive) => Err(StepError::WinchEmpty(drive)),
+        StepOutcome::ElementOverDeformed(rod, place) => {
+            Err(StepError::ElementOverDeformed(rod, place))
+        }
+        StepOutcome::ConstraintsViolated => Err(StepError::ConstraintsViolated),
+        StepOutcome::Jumped(drive) => Err(StepError::Jumped(drive)),
+        StepOutcome::NotFinite => Err(StepError::NotFinite),
     }
 }
 
-fn reason(v: &[f64], a: &[f64]) -> Stop {
+fn reason(v: &[f64], a: &[f64]) -> StepError {
     if v.iter().chain(a).all(|x| x.is_finite()) {
-        Stop::StepTooSmall
+        StepError::StepTooSmall
     } else {
-        Stop::NotFinite
+        StepError::NotFinite
     }
 }
 

@@ -10,8 +10,8 @@
 //! price of steps is counted while they are taken is ours (docs/decisions/0034-integrator-by-counted-cost.md).
 
 use super::controller::{Pitch, Trial};
-use super::{Counts, Method, Stop, Tolerance, advance_choosing};
-use crate::system::{Dynamics, Pace, State};
+use super::{Counts, Method, StepError, Tolerance, advance_choosing};
+use crate::system::{Dynamics, MethodStatistics, State};
 
 /// Operations before the first trial.
 const FIRST: f64 = 300.0;
@@ -82,13 +82,13 @@ impl Methods {
     }
 
     /// The method that is in use.
-    pub fn at(&mut self, pace: &Pace) -> &mut dyn Method {
+    pub fn at(&mut self, pace: &MethodStatistics) -> &mut dyn Method {
         let index = pace.index(self.methods.len());
         &mut *self.methods[index]
     }
 
     /// Its name.
-    pub fn name(&self, pace: &Pace) -> &'static str {
+    pub fn name(&self, pace: &MethodStatistics) -> &'static str {
         self.methods[pace.index(self.methods.len())].name()
     }
 
@@ -102,7 +102,7 @@ impl Methods {
         state: &mut State,
         until: f64,
         tolerance: &Tolerance,
-    ) -> (Counts, Result<(), Stop>) {
+    ) -> (Counts, Result<(), StepError>) {
         let methods: &mut [&mut dyn Method] = match &mut self.methods[..] {
             [one, two] => &mut [&mut **one, &mut **two],
             methods => &mut [&mut *methods[0]],
@@ -113,12 +113,12 @@ impl Methods {
 
 /// The method that is not in use.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rival {
+pub(super) struct AlternativeMethod {
     /// Time that it advances with an operation at most, s.
     at_most: f64,
 }
 
-impl Rival {
+impl AlternativeMethod {
     pub fn of(method: &dyn Method) -> Self {
         Self {
             at_most: method.longest_step() / method.fewest_operations(),
@@ -206,18 +206,18 @@ fn change(state: &mut State, reached: f64) {
 mod tests {
     use super::*;
 
-    const FREE: Rival = Rival {
+    const FREE: AlternativeMethod = AlternativeMethod {
         at_most: f64::INFINITY,
     };
 
     /// The method in use after the last step of a trial of the second one, which got so many times further with an operation than the
     /// first did.
     fn after_trial(further: f64) -> f64 {
-        let pace = Pace {
+        let pace = MethodStatistics {
             method: 1.0,
             trial: 1.0,
             other: 1.0,
-            ..Pace::default()
+            ..MethodStatistics::default()
         };
         let mut state = State {
             step: further,
@@ -237,18 +237,18 @@ mod tests {
     /// The method in use after one step that gets 1 s an operation, where the other got so much when it was in use, and may get at most
     /// so much; operations enough for that have gone by, not for a trial in turn.
     fn after_fall(other: f64, at_most: f64) -> f64 {
-        let pace = Pace {
+        let pace = MethodStatistics {
             other,
             cost: 0.5 * WINDOW,
             pause: 2.0 * WINDOW,
-            ..Pace::default()
+            ..MethodStatistics::default()
         };
         let mut state = State {
             step: 1.0,
             pace,
             ..State::default()
         };
-        Rival { at_most }.takes_over(&mut state, (Trial::whole(1.0), 1.0, true));
+        AlternativeMethod { at_most }.takes_over(&mut state, (Trial::whole(1.0), 1.0, true));
         state.pace.method
     }
 

@@ -4,7 +4,7 @@
 //! sections of a rod. So there are no rules here but those of validation, and two that it does not know: sections that
 //! are given by what a cable has no key for, and joints that hold how a line stands about its tangent.
 
-use super::description::{Body, CableBody, SectionNumbers, Sections};
+use super::description::{Body, LineBody, SectionNumbers, Sections};
 use super::resolved::{First, Hold, Place, Resolved};
 use super::{Error, Scene};
 
@@ -20,7 +20,7 @@ pub struct Chosen {
     /// Why.
     pub why: String,
     /// The body as a beam, where it could be one and is none: shear decides.
-    pub beam: Option<Box<CableBody>>,
+    pub beam: Option<Box<LineBody>>,
 }
 
 /// What is said of a body that nothing asks more of.
@@ -37,7 +37,7 @@ impl Chosen {
         format!("{}: {}", self.element(), self.why)
     }
 
-    fn new(body: usize, line: &CableBody, dimension: usize) -> Self {
+    fn new(body: usize, line: &LineBody, dimension: usize) -> Self {
         let needed = line
             .need()
             .filter(|(sections, _)| dimension == 3 || *sections == Sections::Lean);
@@ -89,7 +89,7 @@ fn least(dimension: usize) -> Sections {
     }
 }
 
-impl CableBody {
+impl LineBody {
     /// What the body needs by its own keys: sections that lean, or in space turn.
     fn need(&self) -> Option<(Sections, &'static str)> {
         let all = || self.all_sections();
@@ -259,7 +259,7 @@ impl Scene {
     }
 
     /// A body as a beam, where it may be one and is none.
-    fn as_beam(&self, chosen: &[Chosen], place: usize) -> Option<CableBody> {
+    fn as_beam(&self, chosen: &[Chosen], place: usize) -> Option<LineBody> {
         let mut tried = chosen.to_vec();
         let of = &mut tried[place];
         if of.sections == Sections::Lean {

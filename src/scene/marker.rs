@@ -2,12 +2,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::description::Declaration;
+use super::description::JointSpec;
 use super::resolved::{
-    Action, BodyReference, Cable, CableId, Ends, First, Form, Hold, Joint, JointCoordinate, Marker,
+    Action, BodyReference, Cable, Ends, First, Form, Hold, Joint, JointCoordinate, LineId, Marker,
     MarkerId, MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
 };
-use super::{Body, CableBody, Model, RigidBody, Scene};
+use super::{Body, LineBody, Model, RigidBody, Scene};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
 use crate::system::Drive;
@@ -63,7 +63,7 @@ impl<'a> Resolved<'a> {
                         Model::Auto | Model::Flexible => Form::Chain(next(&mut chains)),
                     };
                     BodyReference::Cable(Cable {
-                        id: CableId { body, form },
+                        id: LineId { body, form },
                         body: described,
                     })
                 }
@@ -100,13 +100,13 @@ impl<'a> Resolved<'a> {
 
 impl Scene {
     /// A cable.
-    pub fn cable(&self, id: CableId) -> &CableBody {
+    pub fn cable(&self, id: LineId) -> &LineBody {
         let cable = self.bodies[id.body].cable();
         cable.unwrap_or_else(|| unreachable!("a number of a cable is that of a cable"))
     }
 
     /// The same, to be changed.
-    pub fn cable_mut(&mut self, id: CableId) -> &mut CableBody {
+    pub fn cable_mut(&mut self, id: LineId) -> &mut LineBody {
         let cable = self.bodies[id.body].cable_mut();
         cable.unwrap_or_else(|| unreachable!("a number of a cable is that of a cable"))
     }
@@ -294,7 +294,7 @@ impl<'a> Ends<'a> {
 
 impl<'a> Joint<'a> {
     /// What is declared of its kind.
-    pub fn declaration(&self) -> Declaration {
+    pub fn declaration(&self) -> JointSpec {
         self.kind.declaration()
     }
 

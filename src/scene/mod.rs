@@ -26,19 +26,19 @@ use serde_json::{Value as Json, json};
 pub use alike::did_you_mean;
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    About, Accuracy, ActionKind, Along, Axial, Body, CableBody, Course, Experiment, Inertia,
-    Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, Material, Method,
-    Model, Orientation, OutputKind, Profile, RigidBody, Scene, Section, SectionNumbers, Sections,
-    Shape, Solid, Spin, Station, Strain, Surface, Symbol, Table, Value, Vector,
+    About, Accuracy, ActionKind, Along, Axial, Body, Course, Experiment, Inertia, Initial,
+    InitialMotion, InitialState, InputCourse, Integrator, Interpolation, LineBody, Material,
+    Method, Model, Orientation, OutputKind, Profile, RigidBody, Scene, Section, SectionNumbers,
+    Sections, Shape, Solid, Spin, Station, Strain, Surface, Symbol, Table, Value, Vector,
 };
 pub use elements::Chosen;
 pub use remarks::remarks;
 pub use resolved::{
-    Action, AngleId, BodyReference, Bushing, By, Cable, CableId, Contact, Coupling, CouplingId,
-    Ends, First, Fluid, Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint,
-    JointCoordinate, Load, LoadId, LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On,
-    Output, Pivot, Place, PointId, Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId,
-    Slider, Spring, Turning,
+    Action, AngleId, BodyReference, Bushing, By, Cable, ConstraintOwner, ConstraintOwnerId,
+    Contact, Coupling, CouplingId, Ends, First, Fluid, Gear, Hold, Incoming, Input, InputKind,
+    Joint, JointCoordinate, LineId, Load, LoadId, LoadKind, Marker, MarkerId, Mass, Motion,
+    MotionKind, Of, On, Output, Pivot, Place, PointId, Port, PortKind, Reaction, Resolved, Rigid,
+    RigidId, SlideId, Slider, Spring, Turning,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Body, CableBody, RigidBody, Scene};
+use super::{Body, LineBody, RigidBody, Scene};
 
 /// Young's modulus below which hardly any solid is, Pa.
 const SOFTEST: f64 = 1e6;
@@ -113,7 +113,7 @@ fn frequency(body: &Body) -> Option<String> {
 /// The lower one of the first frequencies of bending between two hinges and of stretching between free ends, Hz: `pi / (2 L^2)
 /// sqrt(E I / m)` and `1 / (2 L) sqrt(E A / m)`, `m` the mass per length (S. P. Timoshenko, Vibration Problems in Engineering,
 /// 3rd ed., sections 49 and 55).
-fn first_frequency(body: &CableBody) -> Option<f64> {
+fn first_frequency(body: &LineBody) -> Option<f64> {
     let (length, middle) = (body.shape.length(), body.section_at(0.5));
     let speed = |stiffness: f64| (stiffness / body.line_density_of(&middle)).sqrt();
     let stretching = speed(body.axial_stiffness_of(&middle)) / (2.0 * length);

@@ -6,7 +6,7 @@ mod outputs;
 
 use std::collections::BTreeMap;
 
-use super::description::{CableBody, JointKind, Port as GivenPort, RigidBody, Scene, Value};
+use super::description::{JointKind, LineBody, Port as GivenPort, RigidBody, Scene, Value};
 use crate::system::{Drive, Release};
 pub use loads::{Action, Bushing, By, Contact, Fluid, Load, LoadKind, On, Spring};
 pub use outputs::{Of, Output, Reaction, SectionPoint};
@@ -31,7 +31,7 @@ numbers! {
     /// A marker among those of all bodies.
     MarkerId;
     /// What holds something in the system: joints, then gears, then motions, then what ports drive.
-    HolderId;
+    ConstraintOwnerId;
     /// A joint of kind `along` among those of its kind.
     SlideId;
     /// An angle that is counted on over full turns.
@@ -55,14 +55,14 @@ impl PointId {
 
 /// A cable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CableId {
+pub struct LineId {
     /// Its place among all bodies.
     pub(super) body: usize,
     /// What it is in the system.
     pub(super) form: Form,
 }
 
-impl CableId {
+impl LineId {
     /// Its place among all bodies.
     pub fn body_index(self) -> usize {
         self.body
@@ -90,9 +90,9 @@ pub enum Form {
 #[derive(Clone, Copy, Debug)]
 pub struct Cable<'a> {
     /// Which one.
-    pub id: CableId,
+    pub id: LineId,
     /// As described.
-    pub body: &'a CableBody,
+    pub body: &'a LineBody,
 }
 
 /// A rigid body.
@@ -163,7 +163,7 @@ pub struct Pivot<'a> {
     /// Name of the joint.
     pub name: &'a str,
     /// Which holder it is.
-    pub joint: HolderId,
+    pub joint: ConstraintOwnerId,
     /// What it joins.
     pub ends: Ends<'a>,
     /// In space its axis at the start, in global axes.
@@ -176,7 +176,7 @@ pub struct Slider<'a> {
     /// Name of the joint.
     pub name: &'a str,
     /// Which holder it is.
-    pub joint: HolderId,
+    pub joint: ConstraintOwnerId,
     /// What it joins.
     pub ends: Ends<'a>,
     /// Direction of the line as [`Hold::Line`] has it.
@@ -200,7 +200,7 @@ pub struct Gear<'a> {
     /// Name.
     pub name: &'a str,
     /// Which holder it is.
-    pub holder: HolderId,
+    pub holder: ConstraintOwnerId,
     /// What it couples.
     pub coordinates: [JointCoordinate<'a>; 2],
     /// Change of the second by that of the first.
@@ -233,7 +233,7 @@ pub struct Joint<'a> {
     /// Name.
     pub name: &'a str,
     /// Which holder it is.
-    pub holder: HolderId,
+    pub holder: ConstraintOwnerId,
     /// As described.
     pub(super) kind: JointKind,
     /// Whether the scene is one of the plane.
@@ -284,7 +284,7 @@ pub struct Motion<'a> {
     /// Name; of a port, where it belongs to one.
     pub name: &'a str,
     /// Which holder it is.
-    pub holder: HolderId,
+    pub holder: ConstraintOwnerId,
     /// What is driven and how.
     pub kind: MotionKind<'a>,
     /// Its course as written; nothing if the master sets it.
@@ -396,7 +396,7 @@ pub struct Coupling<'a> {
 
 /// What holds something in the system.
 #[derive(Clone, Debug)]
-pub struct Holder<'a> {
+pub struct ConstraintOwner<'a> {
     /// Where it stands in the scene, e.g. `joints[0]`.
     pub path: String,
     /// Its name.
@@ -430,8 +430,8 @@ pub struct Resolved<'a> {
     pub outputs: Vec<Output<'a>>,
     /// Ports.
     pub ports: Vec<Port<'a>>,
-    /// What holds something, by [`HolderId`].
-    pub holders: Vec<Holder<'a>>,
+    /// What holds something, by [`ConstraintOwnerId`].
+    pub holders: Vec<ConstraintOwner<'a>>,
     /// Angles that are counted, by [`AngleId`].
     pub angles: Vec<Turning<'a>>,
     /// Points of sections whose stress is read, by [`PointId`].

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::marker::{difference, length};
-use super::{CableBody, Shape, Vector};
+use super::{LineBody, Shape, Vector};
 use crate::math::vector::dot;
 
 /// A sum of two vectors with factors, from a point on.
@@ -164,7 +164,7 @@ impl Shape {
     }
 }
 
-impl CableBody {
+impl LineBody {
     /// The first axis of a rod's section at its first end: as described; else level, so that the second is as far upright as can be; of
     /// an upright rod as far along `y` as can be, of one along `y` along `z`.
     pub fn first_axis(&self) -> [f64; 3] {

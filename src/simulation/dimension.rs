@@ -1,6 +1,6 @@
 //! The one choice between the plane and space: everything below it is compiled for both.
 
-use super::engine::{Engine, Remarks};
+use super::engine::{Engine, InitialWarnings};
 use super::inputs::Inputs;
 use super::watch::Doubtful;
 use super::{
@@ -42,7 +42,7 @@ handed_on! {
     fn damping_along([&mut] self, state: &State, inputs: &[f64], ways: &[Vec<f64>]) -> Vec<f64>;
     fn way_to_rest([&mut] self, state: &State, inputs: &[f64], rate: f64) -> Option<f64>;
     fn slow_response([&mut] self, state: &State, asked: (&[f64], usize), rate: f64, of: &[Option<Quantity>]) -> Option<Vec<f64>>;
-    fn remarks([&] self) -> &Remarks;
+    fn remarks([&] self) -> &InitialWarnings;
     fn redundant([&mut] self, state: &State) -> Redundant;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
     fn limit_work([&mut] self, most: f64);

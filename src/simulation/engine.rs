@@ -11,10 +11,10 @@ use super::{Error, Quantity, Report, Spectra, StepFailure, Variable, method};
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::math::space::components;
-use crate::scene::{Assembled, Holder, InitialState, LoadId, Resolved, Timed};
+use crate::scene::{Assembled, ConstraintOwner, InitialState, LoadId, Resolved, Timed};
 use crate::system::equilibrium;
 use crate::system::{
-    Derivatives, Dynamics, Evaluation, Model, NotAssembled, State, System, Work, eigenvalues,
+    Derivatives, Dynamics, Evaluation, Model, NotAssembled, State, System, Workspace, eigenvalues,
     natural_frequencies,
 };
 
@@ -36,10 +36,10 @@ pub(super) struct Engine<const D: usize> {
     /// What holds something in the system, by its list and name, and names of bodies.
     pub(super) holders: Vec<(&'static str, String)>,
     /// What the initial state was found with that a person should know.
-    remarks: Remarks,
+    remarks: InitialWarnings,
     pub(super) bodies: Vec<String>,
     pub(super) assembled: Assembled<D>,
-    pub(super) work: Work<D>,
+    pub(super) work: Workspace<D>,
     pub(super) methods: Methods,
     pub(super) tolerance: Tolerance,
     evaluation: Evaluation<D>,
@@ -71,14 +71,14 @@ const MISFIT: f64 = 0.5;
 
 /// What a person should know about an initial state.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Remarks {
+pub(super) struct InitialWarnings {
     /// Gaps of joints as described.
     pub misfits: Option<String>,
     /// The equilibrium is not stable, and could not be left.
     pub is_unstable: bool,
 }
 
-fn kind_and_name(holder: &Holder<'_>) -> (&'static str, String) {
+fn kind_and_name(holder: &ConstraintOwner<'_>) -> (&'static str, String) {
     let kinds = ["joint", "motion", "port"];
     let kind = kinds.into_iter().find(|kind| holder.path.starts_with(kind));
     (kind.unwrap_or("joint"), holder.name.to_owned())
@@ -89,7 +89,7 @@ impl<const D: usize> Engine<D> {
     pub(super) fn new(resolved: &Resolved<'_>, variables: &[Variable]) -> Result<Self, Error> {
         let assembled: Assembled<D> = resolved.assemble()?;
         let system = &assembled.system;
-        let (mut work, mut evaluation) = (Work::new(system), Evaluation::new(system));
+        let (mut work, mut evaluation) = (Workspace::new(system), Evaluation::new(system));
         // From nothing but the scene, so that a restored state goes on with the same method.
         let inputs = start_inputs(variables);
         let described = (&assembled.nodes[..], &assembled.rates[..]);
@@ -113,7 +113,7 @@ impl<const D: usize> Engine<D> {
             most_work: most_work(resolved.scene.method.work_limit),
             timed: resolved.scene.timed(),
             holders: resolved.holders.iter().map(kind_and_name).collect(),
-            remarks: Remarks::default(),
+            remarks: InitialWarnings::default(),
             bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
             evaluated: Evaluated::Nothing,
             watch,
@@ -147,7 +147,7 @@ impl<const D: usize> Engine<D> {
             ..
         } = &self.assembled;
         let misfits = system.misfits((time, values), nodes, MISFIT, &mut self.work);
-        self.remarks = Remarks::default();
+        self.remarks = InitialWarnings::default();
         if let Some((drive, travel)) = system.begun(&self.work) {
             let name = self.driven_name(drive);
             return Err(Error::Begun(format!(
@@ -162,7 +162,9 @@ impl<const D: usize> Engine<D> {
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
         if let Some(which) = system.overbent(&system.nodes_of(&state, &mut self.work)) {
-            return Err(Error::Overbent(self.overbent(which, " at the start")));
+            return Err(Error::ElementOverDeformed(
+                self.overbent(which, " at the start"),
+            ));
         }
         let steady = match self.initial {
             InitialState::Steady => Some(system.steady(&state, rates, &mut self.work)?),
@@ -223,7 +225,7 @@ impl<const D: usize> Engine<D> {
     }
 
     /// What a person should know about the initial state.
-    pub(super) fn remarks(&self) -> &Remarks {
+    pub(super) fn remarks(&self) -> &InitialWarnings {
         &self.remarks
     }
 

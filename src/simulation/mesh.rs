@@ -6,7 +6,7 @@ use super::inputs::Inputs;
 use super::watch::is_sampled;
 use crate::math::jet::Number;
 use crate::scene::Assembled;
-use crate::system::{CableChain, Evaluation, State};
+use crate::system::{Evaluation, LineChain, State};
 
 /// Part of [`Evaluation::missed`] that positions are off by, about: mostly 0.03 to 0.6 on 22 scenes, for errors of
 /// 1e-6 to 1 of their sizes (docs/decisions/0036-resolution.md).
@@ -32,7 +32,7 @@ pub(super) fn resolution<const D: usize, N: Number>(
 fn off<const D: usize, N: Number>(
     values: &Evaluation<D, N>,
     assembled: &Assembled<D>,
-    chain: &CableChain<D>,
+    chain: &LineChain<D>,
 ) -> N {
     let Assembled { system, nodes, .. } = assembled;
     let jumps = values.missed(system, chain) * N::of(OFF);

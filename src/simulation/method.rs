@@ -8,7 +8,7 @@ use crate::integrators::{
 };
 use crate::math::vector::norm;
 use crate::scene::{Error, Integrator, LoadKind, Resolved};
-use crate::system::{State, System, Work, fastest};
+use crate::system::{State, System, Workspace, fastest};
 
 /// Explicit methods pay up to a frequency of this many natural rates, times the cube root of the inverse
 /// tolerance: where both kinds cost the same on pendulums of 10 to 80 elements from soft to stiff
@@ -47,7 +47,7 @@ pub(super) struct Start<'a, const D: usize> {
 pub(super) fn choose<const D: usize>(
     resolved: &Resolved<'_>,
     start: &Start<'_, D>,
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
 ) -> Result<(Tolerance, Methods), Error> {
     let (scene, system) = (resolved.scene, start.system);
     let rate = natural_rate(resolved, system, start.kinetic);

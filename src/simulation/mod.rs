@@ -66,7 +66,7 @@ pub enum Error {
     Equilibrium(String),
     /// A rod or beam with elements that cannot hold how it is bent or twisted.
     #[error("initial: {0}")]
-    Overbent(String),
+    ElementOverDeformed(String),
     /// No steady motion.
     #[error("initial: {0}")]
     Steady(#[from] crate::system::NotSteady),

@@ -11,7 +11,7 @@ use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{axis, components};
 use crate::scene::{
-    Along, AngleId, Assembled, CouplingId, HolderId, LoadId, MarkerId, PointId, SlideId,
+    Along, AngleId, Assembled, ConstraintOwnerId, CouplingId, LoadId, MarkerId, PointId, SlideId,
 };
 use crate::system::{End, Evaluation, System};
 
@@ -39,11 +39,11 @@ pub enum Quantity {
     /// Component of the angular velocity at a marker; in the plane the third.
     AngularVelocity(MarkerId, usize, Along),
     /// Angular velocity of the second marker of a joint less that of its first.
-    JointVelocity(HolderId),
+    JointVelocity(ConstraintOwnerId),
     /// Component of the angular acceleration at a marker; in the plane the third.
     AngularAcceleration(MarkerId, usize, Along),
     /// Angular acceleration of the second marker of a joint less that of its first.
-    JointAcceleration(HolderId),
+    JointAcceleration(ConstraintOwnerId),
     /// Axial strain at a marker.
     Strain(MarkerId),
     /// Curvature at a marker.
@@ -63,27 +63,27 @@ pub enum Quantity {
     /// Where a slide is on its cable.
     Travel(SlideId),
     /// Component of the force of a joint or motion.
-    Reaction(HolderId, usize, Along),
+    Reaction(ConstraintOwnerId, usize, Along),
     /// Component of the moment of a joint or motion; in the plane the third.
-    ReactionMoment(HolderId, usize, Along),
+    ReactionMoment(ConstraintOwnerId, usize, Along),
     /// Displacement of a joint along a line.
-    Displacement(HolderId),
+    Displacement(ConstraintOwnerId),
     /// Its rate.
-    SlidingVelocity(HolderId),
+    SlidingVelocity(ConstraintOwnerId),
     /// The rate of that.
-    SlidingAcceleration(HolderId),
+    SlidingAcceleration(ConstraintOwnerId),
     /// Component of the force of a load on its second end.
     LoadForce(LoadId, usize),
     /// Component of the moment of a load on its second end; in the plane the third.
     LoadMoment(LoadId, usize),
     /// Force of a gear on the displacement of its second joint.
-    GearForce(HolderId),
+    GearForce(ConstraintOwnerId),
     /// Torque of a gear on the angle of its second joint.
-    GearTorque(HolderId),
+    GearTorque(ConstraintOwnerId),
     /// Component of the force on what drives a marker: opposite to the reaction.
-    MotionForce(HolderId, usize),
+    MotionForce(ConstraintOwnerId, usize),
     /// Component of the moment on what turns a marker; in the plane the third.
-    MotionMoment(HolderId, usize),
+    MotionMoment(ConstraintOwnerId, usize),
     /// Component of the force of a coupling on what it couples to.
     CouplingForce(CouplingId, usize),
     /// Component of the moment of a coupling on what it couples to; in the plane the third.
@@ -131,7 +131,7 @@ pub(super) fn value<const D: usize, N: Number>(
     let system = &assembled.system;
     let on = |id: MarkerId| -> Marker<N> { assembled.marker(id).lift() };
     let at = |id: MarkerId| assembled.marker(id);
-    let joint_of = |joint: HolderId| &system.joints()[joint.index()];
+    let joint_of = |joint: ConstraintOwnerId| &system.joints()[joint.index()];
     let (ends, turn) = (|joint| joint_of(joint).ends, |joint| joint_of(joint).turn);
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
@@ -206,7 +206,7 @@ fn sliding<const D: usize, N: Number>(
     quantity: Quantity,
     values: &Evaluation<D, N>,
     system: &System<D>,
-    joint: HolderId,
+    joint: ConstraintOwnerId,
 ) -> N {
     let (x, v) = (&values.x, &values.v);
     let way = system.joints()[joint.index()].way.as_ref();
@@ -257,7 +257,7 @@ fn exerted<const D: usize, N: Number>(
     use Quantity::*;
     let system = &assembled.system;
     let load = |id| values.exerted(system, assembled.load(id));
-    let motion = |joint: HolderId| values.reaction(system, joint.index());
+    let motion = |joint: ConstraintOwnerId| values.reaction(system, joint.index());
     let coupling = |id| values.coupling(system, assembled.coupling(id));
     match quantity {
         LoadForce(id, axis) => load(id).0[axis],
@@ -275,7 +275,7 @@ fn transmitted<const D: usize, N: Number>(
     quantity: Quantity,
     values: &Evaluation<D, N>,
     assembled: &Assembled<D>,
-    joint: HolderId,
+    joint: ConstraintOwnerId,
 ) -> N {
     let (force, moment) = values.reaction(&assembled.system, joint.index());
     let axes = || first(values, assembled, joint);
@@ -303,7 +303,7 @@ fn frame<const D: usize, N: Number>(
 fn first<const D: usize, N: Number>(
     values: &Evaluation<D, N>,
     assembled: &Assembled<D>,
-    joint: HolderId,
+    joint: ConstraintOwnerId,
 ) -> [Vector3<N>; 3] {
     let [end, _] = &assembled.system.joints()[joint.index()].ends;
     match end {

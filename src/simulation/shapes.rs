@@ -9,7 +9,7 @@ use super::{Error, Quantity, Simulation, Source, Variable};
 use crate::body::{Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId};
-use crate::system::{CableChain, Evaluation, State, System};
+use crate::system::{Evaluation, LineChain, State, System};
 
 /// Where a body is: what a line or surface of it is drawn from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -239,7 +239,7 @@ fn pose<const D: usize>(
     }
 }
 
-fn chain_pose<const D: usize>(system: &System<D>, chain: &CableChain<D>, x: &[Node<D>]) -> Pose {
+fn chain_pose<const D: usize>(system: &System<D>, chain: &LineChain<D>, x: &[Node<D>]) -> Pose {
     let first = chain.nodes(0)[0];
     let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
     let nodes = (first..first + chain.node_count()).map(|node| [0, 1].map(|k| vector(node, k)));

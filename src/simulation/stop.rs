@@ -2,7 +2,7 @@
 
 use super::engine::Engine;
 use super::{Report, Simulation, StepFailure};
-use crate::integrators::{Counts, Stop};
+use crate::integrators::{Counts, StepError};
 use crate::scene::finite_near;
 use crate::system::State;
 
@@ -60,15 +60,20 @@ impl<const D: usize> Engine<D> {
     /// What ended the way from `start` to `until` at a state.
     pub(super) fn explain(
         &mut self,
-        stop: Stop,
+        stop: StepError,
         state: &State,
         (start, until): (f64, f64),
         counts: &Counts,
     ) -> String {
         let (method, tolerance) = (self.methods.name(&state.pace), self.tolerance.relative);
         // Steps that shrink and shrink spend any work.
-        let crawls = stop == Stop::TooMuchWork && state.step < CRAWL * (until - start);
-        if crawls || matches!(stop, Stop::StepTooSmall | Stop::NotFinite | Stop::Broken) {
+        let crawls = stop == StepError::TooMuchWork && state.step < CRAWL * (until - start);
+        if crawls
+            || matches!(
+                stop,
+                StepError::StepTooSmall | StepError::NotFinite | StepError::ConstraintsViolated
+            )
+        {
             if let Err(error) = finite_near(&self.timed, state.time) {
                 return error.to_string();
             }
@@ -80,10 +85,10 @@ impl<const D: usize> Engine<D> {
             }
         }
         match stop {
-            Stop::StepTooSmall => format!(
+            StepError::StepTooSmall => format!(
                 "{method}: no step however short meets the relative tolerance {tolerance:e}"
             ),
-            Stop::TooMuchWork => {
+            StepError::TooMuchWork => {
                 let (parts, limit) = (self.assembled.system.parts(), self.most_work);
                 let (taken, way) = (counts.steps, state.time - start);
                 format!(
@@ -94,20 +99,22 @@ impl<const D: usize> Engine<D> {
                     counts.rejected
                 )
             }
-            Stop::NotFinite => {
+            StepError::NotFinite => {
                 format!("{method}: velocities or accelerations are no longer finite")
             }
-            Stop::Overbent(body, element) => self.overbent((body, element), ""),
-            Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
-            Stop::TakenIn(drive) => {
+            StepError::ElementOverDeformed(body, element) => self.overbent((body, element), ""),
+            StepError::SliderLeftCable(joint) => {
+                format!("slider `{}` has left its cable", self.name(joint))
+            }
+            StepError::WinchEmpty(drive) => {
                 let name = self.driven_name(drive);
                 format!("expected cable left to take in, found winch `{name}` at its end")
             }
-            Stop::Broken => format!(
+            StepError::ConstraintsViolated => format!(
                 "{method}: constraints cannot be kept: expected joints and motions that can hold together from \
                  here on, found a linkage at the end of its reach or motions that contradict each other"
             ),
-            Stop::Jumped(drive) => {
+            StepError::Jumped(drive) => {
                 let name = self.driven_name(drive);
                 format!("expected a motion without jumps, found one of `{name}`")
             }

@@ -9,12 +9,12 @@ impl<const D: usize> Engine<D> {
     /// Why there is no equilibrium.
     pub(super) fn unsettled(&self, error: NotFound) -> Error {
         match error.why {
-            Failure::Overbent(body, element) => {
+            Failure::ElementOverDeformed(body, element) => {
                 let place = format!(
                     " on the way to equilibrium beyond {:.4} of the load",
                     error.reached
                 );
-                Error::Overbent(self.overbent((body, element), &place))
+                Error::ElementOverDeformed(self.overbent((body, element), &place))
             }
             Failure::Rest(rest) => {
                 Error::Equilibrium(format!("{error}, on `{}`", self.bodies[rest.body]))
@@ -23,7 +23,7 @@ impl<const D: usize> Engine<D> {
                 Error::Equilibrium(format!("{error}, found that of `{}`", self.bodies[body]))
             }
             Failure::Correction(_) | Failure::Restless => Error::Equilibrium(error.to_string()),
-            Failure::Work => {
+            Failure::Workspace => {
                 let limit = self.most_work;
                 Error::Equilibrium(format!(
                     "{error}, work_limit = {limit:e} (evaluations times parts)"

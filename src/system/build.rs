@@ -13,10 +13,10 @@ use super::loads::Load;
 use super::motion::forces::add_mass;
 use super::motion::tree::Tree;
 use super::signal::Drive;
-use super::{CableChain, DrivenRow, Rod, System};
+use super::{DrivenRow, LineChain, Rod, System};
 use crate::body::{
-    Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, NodeKind, RodChain,
-    Row, add_node, no_block, no_node, product,
+    Assembly, Dependent, Elimination, Frame, Frames, Marker, Node, NodeKind, RodChain, Row,
+    SectionFrame, add_node, no_block, no_node, product,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;
@@ -54,7 +54,7 @@ pub struct Parts<const D: usize = 2> {
     /// Nodes of every body, in order.
     pub bodies: Vec<Range<usize>>,
     /// Flexible bodies.
-    pub chains: Vec<CableChain<D>>,
+    pub chains: Vec<LineChain<D>>,
     /// Rigid bodies and point masses.
     pub lumped_masses: Vec<LumpedMass>,
     /// Rigid bodies of space that turn: their nodes hold the centre of mass and the principal axes.
@@ -112,7 +112,7 @@ impl<const D: usize> System<D> {
         let (redundant, mass) = (redundant(&linear, &dependent)?, mass(&parts, &assembly));
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
         let chains_damped = parts.rod_chains.iter().any(RodChain::is_damped)
-            || parts.chains.iter().any(CableChain::is_damped);
+            || parts.chains.iter().any(LineChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let releases = releases(&parts).map(|(_, release)| release).collect();
         let (grounded, takes_moments) = (grounded(&parts, &nonlinear), takes_moments(&parts));
@@ -381,7 +381,7 @@ fn take_frames<const D: usize>(parts: &mut Parts<D>) -> Frames {
     let chains = || parts.rod_chains.iter();
     let carried = chains().filter(|_| D > 2);
     let carried = carried.flat_map(|chain| chain.frames().map(|frame| (chain.leans(), frame)));
-    let carried = carried.map(|(leans, (node, line))| Carried {
+    let carried = carried.map(|(leans, (node, line))| SectionFrame {
         node,
         line,
         leans,
@@ -439,7 +439,7 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
                 Primitive::Direction(_) | Primitive::Clamped(_) | Primitive::DrivenDirection(_) => {
                     joint.ends.iter().for_each(&mut take);
                 }
-                Primitive::Related(related) => {
+                Primitive::Coupler(related) => {
                     let angles = related.terms.iter().filter(|(_, of)| of.is_angle());
                     let ends = angles.flat_map(|(_, of)| of.ends());
                     ends.for_each(|end| take(&end));

@@ -1,6 +1,6 @@
 //! A system at an instant, as loads see it.
 
-use super::CableChain;
+use super::LineChain;
 use super::end::Angle;
 use super::winch::{PaidOut, Winch};
 use crate::body::{Frames, Node, RodChain};
@@ -22,7 +22,7 @@ pub struct Instant<'a, const D: usize, N = f64> {
     /// Their rates.
     pub v: &'a [Node<D, N>],
     /// Flexible bodies.
-    pub chains: &'a [CableChain<D>],
+    pub chains: &'a [LineChain<D>],
     /// Sections of rods and beams, and the frames that they are at.
     pub sections: (&'a [RodChain], &'a Frames),
     /// Counted angles of the system and their current values, rad.

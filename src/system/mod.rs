@@ -1,5 +1,5 @@
 //! Floor 3. A system: bodies, joints, motions and loads, constant after assembly; its state, plain
-//! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
+//! numbers; and scratch. `System` computes with `State` and `Workspace` and keeps nothing of its own.
 
 mod attitude;
 mod build;
@@ -18,7 +18,7 @@ mod spectra;
 mod start;
 mod state;
 mod winch;
-mod work;
+mod workspace;
 
 pub use attitude::Attitude;
 pub use build::{BuildError, LumpedMass, Parts};
@@ -28,7 +28,7 @@ pub use end::{Angle, End, reach};
 pub use gradient::Gradient;
 pub use instant::Instant;
 pub use motion::breaks::Follower;
-pub use motion::dynamics::{Accepted, Dynamics, Model};
+pub use motion::dynamics::{Dynamics, Model, StepOutcome};
 pub use motion::multipliers::ConstraintRow;
 pub use motion::rank::{Held, Redundant};
 pub use outputs::derivatives::Derivatives;
@@ -45,9 +45,9 @@ pub use spectra::spectrum::{
 pub use start::equilibrium;
 pub use start::placement::{Gap, NotAssembled};
 pub use start::steady::{NotSteady, Steady};
-pub use state::{DenseStep, Pace, State};
+pub use state::{DenseStep, MethodStatistics, State};
 pub use winch::Winch;
-pub use work::Work;
+pub use workspace::Workspace;
 
 use std::ops::Range;
 
@@ -64,14 +64,14 @@ use motion::tree::Tree;
 use winch::Length;
 
 /// Flexible bodies of a system.
-pub type CableChain<const D: usize = 2> = Chain<Cable<D>, D>;
+pub type LineChain<const D: usize = 2> = Chain<Cable<D>, D>;
 
 /// Everything about a system that does not change in time.
 #[derive(Clone, Debug)]
 pub struct System<const D: usize = 2> {
     /// Coordinates of the nodes where `q` and what drives them are zero.
     reference: Vec<Node<D>>,
-    chains: Vec<CableChain<D>>,
+    chains: Vec<LineChain<D>>,
     lumped_masses: Vec<LumpedMass>,
     /// Rigid bodies of space that turn, and how far the system reaches where there are any, m.
     frames: Frames,
@@ -152,7 +152,7 @@ impl<const D: usize> System<D> {
     /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m. Where rigid
     /// bodies turn in space: how far the system reaches.
     pub fn size(&self) -> f64 {
-        let cables = self.chains.iter().map(CableChain::length);
+        let cables = self.chains.iter().map(LineChain::length);
         let lengths = cables.chain(self.rods.iter().map(|rod| rod.length));
         let longest = lengths.fold(0.0, f64::max);
         if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
@@ -180,7 +180,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Flexible bodies.
-    pub fn chains(&self) -> &[CableChain<D>] {
+    pub fn chains(&self) -> &[LineChain<D>] {
         &self.chains
     }
 
@@ -242,7 +242,7 @@ impl<const D: usize> System<D> {
     #[inline(always)]
     pub(in crate::system) fn length_now<N: Number>(
         &self,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         drives: &[[N; 3]],
     ) -> Length<N> {
         let paid_out = self.paid_out(chain, drives);
@@ -253,7 +253,7 @@ impl<const D: usize> System<D> {
     #[inline(always)]
     pub(in crate::system) fn paid_out<N: Number>(
         &self,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         drives: &[[N; 3]],
     ) -> Option<(&Winch<D>, Length<N>)> {
         let winch = self.winch_of(chain)?;
@@ -262,7 +262,7 @@ impl<const D: usize> System<D> {
 
     /// The winch that pays out a chain.
     #[inline(always)]
-    pub(in crate::system) fn winch_of(&self, chain: &CableChain<D>) -> Option<&Winch<D>> {
+    pub(in crate::system) fn winch_of(&self, chain: &LineChain<D>) -> Option<&Winch<D>> {
         let is_own = |winch: &&Winch<D>| winch.nodes[0] == chain.nodes(0)[0];
         self.winches.iter().find(is_own)
     }
@@ -296,7 +296,7 @@ impl<const D: usize> System<D> {
 
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
-        let chains: f64 = self.chains.iter().map(CableChain::mass).sum();
+        let chains: f64 = self.chains.iter().map(LineChain::mass).sum();
         let frames = self.frames.list().iter().map(|frame| frame.mass);
         let lumps = self.lumped_masses.iter().map(|lump| lump.mass);
         chains + lumps.chain(frames).sum::<f64>()
@@ -308,7 +308,7 @@ impl<const D: usize> System<D> {
         State {
             time,
             step: 0.0,
-            pace: Pace::default(),
+            pace: MethodStatistics::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
             frames: vec![NO_TURN; self.frames.count()],

@@ -5,7 +5,7 @@ use crate::math::rotation::Quaternion;
 /// What the integrators in use got for their operations so far: plain numbers, so that a restored state goes on with
 /// the same methods (`integrators/selection.rs`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pace {
+pub struct MethodStatistics {
     /// Index of the method in use, 0 or 1; 2 more where the explicit one goes on with its second tableau.
     pub method: f64,
     /// Steps of a trial that are still to be measured; 0 outside a trial.
@@ -24,7 +24,7 @@ pub struct Pace {
     pub pause: f64,
 }
 
-impl Pace {
+impl MethodStatistics {
     /// How many numbers it is.
     pub const NUMBERS: usize = 8;
 
@@ -222,7 +222,7 @@ pub struct State {
     /// Step that the integrator proposes next, s; 0 before the first.
     pub step: f64,
     /// What integrators got for their operations.
-    pub pace: Pace,
+    pub pace: MethodStatistics,
     /// Generalized coordinates `q`, m sqrt(kg).
     pub coordinates: Vec<f64>,
     /// Their rates, m sqrt(kg) / s.
@@ -283,7 +283,7 @@ mod tests {
 
     #[test]
     fn the_tableau_outlasts_a_change_of_the_method() {
-        let mut pace = Pace::default();
+        let mut pace = MethodStatistics::default();
         pace.set_variant(1);
         assert_eq!((pace.index(2), pace.variant()), (0, 1));
         pace.change();
@@ -291,6 +291,6 @@ mod tests {
         pace.set_variant(0);
         assert_eq!((pace.index(2), pace.variant()), (1, 0));
         pace.change();
-        assert_eq!(pace, Pace::default());
+        assert_eq!(pace, MethodStatistics::default());
     }
 }

@@ -13,7 +13,7 @@
 //! J. Sound Vib. 310 (2008) 493-511 (material that passes through a mesh); W. D. Zhu, J. Ni, Energetics and stability of translating media
 //! with an arbitrarily varying length, J. Vib. Acoust. 122 (2000) 295-304 (equation of motion, energy that comes in).
 
-use super::CableChain;
+use super::LineChain;
 use crate::body::Node;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
@@ -48,7 +48,7 @@ pub struct PaidOut<'a, const D: usize, N> {
     /// Its winch.
     pub winch: &'a Winch<D>,
     /// The cable.
-    pub chain: &'a CableChain<D>,
+    pub chain: &'a LineChain<D>,
     /// How long it is.
     pub now: Length<N>,
 }
@@ -110,7 +110,7 @@ impl<N: Number> Length<N> {
 impl<const D: usize> Winch<D> {
     /// Of this chain.
     pub fn new(
-        (index, chain): (usize, &CableChain<D>),
+        (index, chain): (usize, &LineChain<D>),
         (at_last, drive): (bool, usize),
         gravity: Vector<D>,
     ) -> Self {
@@ -168,7 +168,7 @@ impl<const D: usize> Winch<D> {
     }
 
     /// `xi L_0` at a place in an element, m; negative where the way from the winch leads to the first end.
-    fn way(&self, chain: &CableChain<D>, element: usize, at: f64) -> f64 {
+    fn way(&self, chain: &LineChain<D>, element: usize, at: f64) -> f64 {
         let place = self.starts[element] + at * chain.element_length(element);
         match self.at_last {
             true => -place,
@@ -179,7 +179,7 @@ impl<const D: usize> Winch<D> {
     /// Velocity at which material passes a place of the mesh, `xi c L_0 r'`, m/s.
     fn passing<N: Number>(
         &self,
-        (chain, j, xi): (&CableChain<D>, usize, f64),
+        (chain, j, xi): (&LineChain<D>, usize, f64),
         e: &Nodal<D, N>,
         now: &Length<N>,
     ) -> Vector<D, N> {
@@ -192,7 +192,7 @@ impl<const D: usize> Winch<D> {
     /// element per reference length, N/m.
     pub fn transport<N: Number>(
         &self,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         j: usize,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         now: &Length<N>,
@@ -215,7 +215,7 @@ impl<const D: usize> Winch<D> {
     /// Momentum of the material that passes through the mesh, over the coordinates of an element, kg m/s and kg m^2/s.
     pub fn passing_momentum<N: Number>(
         &self,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         j: usize,
         x: &[Node<D, N>],
         now: &Length<N>,
@@ -228,7 +228,7 @@ impl<const D: usize> Winch<D> {
     /// Kinetic energy of the cable, J.
     pub fn kinetic<N: Number>(
         &self,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         now: &Length<N>,
     ) -> N {
@@ -249,7 +249,7 @@ impl<const D: usize> Winch<D> {
     /// Power that comes in with the material, W: its energy, and what the winch does against the axial force where it leaves it.
     pub fn power<N: Number>(
         &self,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         now: &Length<N>,
     ) -> N {

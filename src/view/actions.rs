@@ -3,8 +3,8 @@
 use crate::math::function::Function;
 use crate::math::space::spins;
 use crate::scene::{
-    self, Along, By, Contact, HolderId, Input, InputKind, LoadId, LoadKind, MarkerId, MotionKind,
-    On, PortKind, Resolved,
+    self, Along, By, ConstraintOwnerId, Contact, Input, InputKind, LoadId, LoadKind, MarkerId,
+    MotionKind, On, PortKind, Resolved,
 };
 use crate::simulation::{Error, Quantity, Simulation};
 use crate::system::Signal;
@@ -110,13 +110,14 @@ fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = Action<'a>>
         let marker = motion.kind.marker().id;
         (motion.name, motion.holder, marker, [!turns, turns])
     });
-    let of = move |(name, holder, marker, holds): (&'a str, HolderId, MarkerId, [bool; 2])| {
-        let quantity = move |is_moment, axis| match is_moment {
-            true => Quantity::ReactionMoment(holder, axis, Along::Global),
-            false => Quantity::Reaction(holder, axis, Along::Global),
+    let of =
+        move |(name, holder, marker, holds): (&'a str, ConstraintOwnerId, MarkerId, [bool; 2])| {
+            let quantity = move |is_moment, axis| match is_moment {
+                true => Quantity::ReactionMoment(holder, axis, Along::Global),
+                false => Quantity::Reaction(holder, axis, Along::Global),
+            };
+            exerted((name, marker, dimension), holds, quantity, Origin::Reaction)
         };
-        exerted((name, marker, dimension), holds, quantity, Origin::Reaction)
-    };
     joints.chain(motions).flat_map(of)
 }
 

@@ -6,7 +6,7 @@ use super::recording::Recording;
 use super::sections::{has_corners, sections};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
 use crate::scene::{
-    BodyReference, Cable, CableBody, Ends, First, Hold, Joint, JointCoordinate, Load, LoadKind,
+    BodyReference, Cable, Ends, First, Hold, Joint, JointCoordinate, LineBody, Load, LoadKind,
     Marker, Place, PortKind, Resolved, Rigid, Solid, Symbol,
 };
 use crate::simulation::Pose;
@@ -143,7 +143,7 @@ pub(super) fn mesh(resolved: &Resolved<'_>, cable: Cable<'_>) -> Vec<f64> {
     }
 }
 
-fn lengths(body: &CableBody, mesh: &[f64]) -> Vec<f64> {
+fn lengths(body: &LineBody, mesh: &[f64]) -> Vec<f64> {
     let whole = body.shape.length();
     mesh.windows(2)
         .map(|ends| (ends[1] - ends[0]) * whole)

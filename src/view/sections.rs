@@ -1,6 +1,6 @@
 //! How wide bodies are drawn.
 
-use crate::scene::{CableBody, Profile, SectionNumbers};
+use crate::scene::{LineBody, Profile, SectionNumbers};
 
 /// Half of what a section measures along its first and its second axis, m; in the plane the first is across it. Where its shape is not
 /// said, that of the ellipse with its radii of gyration; without second moments, of the circle with its area.
@@ -29,7 +29,7 @@ fn halves(numbers: &SectionNumbers) -> [f64; 2] {
 }
 
 /// Halves of the sections at both ends of every element between material coordinates.
-pub(super) fn sections(body: &CableBody, mesh: &[f64]) -> Vec<[[f64; 2]; 2]> {
+pub(super) fn sections(body: &LineBody, mesh: &[f64]) -> Vec<[[f64; 2]; 2]> {
     let pairs = mesh.windows(2);
     pairs
         .map(|ends| {
@@ -40,7 +40,7 @@ pub(super) fn sections(body: &CableBody, mesh: &[f64]) -> Vec<[[f64; 2]; 2]> {
 }
 
 /// Whether sections have corners.
-pub(super) fn has_corners(body: &CableBody) -> bool {
+pub(super) fn has_corners(body: &LineBody) -> bool {
     matches!(
         body.section_after(0.0).shape,
         Some(Profile::Rectangle { .. })

@@ -56,10 +56,7 @@ fn scenes(folder: &Path, found: &mut Vec<PathBuf>) {
 fn nothing_is_wrong_with_any_scene() {
     let mut paths = Vec::new();
     for folder in ["scenes", "tests/cases", "tests/fmpy"] {
-        scenes(
-            &crate::root().join(folder),
-            &mut paths,
-        );
+        scenes(&crate::root().join(folder), &mut paths);
     }
     assert!(
         paths.len() > 40,

@@ -2,7 +2,7 @@
 
 use flexbody::scene::{Scene, assemble};
 use flexbody::simulation::Simulation;
-use flexbody::system::{Dynamics, Model, Work};
+use flexbody::system::{Dynamics, Model, Workspace};
 use serde_json::{Value, json};
 
 /// A simulation at its start.
@@ -266,7 +266,7 @@ fn a_stretch_counts_as_a_turn() {
                     "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}}}]});
     let scene = Scene::from_json(&scene.to_string()).expect("a scene");
     let system = assemble(&scene).expect("a system").system;
-    let (mut work, state) = (Work::new(&system), system.blank_state(0.0));
+    let (mut work, state) = (Workspace::new(&system), system.blank_state(0.0));
     let elimination = system.elimination();
     let mut turn = |slope: [f64; 2]| {
         let change = [slope[0] - 1.0, slope[1]];

@@ -138,7 +138,7 @@ fn part(scene: &Value, list: &str, variable: &str) -> usize {
 
 keys! {
     YoungsModulus => "bodies", "/material/youngs_modulus", "Pa";
-    Density => "bodies", "/material/density", "kg/m3";
+    LineLoad => "bodies", "/material/density", "kg/m3";
     SolidDensity => "bodies", "/density", "kg/m3";
     DampingTime => "bodies", "/material/damping_time", "s";
     Area => "bodies", "/section/area", "m2";

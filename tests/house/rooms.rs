@@ -387,7 +387,7 @@ fn what_computes_does_not_know_kinds_of_joints_and_loads() {
         "motion/forces.rs",
         "motion/multipliers.rs",
         "spectra/frequencies.rs",
-        "work.rs",
+        "workspace.rs",
     ] {
         let source = Source::read(&format!("src/system/{file}"));
         for kind in kinds {
@@ -429,10 +429,7 @@ fn every_integrator_has_its_row_in_the_test_of_order() {
         let names = if named.is_empty() { vec![stem] } else { named };
         for name in names {
             let row = format!("name: \"{name}\"");
-            assert!(
-                order.contains(&row),
-                "{name}: no row in tests/order/mod.rs"
-            );
+            assert!(order.contains(&row), "{name}: no row in tests/order/mod.rs");
         }
     }
 }

@@ -3,11 +3,11 @@
 use flexbody::body::{Marker, Node};
 use flexbody::system::joints::{Joint, Primitive};
 use flexbody::system::loads::{
-    Density, Distributed, Force, JointSpring, Line, Load, Moment, Spring,
+    Distributed, Force, JointSpring, Line, LineLoad, Load, Moment, Spring,
 };
 use flexbody::system::{
-    Accepted, Angle, BuildError, CableChain, Coordinate, Drive, End, Evaluation, LumpedMass, Model,
-    NotAssembled, Parts, Signal, State, System, Work,
+    Angle, BuildError, Coordinate, Drive, End, Evaluation, LineChain, LumpedMass, Model,
+    NotAssembled, Parts, Signal, State, StepOutcome, System, Workspace,
 };
 use nalgebra::Vector2;
 use proptest::test_runner::TestCaseError;
@@ -19,15 +19,15 @@ use crate::laws::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Poi
 pub struct Moving {
     pub system: System,
     pub state: State,
-    pub work: Work,
+    pub work: Workspace,
 }
 
 impl Mechanism {
-    pub fn chains(&self) -> Vec<CableChain> {
+    pub fn chains(&self) -> Vec<LineChain> {
         let bodies = self.bodies.iter().zip(&self.firsts);
         bodies
             .filter_map(|(body, first)| match body {
-                Body::Cable(elements) => Some(CableChain::new(elements.clone(), *first)),
+                Body::Cable(elements) => Some(LineChain::new(elements.clone(), *first)),
                 _ => None,
             })
             .collect()
@@ -112,7 +112,7 @@ impl Mechanism {
             }),
             Acting::Distributed { body, size } => Load::Distributed(Distributed {
                 on: Line::Chain(self.chain(*body)),
-                density: Density {
+                density: LineLoad {
                     uniform: size.each_ref().map(signal),
                     along: [Vec::new(), Vec::new()],
                 },
@@ -229,7 +229,7 @@ impl Mechanism {
 
     /// The system as it starts, with random rates.
     pub fn started(&self, system: System) -> Result<Moving, NotAssembled> {
-        let mut work = Work::new(&system);
+        let mut work = Workspace::new(&system);
         let described = (&self.nodes[..], &self.rigid_rates(0)[..]);
         let state = system.initial_state(0.0, &[], described, &mut work)?;
         Ok(Moving {
@@ -263,7 +263,7 @@ impl Moving {
         add(&mut self.state.coordinates, &dx, size);
         add(&mut self.state.rates, &dv, 10.0 * size);
         let mut model = Model::new(&self.system, &[], &mut self.work, &self.state);
-        model.project(&mut self.state) && model.count(&mut self.state) == Accepted::AsIs
+        model.project(&mut self.state) && model.count(&mut self.state) == StepOutcome::AsIs
     }
 
     /// Coordinates, rates, accelerations and reactions.

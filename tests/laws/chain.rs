@@ -8,7 +8,7 @@ use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
 use flexbody::system::joints::{Joint, Primitive};
 use flexbody::system::loads::Load;
-use flexbody::system::{CableChain, End, Parts, State, System, Work};
+use flexbody::system::{End, LineChain, Parts, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -130,8 +130,8 @@ fn build(
 
 impl Chain {
     /// The flexible body.
-    pub fn flexible(&self) -> CableChain {
-        CableChain::new(self.elements.clone(), 0)
+    pub fn flexible(&self) -> LineChain {
+        LineChain::new(self.elements.clone(), 0)
     }
 
     /// The element that a node belongs to, the last for the last two, and which end it is.
@@ -315,11 +315,11 @@ pub fn scratch(system: &System) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// A state of these coordinates and rates with all that it needs beside.
-pub fn state(system: &System, q: &[f64], v: &[f64]) -> (State, Work) {
+pub fn state(system: &System, q: &[f64], v: &[f64]) -> (State, Workspace) {
     let mut state = system.blank_state(0.0);
     state.coordinates.copy_from_slice(q);
     state.rates.copy_from_slice(v);
-    (state, Work::new(system))
+    (state, Workspace::new(system))
 }
 
 /// Nodal rates from those of the coordinates.
@@ -331,7 +331,7 @@ pub fn expand(system: &System, q: &[f64]) -> Vec<Node> {
 }
 
 /// Numbers of all elements in one vector, from those of the nodes.
-pub fn flat(chain: &CableChain, x: &[Node]) -> DVector<f64> {
+pub fn flat(chain: &LineChain, x: &[Node]) -> DVector<f64> {
     let elements = 0..chain.elements().len();
     let numbers = elements.flat_map(|j| chain.nodes(j).map(|node| x[node]));
     DVector::from_vec(numbers.flatten().flatten().collect())

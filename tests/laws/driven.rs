@@ -1,7 +1,9 @@
 //! What is driven: courses of inputs, what a motion takes, motions that cannot be.
 
 use flexbody::integrators::{Radau, Stop, Tolerance, advance};
-use flexbody::system::{BuildError, Drive, Evaluation, Model, Parts, System, Trajectory, Work};
+use flexbody::system::{
+    BuildError, Drive, Evaluation, Model, Parts, System, Trajectory, Workspace,
+};
 use nalgebra::Vector2;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -91,7 +93,7 @@ fn driven(derivatives: usize) -> System {
 fn follows_inputs(rows: &[[f64; 3]], derivatives: usize) -> Outcome {
     let system = driven(derivatives);
     let (h, mut courses) = (0.1, [Trajectory::hold(0.0, [0.0; 3]); 2]);
-    let mut work = Work::new(&system);
+    let mut work = Workspace::new(&system);
     let zero = vec![0.0; 2 * (derivatives + 1)];
     let nodes = [[[0.0, 0.0], [1.0, 0.0]]];
     let started = system.initial_state(0.0, &zero, (&nodes, &[[[0.0; 2]; 2]]), &mut work);
@@ -177,7 +179,7 @@ fn a_motion_that_rigidity_contradicts_ends_the_step() {
     };
     let mut model = Model::new(&system, &[], &mut work, &state);
     let (_, result) = advance(&mut method, &mut model, &mut state, 1.0, &tolerance);
-    assert_eq!(result, Err(Stop::Broken));
+    assert_eq!(result, Err(Stop::ConstraintsViolated));
 }
 
 /// Motions of what others determine are refused, whoever comes first.

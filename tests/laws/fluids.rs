@@ -3,7 +3,7 @@
 use flexbody::body::{Frames, Node, NodeBlock};
 use flexbody::math::quadrature::GAUSS_5;
 use flexbody::math::space::Vector;
-use flexbody::system::loads::{Density, Fluid, Line, Load, Strip};
+use flexbody::system::loads::{Fluid, FluidSegment, Line, LineLoad, Load};
 use flexbody::system::{Instant, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -24,7 +24,7 @@ fn fluid(frame: &Frame) -> Option<Load> {
         .iter()
         .position(|b| matches!(b, Body::Cable(_)))?;
     let chain = made.chain(body);
-    let strip = |k: usize| Strip {
+    let strip = |k: usize| FluidSegment {
         drag: [0.5, 0.2].map(|size| size * (1.0 + made.noise[k % 40])),
         buoyant: 0.3,
         inert: 0.4,
@@ -33,7 +33,7 @@ fn fluid(frame: &Frame) -> Option<Load> {
     Some(Load::Fluid(Box::new(Fluid {
         on: Line::Chain(chain),
         strips: (0..points).map(strip).collect(),
-        current: Density {
+        current: LineLoad {
             uniform: [40, 43].map(|k| Signal::Function(wave(made, k).function())),
             along: [Vec::new(), Vec::new()],
         },

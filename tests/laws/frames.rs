@@ -4,7 +4,7 @@
 use flexbody::body::{Node, add_node};
 use flexbody::elements::Element;
 use flexbody::system::joints::{Constraint, ConstraintKind, View};
-use flexbody::system::{CableChain, Drive};
+use flexbody::system::{Drive, LineChain};
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ const CASES: u32 = 200;
 /// Two bodies in random states: coordinates, rates, and everything that constraints and loads look at.
 pub struct Frame {
     pub made: Mechanism,
-    pub chains: Vec<CableChain>,
+    pub chains: Vec<LineChain>,
     pub x: Vec<Node>,
     pub v: Vec<Node>,
 }

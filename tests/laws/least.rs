@@ -1,7 +1,7 @@
 //! Equations that may depend on each other: their least solution, and where it is not plain whether they do.
 
 use faer::Mat;
-use flexbody::system::{State, System, Work};
+use flexbody::system::{State, System, Workspace};
 use nalgebra::{DMatrix, DVector};
 
 /// Square of the part of the largest singular value below which rows depend on each other.
@@ -35,7 +35,7 @@ const ROUNDING: f64 = 1e-10;
 /// Each of `m` rows of unit length that does not count leaves less than [`COUNTS`] beside those that do. If `r` rows count,
 /// singular values after the first `r` are therefore below `sqrt(m)` times that (Eckart and Young), in whatever order
 /// rows are looked at: where none lies between this and rounding, rows that count give all others.
-pub fn is_near_singular(system: &System<3>, state: &State, work: &mut Work<3>) -> bool {
+pub fn is_near_singular(system: &System<3>, state: &State, work: &mut Workspace<3>) -> bool {
     let n = system.coordinates();
     let mut rows = Vec::new();
     work.resume(state);

@@ -3,7 +3,7 @@
 
 use flexbody::body::{Frame, Marker, Node};
 use flexbody::system::joints::{Across, Joint, Perpendicular, Primitive};
-use flexbody::system::{Direction, End, Parts, State, System, Work};
+use flexbody::system::{Direction, End, Parts, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 use crate::laws::chance::Chance;
@@ -452,14 +452,14 @@ impl Mechanism {
     }
 
     /// The system with its state as described.
-    pub fn started(&self) -> (System<3>, State, Work<3>) {
+    pub fn started(&self) -> (System<3>, State, Workspace<3>) {
         let system = System::new(self.parts()).expect("a system");
         let (state, work) = self.state_of(&system);
         (system, state, work)
     }
 
-    pub fn state_of(&self, system: &System<3>) -> (State, Work<3>) {
-        let mut work = Work::new(system);
+    pub fn state_of(&self, system: &System<3>) -> (State, Workspace<3>) {
+        let mut work = Workspace::new(system);
         let described = self.nodes(|body| (body.center, body.axes));
         let cross = |w: V| Matrix3::new(0.0, -w[2], w[1], w[2], 0.0, -w[0], -w[1], w[0], 0.0);
         let rates = self.nodes(|body| (body.velocity, cross(body.spin) * body.axes));

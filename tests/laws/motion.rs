@@ -3,7 +3,7 @@
 use flexbody::elements::Element;
 use flexbody::scene::{Scene, assemble};
 use flexbody::simulation::Simulation;
-use flexbody::system::{Evaluation, State, System, Work};
+use flexbody::system::{Evaluation, State, System, Workspace};
 use nalgebra::{Matrix2, Vector2};
 
 /// A free sagging cable, spinning and thrown, by integrator and tolerance.
@@ -35,7 +35,7 @@ struct Bulk {
 
 fn bulk(system: &System, state: &State) -> Bulk {
     let mut values = Evaluation::new(system);
-    values.kinematics(system, state, &mut Work::new(system));
+    values.kinematics(system, state, &mut Workspace::new(system));
     let mut bulk = Bulk {
         mass: 0.0,
         centre: Vector2::zeros(),
@@ -79,7 +79,7 @@ fn rigid_rates_of_a_free_body_are_exactly_rigid() {
     let (simulation, system) = start("auto", 1e-4, 0.0);
     let state = simulation.snapshot().state;
     let mut values = Evaluation::new(&system);
-    values.kinematics(&system, &state, &mut Work::new(&system));
+    values.kinematics(&system, &state, &mut Workspace::new(&system));
     let (velocity, spin) = (Vector2::new(0.7, -0.4), Matrix2::new(0.0, -3.0, 3.0, 0.0));
     let origin = Vector2::new(0.2, -0.1);
     for (x, rate) in values.x.iter().zip(&values.v) {

@@ -3,7 +3,7 @@
 
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
-use flexbody::system::{Evaluation, Parts, System, Work};
+use flexbody::system::{Evaluation, Parts, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use crate::laws::chain::{Chain, Held, Hold, expansion, flat};
@@ -45,7 +45,7 @@ fn fall(unit: f64) -> DVector<f64> {
     let system = System::new(parts).expect("a body with mass");
     let mut values = Evaluation::new(&system);
     let rest = system.blank_state(0.0);
-    values.dynamics(&system, &rest, &[], &mut Work::new(&system));
+    values.dynamics(&system, &rest, &[], &mut Workspace::new(&system));
     flat(&system.chains()[0], &values.acceleration) * unit
 }
 

@@ -9,7 +9,7 @@ use flexbody::scene::Scene;
 use flexbody::simulation::Simulation;
 use flexbody::system::loads::{Couple, Force, Load, OrientationBushing};
 use flexbody::system::{
-    Derivatives, Direction, End, Evaluation, Model, Parts, Signal, State, System, Work,
+    Derivatives, Direction, End, Evaluation, Model, Parts, Signal, State, System, Workspace,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
 
@@ -134,11 +134,11 @@ fn motions_follow_forces_and_moments_by_the_mobility() {
 fn mobility_fits(
     run: usize,
     (mechanism, places): (&Mechanism, &[Place]),
-    (system, state, work): (&System<3>, &State, &mut Work<3>),
+    (system, state, work): (&System<3>, &State, &mut Workspace<3>),
     inputs: &[f64],
 ) {
     let mut plain = Evaluation::new(system);
-    let mut at = |inputs: &[f64], work: &mut Work<3>| {
+    let mut at = |inputs: &[f64], work: &mut Workspace<3>| {
         plain.kinematics(system, state, work);
         plain.dynamics(system, state, inputs, work);
         (read(&plain, system, places), plain.clone())
@@ -241,7 +241,7 @@ fn what_pulls_towards_an_orientation_conserves_energy() {
         }
         let system = System::new(parts).expect("a system");
         let (mut state, mut work) = mechanism.state_of(&system);
-        let energy = |state: &_, work: &mut Work<3>| {
+        let energy = |state: &_, work: &mut Workspace<3>| {
             let mut values = Evaluation::new(&system);
             values.kinematics(&system, state, work);
             [

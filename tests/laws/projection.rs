@@ -124,7 +124,7 @@ fn assembled(mechanism: &Mechanism) -> Outcome {
     let Ok(system) = mechanism.system() else {
         return Ok(());
     };
-    let mut work = flexbody::system::Work::new(&system);
+    let mut work = flexbody::system::Workspace::new(&system);
     let described = (
         &scattered(mechanism, 0.1)[..],
         &mechanism.rigid_rates(5)[..],

@@ -2,7 +2,7 @@
 
 use flexbody::elements::{Element, Nodal};
 use flexbody::system::loads::{Force, Load, Moment};
-use flexbody::system::{End, Evaluation, Parts, Signal, State, System, Work};
+use flexbody::system::{End, Evaluation, Parts, Signal, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
 
@@ -41,7 +41,7 @@ fn augmented(chain: &Chain, force: &DVector<f64>) -> Augmented {
 struct Case {
     system: System,
     state: State,
-    work: Work,
+    work: Workspace,
     values: Evaluation,
     inputs: [f64; 3],
     /// Nodes of the force and of the moment.

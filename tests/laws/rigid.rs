@@ -6,7 +6,7 @@ use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
 use flexbody::system::loads::{Load, Spring};
 use flexbody::system::{
-    Derivatives, Dynamics, End, Evaluation, Model, Parts, Signal, State, System, Work,
+    Derivatives, Dynamics, End, Evaluation, Model, Parts, Signal, State, System, Workspace,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -38,7 +38,7 @@ fn accelerations_are_those_of_newton_and_euler() {
 fn accelerations_fit(
     run: usize,
     mechanism: &Mechanism,
-    (system, state, work): (&System<3>, &State, &mut Work<3>),
+    (system, state, work): (&System<3>, &State, &mut Workspace<3>),
 ) {
     let mut evaluation = Evaluation::new(system);
     evaluation.kinematics(system, state, work);
@@ -116,7 +116,7 @@ fn trees_are_eliminated_as_multipliers_would() {
 
 fn elimination_fits(
     run: usize,
-    (system, mut state, work): (&System<3>, State, &mut Work<3>),
+    (system, mut state, work): (&System<3>, State, &mut Workspace<3>),
     chance: &mut Chance,
 ) {
     let n = system.coordinates();
@@ -158,7 +158,7 @@ fn elimination_fits(
 }
 
 /// Energy, momentum and angular momentum of a state.
-fn invariants(system: &System<3>, state: &State, work: &mut Work<3>) -> [f64; 7] {
+fn invariants(system: &System<3>, state: &State, work: &mut Workspace<3>) -> [f64; 7] {
     let mut values = Evaluation::new(system);
     values.kinematics(system, state, work);
     let energy = values.kinetic_energy(system)
@@ -173,7 +173,7 @@ fn invariants(system: &System<3>, state: &State, work: &mut Work<3>) -> [f64; 7]
 
 fn advanced(
     method: &mut dyn Method,
-    (system, state, work): (&System<3>, &mut State, &mut Work<3>),
+    (system, state, work): (&System<3>, &mut State, &mut Workspace<3>),
     until: f64,
     tolerance: f64,
 ) -> u64 {
@@ -241,7 +241,7 @@ fn free_mechanisms_keep_energy_momentum_and_angular_momentum() {
 }
 
 /// A step for differences that is short beside the times in which accelerations and their rates change.
-fn fitting(system: &System<3>, state: &State, work: &mut Work<3>) -> f64 {
+fn fitting(system: &System<3>, state: &State, work: &mut Workspace<3>) -> f64 {
     let (mut plain, mut made) = (Evaluation::new(system), Derivatives::new(system));
     plain.kinematics(system, state, work);
     plain.dynamics(system, state, &[], work);
@@ -427,7 +427,7 @@ fn joints_that_are_held_twice_are_closed_as_those_held_once() {
         let still = vec![[[0.0; 3]; 2]; described.len()];
         let mut placed = || {
             let system = System::new(mechanism.parts()).expect("a system");
-            let mut work = Work::new(&system);
+            let mut work = Workspace::new(&system);
             let state = system.initial_state(0.0, &[], (&described, &still), &mut work);
             let state = state.unwrap_or_else(|error| panic!("{run}: {error:?}"));
             let x = system.nodes_of(&state, &mut work);

@@ -3,7 +3,7 @@
 
 use flexbody::body::Marker;
 use flexbody::math::function::Function;
-use flexbody::system::joints::{Joint, Primitive, Related};
+use flexbody::system::joints::{Coupler, Joint, Primitive};
 use flexbody::system::loads::{JointSpring, Load, SixBushing, Stop};
 use flexbody::system::{Angle, AxisTurn, Coordinate, Direction, Drive, End, Parts, Way};
 use nalgebra::{DVector, Matrix3, Rotation3};
@@ -319,7 +319,7 @@ impl Mechanism {
         let [a, b] = [first, second].map(|of| self.coordinate(of, parts));
         let ends = b.ends();
         Joint {
-            holds: vec![Primitive::Related(Related {
+            holds: vec![Primitive::Coupler(Coupler {
                 terms: vec![(-ratio, a), (1.0, b)],
                 offset,
                 drive: None,
@@ -376,7 +376,7 @@ impl Mechanism {
                     parts.drives.push(Drive::Function(course));
                     let mut driven =
                         self.relation(((joint, true), (joint, false)), [0.0; 2], parts);
-                    if let Primitive::Related(related) = &mut driven.holds[0] {
+                    if let Primitive::Coupler(related) = &mut driven.holds[0] {
                         related.terms.remove(0);
                         related.drive = Some(parts.drives.len() - 1);
                     }

@@ -3,7 +3,7 @@
 
 use flexbody::integrators::{Attempt, Method, RK4, RungeKutta, Tolerance};
 use flexbody::scene::{Assembled, Scene};
-use flexbody::system::{Dynamics, Evaluation, Model, State, System, Work};
+use flexbody::system::{Dynamics, Evaluation, Model, State, System, Workspace};
 use nalgebra::Vector3;
 use serde_json::json;
 
@@ -31,7 +31,7 @@ fn invariants(
     system: &System<3>,
     values: &mut Evaluation<3>,
     state: &State,
-    work: &mut Work<3>,
+    work: &mut Workspace<3>,
 ) -> (f64, Vector3<f64>) {
     values.kinematics(system, state, work);
     let energy = values.kinetic_energy(system) + values.strain_energy(system);
@@ -42,7 +42,7 @@ fn invariants(
 fn changes(element: &str, steps: u32) -> [f64; 2] {
     let assembled = thrown(element);
     let (system, h) = (&assembled.system, END / f64::from(steps));
-    let mut work = Work::new(system);
+    let mut work = Workspace::new(system);
     let described = (&assembled.nodes[..], &assembled.rates[..]);
     let state = system.initial_state(0.0, &[], described, &mut work);
     let mut state = state.expect("a state");

@@ -5,7 +5,7 @@
 
 use flexbody::integrators::{Radau, Tolerance, advance};
 use flexbody::scene::{Assembled, Scene, assemble};
-use flexbody::system::{Evaluation, Model, Work};
+use flexbody::system::{Evaluation, Model, Workspace};
 use nalgebra::{Matrix2, Rotation3, Vector2, Vector3};
 use serde_json::json;
 
@@ -102,7 +102,7 @@ fn assembled(gravity: f64, held: Option<f64>) -> Assembled<3> {
 
 /// Largest distance of a node, relative to the length, from where the turning string is after a time.
 fn off(string: &String, nodes: &[Point], system: &Assembled<3>, time: f64) -> f64 {
-    let (system, mut work) = (&system.system, Work::new(&system.system));
+    let (system, mut work) = (&system.system, Workspace::new(&system.system));
     let axis = Vector3::z() * string.rate;
     let at = |p: &Point, turn: f64| {
         let [x, z, ..] = *p;

@@ -1,7 +1,7 @@
 //! Error control: tolerances are followed, communication points met, the impossible refused.
 
 use flexbody::integrators::{
-    Attempt, Method, Methods, RK4, Radau, RungeKutta, Stop, Tolerance, advance,
+    Attempt, Method, Methods, RK4, Radau, RungeKutta, StepError, Tolerance, advance,
 };
 use flexbody::system::{DenseStep, Dynamics, State};
 use nalgebra::{Matrix2, Vector2};
@@ -78,16 +78,16 @@ fn noise(q: Vector2<f64>) -> f64 {
 }
 
 /// Accelerations that no step resolves: noise, a wall, nothing finite.
-type Impossible = (&'static str, fn(Vector2<f64>) -> f64, Stop);
+type Impossible = (&'static str, fn(Vector2<f64>) -> f64, StepError);
 
 const IMPOSSIBLE: [Impossible; 3] = [
-    ("noise", noise, Stop::StepTooSmall),
+    ("noise", noise, StepError::StepTooSmall),
     (
         "a wall",
         |q| if q.x > 1.5 { f64::NAN } else { 1.0 },
-        Stop::StepTooSmall,
+        StepError::StepTooSmall,
     ),
-    ("nothing finite", |_| f64::INFINITY, Stop::NotFinite),
+    ("nothing finite", |_| f64::INFINITY, StepError::NotFinite),
 ];
 
 #[test]
@@ -129,7 +129,7 @@ fn a_singular_tangent_ends_the_step() {
     );
     let mut state = started();
     let (counts, result) = advance(&mut Radau::new(2), &mut problem, &mut state, 1.0, &TIGHT);
-    assert_eq!((counts.steps, result), (0, Err(Stop::StepTooSmall)));
+    assert_eq!((counts.steps, result), (0, Err(StepError::StepTooSmall)));
 }
 
 #[test]
@@ -260,7 +260,7 @@ fn what_one_of_two_methods_cannot_do_the_other_does() {
     let (mut problem, mut state) = (row.problem(), started());
     let mut methods = Methods::two(weary(2.0), weary(3.0));
     let (_, result) = methods.advance(&mut problem, &mut state, 5.0, &tolerance);
-    assert_eq!(result, Err(Stop::StepTooSmall));
+    assert_eq!(result, Err(StepError::StepTooSmall));
     assert!((3.0..3.5).contains(&state.time), "{}", state.time);
 }
 

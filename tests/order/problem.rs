@@ -1,6 +1,6 @@
 //! Small problems with the face of a mechanical system.
 
-use flexbody::system::{Accepted, Dynamics, State};
+use flexbody::system::{Dynamics, State, StepOutcome};
 use nalgebra::{Complex, Matrix2, Vector2};
 
 /// Acceleration from time, coordinates and rates.
@@ -26,7 +26,7 @@ pub struct Problem {
     /// Whether steps may lead beyond communication points.
     pub is_smooth: bool,
     /// What becomes of accepted states.
-    pub settle: fn(&mut State) -> Accepted,
+    pub settle: fn(&mut State) -> StepOutcome,
 }
 
 impl Problem {
@@ -48,7 +48,7 @@ impl Problem {
             power: [0.0; 2],
             breaks: Vec::new(),
             is_smooth: false,
-            settle: |_| Accepted::AsIs,
+            settle: |_| StepOutcome::AsIs,
         }
     }
 }
@@ -122,7 +122,7 @@ impl Dynamics for Problem {
         0.0
     }
 
-    fn accepted(&mut self, state: &mut State) -> Accepted {
+    fn accepted(&mut self, state: &mut State) -> StepOutcome {
         self.steps += 1;
         (self.settle)(state)
     }
@@ -140,7 +140,7 @@ impl Dynamics for Problem {
         next.map_or(until, |t| t.min(until))
     }
 
-    fn end_stretch(&mut self, _state: &mut State) -> Accepted {
-        Accepted::AsIs
+    fn end_stretch(&mut self, _state: &mut State) -> StepOutcome {
+        StepOutcome::AsIs
     }
 }

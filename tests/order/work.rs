@@ -1,7 +1,7 @@
 //! What goes along with steps: work, times that no step leads across, states put right on the way.
 
-use flexbody::integrators::{Stop, Tolerance, advance};
-use flexbody::system::{Accepted, State};
+use flexbody::integrators::{StepError, Tolerance, advance};
+use flexbody::system::{State, StepOutcome};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::order::problem::Problem;
@@ -113,7 +113,7 @@ fn a_moved_state_is_the_one_to_go_on_from() {
             let v = v - q * q.dot(&v);
             state.coordinates.copy_from_slice(q.as_slice());
             state.rates.copy_from_slice(v.as_slice());
-            Accepted::Moved
+            StepOutcome::Moved
         };
         let (mut method, mut state) = ((row.make)(), started());
         state.coordinates = vec![1.0, 0.0];
@@ -133,10 +133,16 @@ fn a_moved_state_is_the_one_to_go_on_from() {
 
 #[test]
 fn what_ends_a_motion_ends_the_step() {
-    type Settle = fn(&mut State) -> Accepted;
-    const ENDS: [(Settle, Stop); 2] = [
-        (|_| Accepted::Broken, Stop::Broken),
-        (|_| Accepted::RanOff(3), Stop::RanOff(3)),
+    type Settle = fn(&mut State) -> StepOutcome;
+    const ENDS: [(Settle, StepError); 2] = [
+        (
+            |_| StepOutcome::ConstraintsViolated,
+            StepError::ConstraintsViolated,
+        ),
+        (
+            |_| StepOutcome::SliderLeftCable(3),
+            StepError::SliderLeftCable(3),
+        ),
     ];
     for row in ROWS.iter().filter(|row| row.rates) {
         for (settle, stop) in ENDS {

@@ -77,7 +77,11 @@ pub fn hash_of(workspace: &Workspace, folders: &[&str]) -> Result<String> {
         hash.update(content.len().to_le_bytes());
         hash.update(content);
     }
-    let digits = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let digits = hash
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
     Ok(digits)
 }
 
@@ -126,7 +130,11 @@ mod tests {
         let mut passed = Passed::read(&workspace).expect("none");
         assert!(!passed.holds("pages", &first));
         passed.note("pages", first.clone()).expect("a file");
-        assert!(Passed::read(&workspace).expect("one").holds("pages", &first));
+        assert!(
+            Passed::read(&workspace)
+                .expect("one")
+                .holds("pages", &first)
+        );
         std::fs::remove_dir_all(&root).expect("a folder");
     }
 }

@@ -14,7 +14,7 @@ use std::time::Duration;
 use clap::Parser;
 use cpu_time::ThreadTime;
 use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod};
-use flexbody::system::{Dynamics, Model, Work};
+use flexbody::system::{Dynamics, Model, Workspace};
 
 use outputs::Outputs;
 use scene::{Outcome, Start, at, read};
@@ -57,7 +57,7 @@ fn main() -> ExitCode {
 /// Accelerations, and their derivatives along a direction.
 struct Right<'a> {
     start: &'a Start,
-    work: RefCell<Work>,
+    work: RefCell<Workspace>,
     accelerations: RefCell<u64>,
 }
 

@@ -4,7 +4,7 @@ use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
 use flexbody::system::joints::{Joint, Primitive};
-use flexbody::system::{CableChain, End, Evaluation, Parts, System, Work};
+use flexbody::system::{End, Evaluation, LineChain, Parts, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::support::{Row, figure, short};
@@ -47,7 +47,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         at += cable.length();
         nodes.push([[at, 0.0], [1.0, 0.0]]);
     }
-    let chain = CableChain::new(cables.to_vec(), 0);
+    let chain = LineChain::new(cables.to_vec(), 0);
     let pin = Joint {
         holds: vec![Primitive::Coincident],
         ends: [
@@ -84,7 +84,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         &system,
         &system.blank_state(0.0),
         &[],
-        &mut Work::new(&system),
+        &mut Workspace::new(&system),
     );
     let both = values.acceleration.iter().flat_map(|[p, s]| [p[1], s[1]]);
     Ok(DVector::from_iterator(2 * values.acceleration.len(), both))

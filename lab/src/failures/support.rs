@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use flexbody::integrators::{Attempt, Method, Tolerance};
 use flexbody::scene::Scene;
 use flexbody::simulation::{Simulation, StepFailure};
-use flexbody::system::{Accepted, Dynamics, Evaluation, Model, State, Work};
+use flexbody::system::{Dynamics, Evaluation, Model, State, StepOutcome, Workspace};
 use nalgebra::{DMatrix, DVector};
 use serde_json::Value;
 
@@ -191,7 +191,7 @@ impl March<'_> {
             let stands = match self.after {
                 After::Nothing => true,
                 After::Dependent => model.project(&mut state),
-                After::All => model.accepted(&mut state) != Accepted::Broken,
+                After::All => model.accepted(&mut state) != StepOutcome::ConstraintsViolated,
             };
             if !stands {
                 return Ok(Err(good));
@@ -208,7 +208,7 @@ impl March<'_> {
 /// Reads states.
 pub struct Reader<'a> {
     start: &'a Start,
-    work: Work,
+    work: Workspace,
     /// What the last state read amounts to.
     pub values: Evaluation,
 }
@@ -219,7 +219,7 @@ impl<'a> Reader<'a> {
         let system = &start.assembled.system;
         Self {
             start,
-            work: Work::new(system),
+            work: Workspace::new(system),
             values: Evaluation::new(system),
         }
     }

@@ -4,7 +4,7 @@
 use std::sync::{Arc, Mutex};
 
 use flexbody::body::Node;
-use flexbody::system::{Accepted, Dynamics, Model, State};
+use flexbody::system::{Dynamics, Model, State, StepOutcome};
 use nalgebra::Complex;
 
 use super::partitioning::Partition;
@@ -139,17 +139,17 @@ impl Dynamics for Probe<'_> {
         self.model.largest_turn(from, to)
     }
 
-    fn accepted(&mut self, state: &mut State) -> Accepted {
+    fn accepted(&mut self, state: &mut State) -> StepOutcome {
         let model = &mut self.model;
         let Some(partition) = &mut self.partition else {
             return model.accepted(state);
         };
         if !partition.project(model, state) {
-            return Accepted::Broken;
+            return StepOutcome::ConstraintsViolated;
         }
         partition.choose(model, state);
         match model.count(state) {
-            Accepted::AsIs => Accepted::Moved,
+            StepOutcome::AsIs => StepOutcome::Moved,
             other => other,
         }
     }
@@ -162,7 +162,7 @@ impl Dynamics for Probe<'_> {
         self.model.begin_stretch(from, until)
     }
 
-    fn end_stretch(&mut self, state: &mut State) -> Accepted {
+    fn end_stretch(&mut self, state: &mut State) -> StepOutcome {
         self.model.end_stretch(state)
     }
 }

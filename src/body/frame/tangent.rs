@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::carried::angular;
-use super::{Axes, Carried, Frame, Frames, axes_at, turned};
+use super::section_frame::angular;
+use super::{Axes, Frame, Frames, SectionFrame, axes_at, turned};
 use crate::body::assembly::{NodeBlock, no_block};
 use crate::body::connectivity::Node;
 
@@ -177,7 +177,7 @@ impl Frames {
     /// rotations, pair by pair of nodes. Of a rotation `a + p t` with `a = t x du / |u|` the second order is
     /// `p (a x t) / 2 - a (t.du) / |u|`.
     pub fn geometric_of_carried<const D: usize>(
-        frame: &Carried,
+        frame: &SectionFrame,
         f: &[Node<D>],
         x: &[Node<D>],
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
@@ -221,7 +221,7 @@ impl Frames {
     }
 }
 
-impl Carried {
+impl SectionFrame {
     /// Derivatives of one of its nodes' vectors by the coordinates of the line's node and by its rotation.
     fn partials<const D: usize>(
         &self,

@@ -6,7 +6,7 @@ use super::loaded::add_moment;
 use super::{RodChain, part, plane};
 use crate::body::assembly::{Assembly, no_block};
 use crate::body::connectivity::Node;
-use crate::body::frame::{Carried, Frames};
+use crate::body::frame::{Frames, SectionFrame};
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
@@ -44,7 +44,7 @@ impl RodChain {
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
-        mut each: impl FnMut(&Carried, [N; 3]),
+        mut each: impl FnMut(&SectionFrame, [N; 3]),
     ) {
         // In the plane they are those of inertia at the nodes.
         for j in (0..self.elements.len()).filter(|_| D > 2) {

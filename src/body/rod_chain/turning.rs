@@ -9,13 +9,13 @@
 //! Half the product of `Q` and `W` is their energy, part of that of the centrifugal force.
 //!
 //! Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed. (2020), sections 3.6 and 5.4 (inertia in frames that move), for the
-//! equations of `frame/carried.rs` and `frame/lean.rs`.
+//! equations of `frame/section_frame.rs` and `frame/lean.rs`.
 
 use nalgebra::Vector3;
 
 use super::RodChain;
 use crate::body::connectivity::Node;
-use crate::body::frame::{Carried, Frames};
+use crate::body::frame::{Frames, SectionFrame};
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 
@@ -114,7 +114,7 @@ impl RodChain {
 
 /// Components of the rotation along the axes about which a section spins freely, or their rates where `x` holds rates.
 fn along<const D: usize, N: Number>(
-    frame: &Carried,
+    frame: &SectionFrame,
     rotation: Rotation,
     x: &[Node<D, N>],
 ) -> [N; 3] {

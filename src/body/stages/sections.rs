@@ -47,12 +47,12 @@ impl Sections {
     }
 
     /// Turns the vectors of the lines back to where the tangent was made.
-    pub fn turn_back<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
+    pub fn to_corotated<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
         self.turn([&self.turned[stage], &self.base], nodes);
     }
 
     /// Turns them forth to a stage.
-    pub fn turn_forth<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
+    pub fn from_corotated<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
         self.turn([&self.base, &self.turned[stage]], nodes);
     }
 

@@ -12,7 +12,7 @@
 //! Radau (docs/decisions/0021-stable-equilibria.md).
 
 mod kernel;
-mod taper;
+mod section_variation;
 #[cfg(test)]
 mod tests;
 
@@ -23,8 +23,8 @@ use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{GAUSS_3, GAUSS_5};
 use kernel::{Factors, Kernel, Line, Sampling, TURNS, transposed};
-pub use taper::Taper;
-use taper::mass;
+pub use section_variation::SectionVariation;
+use section_variation::mass;
 
 /// Slenderness EA l^2 / EI up to which axial strain is sampled at Gauss points: they halve the error
 /// of stretching waves and cost bending less than they gain; beyond it they lock.
@@ -89,7 +89,7 @@ pub enum Inertia {
 #[derive(Clone, Debug)]
 pub struct Cable<const D: usize = 2> {
     parameters: Parameters,
-    taper: Taper,
+    taper: SectionVariation,
     kernel: Kernel<f64>,
     mass: SMatrix<f64, 4, 4>,
 }
@@ -145,11 +145,15 @@ impl<const D: usize> Cable<D> {
     /// A cable whose unstressed shape is the straight line or, with `shape` its coordinates, the
     /// curve through them.
     pub fn new(parameters: Parameters, shape: Option<&Nodal<D>>) -> Self {
-        Self::tapered(parameters, Taper::default(), shape)
+        Self::tapered(parameters, SectionVariation::default(), shape)
     }
 
     /// The same of a section that changes along the element.
-    pub fn tapered(parameters: Parameters, taper: Taper, shape: Option<&Nodal<D>>) -> Self {
+    pub fn tapered(
+        parameters: Parameters,
+        taper: SectionVariation,
+        shape: Option<&Nodal<D>>,
+    ) -> Self {
         let p = &parameters;
         let stretching = p.axial_stiffness * p.length * p.length;
         let sampling = match stretching > SLENDER * p.bending_stiffness {

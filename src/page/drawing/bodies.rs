@@ -2,7 +2,7 @@
 
 use super::picture::{BODY, INK, INSIDE, Picture, seen};
 use crate::page::canvas::{Point, Style};
-use crate::scene::{BodyReference, Cable, CableBody, RigidBody};
+use crate::scene::{BodyReference, Cable, LineBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable.
 const PARTS: u32 = 96;
@@ -20,7 +20,7 @@ pub(super) fn outline(body: BodyReference<'_>, dimension: usize) -> Vec<[f64; 3]
     }
 }
 
-fn cable_outline(cable: &CableBody) -> Vec<[f64; 3]> {
+fn cable_outline(cable: &LineBody) -> Vec<[f64; 3]> {
     (0..=PARTS)
         .map(|part| cable.shape.point(f64::from(part) / f64::from(PARTS)))
         .collect()

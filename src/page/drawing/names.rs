@@ -5,7 +5,7 @@ use super::bodies::rigid_outline;
 use super::picture::{BODY, FAINT, INK, Picture, seen};
 use crate::page::canvas::{LINE, Point, direction};
 use crate::page::symbols;
-use crate::scene::{BodyReference, CableBody, Ends, Place as On, PortKind, RigidBody, Symbol};
+use crate::scene::{BodyReference, Ends, LineBody, Place as On, PortKind, RigidBody, Symbol};
 
 /// With more bodies than this, names would only cover each other.
 const MOST_BODIES: usize = 32;
@@ -165,7 +165,7 @@ impl<'a> Picture<'a> {
     }
 
     /// Above a cable, or to the right if it is upright.
-    fn cable_side(&self, body: &CableBody, along: f64) -> Point {
+    fn cable_side(&self, body: &LineBody, along: f64) -> Point {
         let [x, y] = direction(self.seen(body.shape.tangent(along)));
         upper([-y, -x])
     }

@@ -12,8 +12,8 @@ use crate::elements::{self, Along, Nodal};
 use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
-use crate::scene::{CableBody, Error, RigidBody, SectionNumbers, Sections, Strain};
-use crate::system::{CableChain, LumpedMass, Rod};
+use crate::scene::{Error, LineBody, RigidBody, SectionNumbers, Sections, Strain};
+use crate::system::{LineChain, LumpedMass, Rod};
 
 /// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
 const STEPS: u32 = 256;
@@ -120,7 +120,7 @@ impl<const D: usize> Builder<'_, D> {
         let axial = self.resolved.axial_damping_time(reference);
         let added = |section: &SectionNumbers| self.resolved.added_mass(reference.id.body, section);
         let elements = build_elements((cable, &added), axial, &mesh);
-        let chain = CableChain::new(elements, first);
+        let chain = LineChain::new(elements, first);
         let node = |s: &f64| {
             let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
             ways.map(|way| vector::<D, f64>(way).into())
@@ -151,7 +151,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The sections of a rod along its line, whose first node is this one: their frames, and the twist inside elements.
-    fn sections(&mut self, (rod, axial_time): (&CableBody, f64), mesh: &[f64], first: usize) {
+    fn sections(&mut self, (rod, axial_time): (&LineBody, f64), mesh: &[f64], first: usize) {
         let line = self.parts.nodes[first..].to_vec();
         let twists = mesh.iter().map(|s| rod.sections_about(*s)(*s).1);
         let tangent = |j: usize, part: f64| {
@@ -214,7 +214,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A cable that does not bend, about its middle; gives back how far along it from there its first end is, m.
-    fn rod(&mut self, index: usize, cable: &CableBody) -> f64 {
+    fn rod(&mut self, index: usize, cable: &LineBody) -> f64 {
         let length = cable.shape.length();
         let section = cable.section_at(0.5);
         let mass = cable.line_density_of(&section) * length;
@@ -284,7 +284,7 @@ impl<const D: usize> Builder<'_, D> {
 
 /// An element of a planar beam along its unstressed shape, and its inertia.
 fn planar_beam(
-    beam: &CableBody,
+    beam: &LineBody,
     (shape, length): (&At<f64>, f64),
     (axial_time, numbers): (f64, &dyn Fn(f64) -> SectionNumbers),
 ) -> (Section, SpinInertia) {
@@ -321,7 +321,7 @@ fn full<const D: usize>(v: [f64; D]) -> [f64; 3] {
 }
 
 /// Numbers of the section at `xi` in [0, 1] between two neighbouring nodes.
-fn numbers_along(body: &CableBody, s: &[f64]) -> impl Fn(f64) -> SectionNumbers {
+fn numbers_along(body: &LineBody, s: &[f64]) -> impl Fn(f64) -> SectionNumbers {
     let (from, to) = (s[0], s[1]);
     let sections = body.sections_about(0.5 * (from + to));
     move |xi| sections(from + xi * (to - from)).0
@@ -329,7 +329,7 @@ fn numbers_along(body: &CableBody, s: &[f64]) -> impl Fn(f64) -> SectionNumbers 
 
 /// The elements of a body, with the mass of the fluid (kg/m) that moves along at a section.
 fn build_elements<const D: usize>(
-    (body, added): (&CableBody, &dyn Fn(&SectionNumbers) -> f64),
+    (body, added): (&LineBody, &dyn Fn(&SectionNumbers) -> f64),
     axial_damping_time: f64,
     nodes: &[f64],
 ) -> Vec<cable::Cable<D>> {
@@ -342,9 +342,9 @@ fn build_elements<const D: usize>(
     let end = |s: f64| [body.shape.point(s), body.shape.tangent(s)].map(vector);
     let build = |s: &[f64]| {
         let [stretching, bending, density] = [
-            CableBody::axial_stiffness_of,
-            CableBody::bending_stiffness_of,
-            CableBody::line_density_of,
+            LineBody::axial_stiffness_of,
+            LineBody::bending_stiffness_of,
+            LineBody::line_density_of,
         ]
         .map(|number| move |xi: f64| number(body, &numbers_along(body, s)(xi)));
         let parameters = cable::Parameters {
@@ -364,12 +364,12 @@ fn build_elements<const D: usize>(
             inertia: Inertia::Corrected,
         };
         let added = |xi: f64| added(&numbers_along(body, s)(xi));
-        let mut taper = cable::Taper {
+        let mut taper = cable::SectionVariation {
             added: match body.stations.is_empty() {
                 true => Along::from(added(0.5)),
                 false => Along::through(added),
             },
-            ..cable::Taper::default()
+            ..cable::SectionVariation::default()
         };
         if !body.stations.is_empty() {
             taper.axial = Along::through(|xi| stretching(xi) / stretching(0.5));

@@ -3,7 +3,7 @@
 use super::{Builder, unit};
 use crate::math::space::{Vector, axis, vector};
 use crate::scene::resolved::{self, First, Gear, JointCoordinate, Pivot, Slider, Turning};
-use crate::system::joints::{Primitive, Related};
+use crate::system::joints::{Coupler, Primitive};
 use crate::system::loads::{JointSpring, Load, SixBushing, Stop};
 use crate::system::{Angle, Coordinate, Direction, End, Way};
 
@@ -114,7 +114,7 @@ impl<const D: usize> Builder<'_, D> {
             JointCoordinate::Displacement(_) => self.size_of(&second.ends()),
             JointCoordinate::Angle(_) => 1.0,
         };
-        Primitive::Related(Related {
+        Primitive::Coupler(Coupler {
             terms: vec![(-ratio, first), (1.0, second)],
             offset,
             drive: None,

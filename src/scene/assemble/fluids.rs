@@ -6,7 +6,7 @@ use crate::math::space::vector;
 use crate::scene::Error;
 use crate::scene::description::SectionNumbers;
 use crate::scene::resolved::{Cable, Fluid, Form, LoadKind, Resolved};
-use crate::system::loads::{self, Line, Load, PANELS, Strip};
+use crate::system::loads::{self, FluidSegment, Line, Load, PANELS};
 
 impl Resolved<'_> {
     /// Mass of all fluids that move along with a body at a section, kg/m.
@@ -23,11 +23,11 @@ impl Resolved<'_> {
 }
 
 impl Fluid<'_> {
-    fn strip(&self, section: &SectionNumbers) -> Strip {
+    fn strip(&self, section: &SectionNumbers) -> FluidSegment {
         let [across, along] = self.drag;
         let faced = 0.5 * self.density * self.diameter(section);
         let displaced = self.displaced(section);
-        Strip {
+        FluidSegment {
             drag: [faced * across, faced * std::f64::consts::PI * along],
             buoyant: if self.buoyancy { displaced } else { 0.0 },
             inert: displaced + self.added(section),

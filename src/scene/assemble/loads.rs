@@ -7,7 +7,7 @@ use crate::math::quadrature::GAUSS_5;
 use crate::scene::Error;
 use crate::scene::resolved::{Action, Cable, InputKind, LoadKind, On, Spring};
 use crate::system::Signal;
-use crate::system::loads::{self, Density, DistributedMoment, Load};
+use crate::system::loads::{self, DistributedMoment, LineLoad, Load};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn loads(&mut self) -> Result<(), Error> {
@@ -157,8 +157,8 @@ impl<const D: usize> Builder<'_, D> {
 }
 
 /// What is the same all along a body.
-pub(super) fn uniform<const K: usize>(components: &[Signal]) -> Density<K> {
-    Density {
+pub(super) fn uniform<const K: usize>(components: &[Signal]) -> LineLoad<K> {
+    LineLoad {
         uniform: each(components),
         along: std::array::from_fn(|_| Vec::new()),
     }

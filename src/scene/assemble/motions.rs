@@ -2,7 +2,7 @@
 
 use super::{Builder, unit};
 use crate::scene::resolved::{Form, MotionKind, Place, PortKind};
-use crate::system::joints::{DrivenTurn, Primitive, Related};
+use crate::system::joints::{Coupler, DrivenTurn, Primitive};
 use crate::system::{Coordinate, Drive};
 
 impl<const D: usize> Builder<'_, D> {
@@ -52,7 +52,7 @@ impl<const D: usize> Builder<'_, D> {
                 let (ends, drive) = (self.ends(slider.ends), self.drive(drive));
                 let driven = match slider.ends.is_grounded() {
                     true => Primitive::DrivenDistance(unit(slider.direction), drive),
-                    false => Primitive::Related(Related {
+                    false => Primitive::Coupler(Coupler {
                         terms: vec![(1.0, Coordinate::Way(self.way(slider)))],
                         offset: 0.0,
                         drive: Some(drive),

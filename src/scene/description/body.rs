@@ -17,19 +17,19 @@ pub enum Body {
     /// Flexible, of ANCF cables: two nodes with position and slope; stretches and bends, does not
     /// shear. Where `model` says so, a rigid rod.
     #[schemars(title = "Cable")]
-    Cable(CableBody),
+    Cable(LineBody),
     /// The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
     /// shear. In space.
     #[schemars(title = "Rod")]
-    Rod(CableBody),
+    Rod(LineBody),
     /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections.
     #[schemars(title = "Beam")]
-    Beam(CableBody),
+    Beam(LineBody),
     /// A cable, a rod or a beam, as needed: a cable where nothing asks for its sections; else in space a rod; a beam
     /// where shear moves an output by more than the error wanted, or whole matrices are given. Takes the keys of all three; those
     /// that the element chosen has no use for are not used. Found while packaging; the page of the unit says why.
     #[schemars(title = "AutoBody")]
-    Auto(CableBody),
+    Auto(LineBody),
     /// Rigid.
     #[schemars(title = "RigidBody")]
     Rigid(RigidBody),
@@ -38,7 +38,7 @@ pub enum Body {
 /// A body of cable elements, or a rigid rod where they need not bend.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CableBody {
+pub struct LineBody {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// Number of elements; `"auto"`, or nothing said, is as many as the accuracy asks for, found while packaging.
@@ -300,7 +300,7 @@ pub struct Mass {
     pub inertia: f64,
 }
 
-impl CableBody {
+impl LineBody {
     /// Whether its sections turn about its line: a rod or a beam.
     pub fn is_rod(&self) -> bool {
         self.sections != Sections::None

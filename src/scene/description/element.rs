@@ -4,7 +4,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
-use super::body::{Body, CableBody, InitialMotion, Model, RigidBody, Sections};
+use super::body::{Body, InitialMotion, LineBody, Model, RigidBody, Sections};
 use super::section::Section;
 use super::strict::{Strict, at, typed};
 
@@ -34,9 +34,9 @@ impl<'de> Deserialize<'de> for Body {
     }
 }
 
-fn with_sections<E: serde::de::Error>(value: Value, sections: Sections) -> Result<CableBody, E> {
-    let body: CableBody = typed(value)?;
-    Ok(CableBody { sections, ..body })
+fn with_sections<E: serde::de::Error>(value: Value, sections: Sections) -> Result<LineBody, E> {
+    let body: LineBody = typed(value)?;
+    Ok(LineBody { sections, ..body })
 }
 
 impl Body {
@@ -79,7 +79,7 @@ impl Body {
     }
 
     /// The body if it is a cable or a rod, rigid or not.
-    pub fn cable(&self) -> Option<&CableBody> {
+    pub fn cable(&self) -> Option<&LineBody> {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
             Self::Rigid(_) => None,
@@ -87,12 +87,12 @@ impl Body {
     }
 
     /// The body if it is a cable that bends.
-    pub fn flexible(&self) -> Option<&CableBody> {
+    pub fn flexible(&self) -> Option<&LineBody> {
         self.cable().filter(|cable| cable.model != Model::Rigid)
     }
 
     /// The body, to be changed, if it is a cable or a rod.
-    pub fn cable_mut(&mut self) -> Option<&mut CableBody> {
+    pub fn cable_mut(&mut self) -> Option<&mut LineBody> {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
             Self::Rigid(_) => None,
@@ -116,7 +116,7 @@ impl Body {
     }
 }
 
-impl CableBody {
+impl LineBody {
     /// The body as an element whose sections do this in so many dimensions, without what it has no use for.
     pub fn made(&self, sections: Sections, dimension: usize) -> Body {
         let mut body = Self {

@@ -149,7 +149,7 @@ pub enum CoordinateKind {
 
 /// What keys, checks, equations, outputs, words and the symbol of a kind of joint derive from.
 #[derive(Clone, Copy, Debug)]
-pub struct Declaration {
+pub struct JointSpec {
     /// Its name in scenes.
     pub name: &'static str,
     /// Its keys.
@@ -224,7 +224,7 @@ impl JointKind {
 
     /// The one declaration of the kind.
     #[rustfmt::skip] // a table
-    pub fn declaration(self) -> Declaration {
+    pub fn declaration(self) -> JointSpec {
         use Condition::{Across, Axis, Curve, Direction, Distance, Line, Plane, Position, Rest, Screw, Spring};
         let (name, keys, holds, symbol): (_, &[Keys], &[Condition], _) = match self {
             Self::Revolute => ("revolute", &[(&[], &["point", "direction"])], &[Position, Axis], Symbol::Pin),
@@ -244,7 +244,7 @@ impl JointKind {
             Self::Along => ("along", &[(&[], &[])], &[Curve], Symbol::Ring),
             Self::Generic => ("generic", &[(&["free"], &["point"])], &[Rest], Symbol::Orientation),
         };
-        Declaration { name, keys, holds, symbol }
+        JointSpec { name, keys, holds, symbol }
     }
 }
 

@@ -28,12 +28,11 @@ use serde::{Deserialize, Serialize};
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
 pub use body::{
-    Axial, Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Sections, Shape,
-    Strain,
+    Axial, Body, InitialMotion, LineBody, Mass, Material, Model, RigidBody, Sections, Shape, Strain,
 };
 pub use initial::{Initial, InitialState};
 pub use joint::{
-    Condition, CoordinateKind, Declaration, Gear, Joint, JointKind, Motion, MotionKind, Symbol,
+    Condition, CoordinateKind, Gear, Joint, JointKind, JointSpec, Motion, MotionKind, Symbol,
 };
 pub use kinds::{Keys, Kind, tell_apart, tell_by_tag};
 pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};

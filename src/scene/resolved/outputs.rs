@@ -1,6 +1,6 @@
 //! What the master reads.
 
-use super::{AngleId, Cable, HolderId, LoadId, Marker, PointId, SlideId, Slider, Turning};
+use super::{AngleId, Cable, ConstraintOwnerId, LoadId, Marker, PointId, SlideId, Slider, Turning};
 use crate::scene::description::{Along, OutputKind};
 
 /// A joint or a motion that reacts.
@@ -9,7 +9,7 @@ pub struct Reaction<'a> {
     /// Name.
     pub name: &'a str,
     /// Which one.
-    pub holder: HolderId,
+    pub holder: ConstraintOwnerId,
     /// Whether it is a motion.
     pub is_motion: bool,
 }
@@ -45,7 +45,7 @@ pub enum Of<'a> {
     /// A joint along a line.
     Sliding(Slider<'a>),
     /// A gear of this name.
-    Gear(&'a str, HolderId),
+    Gear(&'a str, ConstraintOwnerId),
     /// A load of this name, and the marker that it acts on; none of a contact of a body.
     Load(&'a str, LoadId, Option<Marker<'a>>),
     /// The scene.

@@ -12,7 +12,7 @@ use super::checks::{
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{
-    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Solid, Vector,
+    Body, Error, Inertia, InitialMotion, LineBody, Model, RigidBody, Solid, Vector,
 };
 
 impl Body {
@@ -63,7 +63,7 @@ impl InitialMotion {
     }
 }
 
-impl CableBody {
+impl LineBody {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let material = &self.material;
         let at = |key: &str| format!("{path}.{key}");

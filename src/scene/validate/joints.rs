@@ -6,7 +6,7 @@ use super::checks::{
     Key, direction, expected, finite, keys, not_negative, not_zero, planar, positive, quoted,
     spring_damper,
 };
-use crate::scene::description::{Condition, Declaration, Joint, JointKind, Kind as _};
+use crate::scene::description::{Condition, Joint, JointKind, JointSpec, Kind as _};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{self, Ends, First, Hold, Marker, Place, Resolved, SlideId};
 use crate::scene::{Error, Vector};
@@ -46,7 +46,7 @@ impl Joint {
 
     /// What there is in the plane alone, or in space.
     fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let Declaration { name, holds, .. } = self.kind.declaration();
+        let JointSpec { name, holds, .. } = self.kind.declaration();
         let kind = format!("{path}.kind");
         if holds.contains(&Condition::Direction) && self.angle.is_some() {
             planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;

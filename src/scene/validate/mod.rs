@@ -26,7 +26,7 @@ mod winches;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-use super::resolved::{Holder, HolderId, Resolved};
+use super::resolved::{ConstraintOwner, ConstraintOwnerId, Resolved};
 use super::{Error, InitialState, Scene};
 use checks::{expected, name, positive, scene_name, sentence, spin, vector};
 
@@ -153,12 +153,12 @@ impl<'a> Resolved<'a> {
     }
 
     /// Numbers what holds something in the system.
-    fn hold(&mut self, path: &str, name: &'a str) -> HolderId {
-        self.holders.push(Holder {
+    fn hold(&mut self, path: &str, name: &'a str) -> ConstraintOwnerId {
+        self.holders.push(ConstraintOwner {
             path: path.into(),
             name,
         });
-        HolderId(self.holders.len() - 1)
+        ConstraintOwnerId(self.holders.len() - 1)
     }
 
     /// Places for as many numbers that the master sets; gives back the first.

@@ -7,7 +7,7 @@ use crate::scene::resolved::{
     BodyReference, Cable, Ends, First, Form, Joint, JointCoordinate, Marker, Pivot, Place,
     Resolved, Slider,
 };
-use crate::scene::{CableBody, Error, Vector};
+use crate::scene::{Error, LineBody, Vector};
 
 impl<'a> Resolved<'a> {
     pub(super) fn require_marker(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
@@ -132,7 +132,7 @@ impl<'a> Resolved<'a> {
     pub(super) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
-            _ => Err(self.no_line(path, ("rod or beam", CableBody::is_rod), name)),
+            _ => Err(self.no_line(path, ("rod or beam", LineBody::is_rod), name)),
         }
     }
 
@@ -140,7 +140,7 @@ impl<'a> Resolved<'a> {
     fn no_line(
         &self,
         path: &str,
-        (what, is_meant): (&str, fn(&CableBody) -> bool),
+        (what, is_meant): (&str, fn(&LineBody) -> bool),
         name: &str,
     ) -> Error {
         let known = self.bodies.iter().filter_map(|body| match body {

@@ -3,7 +3,7 @@
 use super::checks::{expected, quoted};
 use crate::scene::Error;
 use crate::scene::resolved::{
-    HolderId, InputKind, JointCoordinate, LoadKind, MotionKind, On, Resolved, Turning,
+    ConstraintOwnerId, InputKind, JointCoordinate, LoadKind, MotionKind, On, Resolved, Turning,
 };
 use crate::system::Release;
 
@@ -42,7 +42,7 @@ impl Resolved<'_> {
     }
 
     /// Joints on whose coordinates something acts, and its name.
-    fn acting(&self) -> Vec<(HolderId, &str)> {
+    fn acting(&self) -> Vec<(ConstraintOwnerId, &str)> {
         let of = |coordinate: &JointCoordinate<'_>| match coordinate {
             JointCoordinate::Displacement(slider) => slider.joint,
             JointCoordinate::Angle(pivot) => pivot.joint,

@@ -4,9 +4,9 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::checks::{expected, finite, needed, not_negative, planar, positive, vector};
 use crate::scene::mesh::SHORTEST;
-use crate::scene::{CableBody, Error, Model, Profile, Section, Sections, Strain};
+use crate::scene::{Error, LineBody, Model, Profile, Section, Sections, Strain};
 
-impl CableBody {
+impl LineBody {
     /// Its cross section, or those at stations, and nothing of a cable that rods alone have.
     pub(super) fn validate_sections(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let (at, is_rod) = (|key: &str| format!("{path}.{key}"), self.is_rod());

@@ -8,7 +8,7 @@ use super::report::Plan;
 use super::response::Responses;
 use super::shear::{Beam, Sheared};
 use super::{Budget, Progress};
-use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
+use crate::scene::{Accuracy, Axial, BodyReference, Error, LineBody, Model, Scene};
 use crate::simulation::{check, variables};
 
 /// Part of the error wanted that doubling may change.
@@ -54,7 +54,7 @@ pub(super) struct Search<'a, 'p> {
 }
 
 /// Cables of a scene, with their places among the bodies.
-pub(super) fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
+pub(super) fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &LineBody)> {
     let bodies = scene.bodies.iter().enumerate();
     bodies.filter_map(|(index, body)| Some((index, body.cable()?)))
 }

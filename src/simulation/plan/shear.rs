@@ -4,7 +4,7 @@
 use super::ladder::Choice;
 use super::search::{Search, cables, fewest};
 use super::time::tenth;
-use crate::scene::{Body, CableBody, Chosen, Error, Scene};
+use crate::scene::{Body, Chosen, Error, LineBody, Scene};
 
 /// A body that may be a beam.
 pub(super) struct Beam {
@@ -13,7 +13,7 @@ pub(super) struct Beam {
     /// Its place among those that are no rigid bodies.
     cable: usize,
     /// As a beam.
-    made: CableBody,
+    made: LineBody,
     /// The fewest elements it has then: markers of a cable need no nodes.
     fewest: u32,
 }

@@ -32,7 +32,10 @@ pub(super) fn check_start(scene: &Scene, given: &Given) -> Result<(), Error> {
         let Err(reason) = tried(scene, &elements, (given, moved.as_ref())) else {
             return Ok(());
         };
-        let may_be_the_mesh = matches!(reason, Reason::Equilibrium(_) | Reason::Overbent(_));
+        let may_be_the_mesh = matches!(
+            reason,
+            Reason::Equilibrium(_) | Reason::ElementOverDeformed(_)
+        );
         let is_last = !is_free.contains(&true)
             || 2 * elements.iter().sum::<u32>() > most
             || finer >= FINER && !may_be_the_mesh;

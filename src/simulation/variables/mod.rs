@@ -15,7 +15,7 @@ pub(super) use parameters::set_parameter;
 pub use unit::Unit;
 
 use super::quantities::Quantity;
-use crate::scene::{CableId, CouplingId, Resolved, RigidId, Scene};
+use crate::scene::{CouplingId, LineId, Resolved, RigidId, Scene};
 use unit::SECOND;
 
 /// A scalar variable of a simulation.
@@ -101,25 +101,25 @@ pub enum Source {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// Young's modulus of a cable.
-    YoungsModulus(CableId),
+    YoungsModulus(LineId),
     /// Density of a cable.
-    Density(CableId),
+    LineLoad(LineId),
     /// Kelvin-Voigt damping time of a cable.
-    DampingTime(CableId),
+    DampingTime(LineId),
     /// Area of a cable's cross section.
-    Area(CableId),
+    Area(LineId),
     /// Second moment of area of a cable's cross section.
-    SecondMoment(CableId),
+    SecondMoment(LineId),
     /// Shear modulus of a rod.
-    ShearModulus(CableId),
+    ShearModulus(LineId),
     /// Second moment of area of a rod's cross section, about its first axis (0) or its second (1).
-    SecondMoments(CableId, usize),
+    SecondMoments(LineId, usize),
     /// Torsion constant of a rod's cross section.
-    TorsionConstant(CableId),
+    TorsionConstant(LineId),
     /// Length of a cross section that is given by its shape, by its place among them.
-    SectionLength(CableId, usize),
+    SectionLength(LineId, usize),
     /// Number of elements of a cable; the one integer variable.
-    Elements(CableId),
+    Elements(LineId),
     /// Mass of a rigid body.
     Mass(RigidId),
     /// Density of a rigid body that has a shape.

@@ -3,8 +3,8 @@
 use super::unit::*;
 use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
 use crate::scene::{
-    Along, AngleId, HolderId, InputKind, LoadId, MarkerId, Of, Output, OutputKind, PointId, Port,
-    PortKind, Resolved, SlideId, Turning,
+    Along, AngleId, ConstraintOwnerId, InputKind, LoadId, MarkerId, Of, Output, OutputKind,
+    PointId, Port, PortKind, Resolved, SlideId, Turning,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -36,17 +36,20 @@ enum Read {
     /// Of a marker, of a joint.
     Turning(
         fn(MarkerId, usize, Along) -> Quantity,
-        fn(HolderId) -> Quantity,
+        fn(ConstraintOwnerId) -> Quantity,
     ),
     /// Of a marker, of a joint along a line.
-    Moving(fn(MarkerId, usize) -> Quantity, fn(HolderId) -> Quantity),
+    Moving(
+        fn(MarkerId, usize) -> Quantity,
+        fn(ConstraintOwnerId) -> Quantity,
+    ),
     /// One number of a joint or a gear.
-    Joint(fn(HolderId) -> Quantity),
+    Joint(fn(ConstraintOwnerId) -> Quantity),
     Load(fn(LoadId, usize) -> Quantity),
     Counted(fn(AngleId) -> Quantity),
     Points(fn(PointId) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
-    Holder(fn(HolderId, usize, Along) -> Quantity),
+    ConstraintOwner(fn(ConstraintOwnerId, usize, Along) -> Quantity),
     Scene(fn(usize) -> Quantity),
     Spectrum(fn(usize) -> Source),
 }
@@ -92,10 +95,10 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
             ("connectivity_force", "Force of the part before on the part after {}", Some(NEWTON), Vector, Read::Marker(ConnectivityForce)),
         ],
         Kind::Travel => vec![("travel", "Length along the cable at which {} stands", Some(METRE), Scalar, Read::Slide(Travel))],
-        Kind::Reaction => vec![("reaction", "Force of {}", Some(NEWTON), Vector, Read::Holder(Reaction))],
-        Kind::ReactionMoment => vec![("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Holder(ReactionMoment))],
+        Kind::Reaction => vec![("reaction", "Force of {}", Some(NEWTON), Vector, Read::ConstraintOwner(Reaction))],
+        Kind::ReactionMoment => vec![("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::ConstraintOwner(ReactionMoment))],
         Kind::Energy => energies(resolved),
-        Kind::Work => vec![
+        Kind::Workspace => vec![
             ("energy.input", "Work that loads, inputs and motions have done since the start", Some(JOULE), Scalar, Read::Scene(|_| Input)),
             ("energy.dissipated", "Energy lost in dampers and in damping since the start", Some(JOULE), Scalar, Read::Scene(|_| Dissipated)),
         ],
@@ -292,7 +295,9 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
         (Read::Points(quantity), Of::Points(_, first, _)) => quantity(first.after(k)),
         (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
-        (Read::Holder(quantity), Of::Reaction(reaction)) => quantity(reaction.holder, k, along),
+        (Read::ConstraintOwner(quantity), Of::Reaction(reaction)) => {
+            quantity(reaction.holder, k, along)
+        }
         (Read::Scene(quantity), Of::Scene) => quantity(k),
         (Read::Spectrum(source), Of::Spectrum(..)) => return source(k),
         _ => unreachable!("what an output is read at follows from its kind"),

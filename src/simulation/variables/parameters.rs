@@ -73,7 +73,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
     #[rustfmt::skip] // a table
     let mut rows: Vec<Row<'_>> = vec![
         ("youngs_modulus", "Young's modulus", Some(PASCAL), YoungsModulus(i), material.young()),
-        ("density", "Density", Some(DENSITY), Density(i), material.density.unwrap_or_default()),
+        ("density", "Density", Some(DENSITY), LineLoad(i), material.density.unwrap_or_default()),
         ("damping_time", "Kelvin-Voigt damping time", Some(SECOND), DampingTime(i), material.damping_time),
         ("area", "Area of the cross section", Some(SQUARE_METRE), Area(i), numbers.area),
         ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), numbers.second_moments[0]),
@@ -108,7 +108,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
     }
     if cable.is_rigid() {
         // What is left without effect is none: a study of it would find nothing.
-        rows.retain(|(.., parameter, _)| matches!(parameter, Density(_) | Area(_)));
+        rows.retain(|(.., parameter, _)| matches!(parameter, LineLoad(_) | Area(_)));
     }
     list.parameters(&body.name, "of", &rows);
     add_lengths(list, cable);
@@ -366,7 +366,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
     use Parameter::*;
     match parameter {
         YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = Some(value),
-        Density(id) => scene.cable_mut(id).material.density = Some(value),
+        LineLoad(id) => scene.cable_mut(id).material.density = Some(value),
         DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
         Area(id) => scene.cable_mut(id).section.area = Some(value),
         SecondMoment(id) => scene.cable_mut(id).section.second_moment = Some(value),

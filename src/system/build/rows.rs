@@ -6,9 +6,9 @@ use crate::math::space::Vector;
 use crate::system::Winch;
 use crate::system::end::End;
 use crate::system::joints::{
-    Constraint, ConstraintKind, HeldRow, Linear, Release, Target, UnitLength,
+    Constraint, ConstraintKind, Linear, LinearConstraint, Release, Target, UnitLength,
 };
-use crate::system::loads::{Load, Transport};
+use crate::system::loads::{ConvectiveInertia, Load};
 
 /// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
 const TIED: usize = 8;
@@ -167,10 +167,10 @@ fn release_rows<const D: usize>(
         let Some(index) = linear.joint.filter(|index| released[*index]) else {
             return true;
         };
-        let mut row = HeldRow::new(linear, parts.joints[index].ends);
+        let mut row = LinearConstraint::new(linear, parts.joints[index].ends);
         let nodes = parts.joints[index].ends.iter().flat_map(End::nodes);
         row.is_constant &= !nodes.into_iter().any(|node| paid_out[node]);
-        nonlinear.push(Constraint::of(index, ConstraintKind::HeldRow(row)));
+        nonlinear.push(Constraint::of(index, ConstraintKind::LinearConstraint(row)));
         false
     });
     if !parts.frames.is_empty() {
@@ -198,7 +198,7 @@ pub(super) fn winches<const D: usize>(parts: &mut Parts<D>) -> Vec<Winch<D>> {
     let winches: Vec<Winch<D>> = parts.winches.iter().map(of).collect();
     let transports = winches.iter().enumerate();
     let transports = transports.map(|(winch, of)| {
-        Load::Transport(Transport {
+        Load::ConvectiveInertia(ConvectiveInertia {
             winch,
             chain: of.chain,
         })

@@ -2,7 +2,7 @@
 //! turned from the start are coordinates of nodes: rows are all that it takes, and the slope stays free to stretch.
 //!
 //! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eq. 9 (linear constraints in nodal coordinates), for the coordinates of
-//! `body/frame/carried.rs`.
+//! `body/frame/section_frame.rs`.
 
 use super::{Linear, Target};
 use crate::body::{Marker, Node, Row, no_node};

@@ -2,37 +2,37 @@
 //! `Phi`; the rest becomes constraints with multipliers.
 
 mod clamp;
+mod coupler;
 mod direction;
 mod distance;
 mod driven_orientation;
 mod driven_turn;
-mod held_row;
 mod line;
+mod linear_constraint;
 mod motion;
 mod perpendicular;
 mod point_on_curve;
-mod related;
 mod release;
 mod rows;
 mod target;
 mod unit;
 
 pub use clamp::Clamp;
+pub use coupler::Coupler;
 pub use direction::AngleBetween;
 pub use distance::Distance;
 pub use driven_orientation::DrivenOrientation;
 pub use driven_turn::DrivenTurn;
-pub use held_row::HeldRow;
 pub use line::PointOnLine;
+pub use linear_constraint::LinearConstraint;
 pub use perpendicular::{Across, Perpendicular};
 pub use point_on_curve::PointOnCurve;
-pub use related::Related;
 pub use release::Release;
 use rows::Rows;
 pub use target::Target;
 pub use unit::UnitLength;
 
-use super::CableChain;
+use super::LineChain;
 use super::coordinate::Way;
 use super::direction::AxisTurn;
 use super::end::{Add, End};
@@ -68,7 +68,7 @@ pub enum Primitive<const D: usize = 2> {
     /// coordinates of a quaternion, scalar first.
     DrivenOrientation([Marker; 3], [usize; 4]),
     /// Coordinates of joints in a linear relation, or one that is driven.
-    Related(Related<D>),
+    Coupler(Coupler<D>),
     /// The position has driven coordinates (first end: ground).
     DrivenPosition([usize; D]),
     /// The position along this unit vector is at a driven distance from the first end (ground).
@@ -116,7 +116,7 @@ pub struct View<'a, const D: usize, N = f64> {
     /// Driven coordinates with two derivatives.
     pub drives: &'a [[N; 3]],
     /// Flexible bodies.
-    pub chains: &'a [CableChain<D>],
+    pub chains: &'a [LineChain<D>],
     /// Where on their chains slides are, m.
     pub travel: &'a [N],
     /// Angles that the system counts, rad: what angles are nearest to.
@@ -152,7 +152,7 @@ pub enum ConstraintKind<const D: usize = 2> {
     /// A point on a chain.
     PointOnCurve(PointOnCurve<D>),
     /// A row that is linear in what joints see.
-    HeldRow(HeldRow<D>),
+    LinearConstraint(LinearConstraint<D>),
     /// A right angle.
     Perpendicular(Perpendicular<D>),
     /// A driven turn.
@@ -160,7 +160,7 @@ pub enum ConstraintKind<const D: usize = 2> {
     /// One condition of a driven orientation.
     DrivenOrientation(DrivenOrientation),
     /// A relation between coordinates of joints.
-    Related(Related<D>),
+    Coupler(Coupler<D>),
 }
 
 macro_rules! each {
@@ -171,11 +171,11 @@ macro_rules! each {
             ConstraintKind::Distance($c) => $call,
             ConstraintKind::PointOnLine($c) => $call,
             ConstraintKind::PointOnCurve($c) => $call,
-            ConstraintKind::HeldRow($c) => $call,
+            ConstraintKind::LinearConstraint($c) => $call,
             ConstraintKind::Perpendicular($c) => $call,
             ConstraintKind::DrivenTurn($c) => $call,
             ConstraintKind::DrivenOrientation($c) => $call,
-            ConstraintKind::Related($c) => $call,
+            ConstraintKind::Coupler($c) => $call,
         }
     };
 }
@@ -217,13 +217,13 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::Distance(c) => c.gradient(view),
             ConstraintKind::PointOnLine(c) => c.gradient(view),
             ConstraintKind::PointOnCurve(c) => c.gradient(view),
-            ConstraintKind::HeldRow(c) => c.gradient(view),
+            ConstraintKind::LinearConstraint(c) => c.gradient(view),
             ConstraintKind::Perpendicular(c) => c.gradient(view),
             ConstraintKind::DrivenTurn(c) => c.gradient(view),
             ConstraintKind::DrivenOrientation(c) => {
                 return c.gradients(view).for_each(|pair| many(&pair));
             }
-            ConstraintKind::Related(c) => return c.gradients(view).for_each(|pair| many(&pair)),
+            ConstraintKind::Coupler(c) => return c.gradients(view).for_each(|pair| many(&pair)),
         };
         call(&gradient);
     }
@@ -258,10 +258,10 @@ impl<const D: usize> Constraint<D> {
         match &self.kind {
             _ if self.is_released(view.released) => N::of(0.0),
             ConstraintKind::AngleBetween(c) => c.rate(view),
-            ConstraintKind::HeldRow(c) => c.rate(view),
+            ConstraintKind::LinearConstraint(c) => c.rate(view),
             ConstraintKind::DrivenTurn(c) => c.rate(view),
             ConstraintKind::DrivenOrientation(c) => c.rate(view),
-            ConstraintKind::Related(c) => c.rate(view),
+            ConstraintKind::Coupler(c) => c.rate(view),
             _ => N::of(0.0),
         }
     }
@@ -284,15 +284,15 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::PointOnLine(c) => c.stiffness(lambda, add),
             // Small beside inertia, and the blocks move with the point.
             ConstraintKind::PointOnCurve(_) => {}
-            ConstraintKind::HeldRow(_) | ConstraintKind::DrivenOrientation(_) => {}
+            ConstraintKind::LinearConstraint(_) | ConstraintKind::DrivenOrientation(_) => {}
             ConstraintKind::Perpendicular(c) => c.stiffness(lambda, add),
             ConstraintKind::DrivenTurn(c) => c.stiffness(lambda, view, add),
-            ConstraintKind::Related(c) => c.stiffness(lambda, view, add),
+            ConstraintKind::Coupler(c) => c.stiffness(lambda, view, add),
         }
     }
 
     /// Size of `g` to measure its residual by: 1 for directions, m for lengths.
-    pub fn size(&self, chains: &[CableChain<D>]) -> f64 {
+    pub fn size(&self, chains: &[LineChain<D>]) -> f64 {
         match &self.kind {
             ConstraintKind::UnitLength(_)
             | ConstraintKind::AngleBetween(_)
@@ -300,9 +300,9 @@ impl<const D: usize> Constraint<D> {
             | ConstraintKind::DrivenOrientation(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
             ConstraintKind::PointOnLine(c) => c.size,
-            ConstraintKind::HeldRow(c) => c.size,
+            ConstraintKind::LinearConstraint(c) => c.size,
             ConstraintKind::Perpendicular(c) => c.size(),
-            ConstraintKind::Related(c) => c.size,
+            ConstraintKind::Coupler(c) => c.size,
             ConstraintKind::PointOnCurve(c) => chains[c.chain].length(),
         }
     }
@@ -315,16 +315,16 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::AngleBetween(c) => c.ends.to_vec(),
             ConstraintKind::Distance(c) => c.ends.to_vec(),
             ConstraintKind::PointOnLine(c) => c.ends.to_vec(),
-            ConstraintKind::HeldRow(c) => c.ends.to_vec(),
+            ConstraintKind::LinearConstraint(c) => c.ends.to_vec(),
             ConstraintKind::Perpendicular(c) => c.ends(),
             ConstraintKind::DrivenTurn(c) => c.ends(),
             ConstraintKind::DrivenOrientation(c) => c.ends(),
-            ConstraintKind::Related(c) => c.ends(),
+            ConstraintKind::Coupler(c) => c.ends(),
         }
     }
 
     /// Nodes that it ties together.
-    pub fn nodes(&self, chains: &[CableChain<D>]) -> Vec<usize> {
+    pub fn nodes(&self, chains: &[LineChain<D>]) -> Vec<usize> {
         match &self.kind {
             ConstraintKind::UnitLength(c) => vec![c.node],
             ConstraintKind::PointOnCurve(c) => {
@@ -338,7 +338,8 @@ impl<const D: usize> Constraint<D> {
 
     /// Whether its derivatives are the same in every configuration.
     pub fn is_linear(&self) -> bool {
-        let is_constant = matches!(&self.kind, ConstraintKind::HeldRow(row) if row.is_constant);
+        let is_constant =
+            matches!(&self.kind, ConstraintKind::LinearConstraint(row) if row.is_constant);
         is_constant && self.release.is_none()
     }
 
@@ -347,7 +348,7 @@ impl<const D: usize> Constraint<D> {
         !matches!(
             self.kind,
             ConstraintKind::PointOnCurve(_)
-                | ConstraintKind::HeldRow(_)
+                | ConstraintKind::LinearConstraint(_)
                 | ConstraintKind::DrivenOrientation(_)
         )
     }
@@ -375,7 +376,7 @@ impl<const D: usize> Joint<D> {
                 | Primitive::DrivenTurn(DrivenTurn { drive, .. }) => std::slice::from_ref(drive),
                 Primitive::DrivenPosition(drives) => drives,
                 Primitive::DrivenOrientation(_, drives) => drives,
-                Primitive::Related(related) => related.drive.as_slice(),
+                Primitive::Coupler(related) => related.drive.as_slice(),
                 _ => &[],
             })
             .copied()
@@ -418,7 +419,7 @@ impl<const D: usize> Joint<D> {
         };
         for primitive in &self.holds {
             let kind = match primitive {
-                Primitive::Coincident => held_row::coincide(&mut rows),
+                Primitive::Coincident => linear_constraint::coincide(&mut rows),
                 Primitive::Line(along) => line::hold(&mut rows, *along),
                 Primitive::Direction(angle) => direction::hold(&mut rows, *angle),
                 Primitive::Clamped(along) => direction::clamp(&mut rows, along),
@@ -453,7 +454,7 @@ impl<const D: usize> Joint<D> {
                     nonlinear.extend((0..3).map(about));
                     None
                 }
-                Primitive::Related(related) => Some(ConstraintKind::Related(related.clone())),
+                Primitive::Coupler(related) => Some(ConstraintKind::Coupler(related.clone())),
                 Primitive::PaidOut(_) => None,
                 Primitive::DrivenPosition(drives) => motion::position(&mut rows, *drives),
                 Primitive::DrivenDistance(along, drive) => {

@@ -5,7 +5,7 @@ use super::{ConstraintKind, Gradient, Rows, View};
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, normal};
-use crate::system::CableChain;
+use crate::system::LineChain;
 use crate::system::end::End;
 
 /// Iterations for the foot of a point on a curve.
@@ -49,7 +49,7 @@ struct Foot<const D: usize, N: Number> {
 }
 
 fn foot<const D: usize, N: Number>(
-    chain: &CableChain<D>,
+    chain: &LineChain<D>,
     length: N,
     x: &[Node<D, N>],
 ) -> Foot<D, N> {
@@ -64,7 +64,7 @@ fn foot<const D: usize, N: Number>(
 
 impl<const D: usize> PointOnCurve<D> {
     /// Length along the chain of the point nearest to the end, m; searched from `hint` on.
-    pub fn travel<N: Number>(&self, chain: &CableChain<D>, x: &[Node<D, N>], hint: N) -> N {
+    pub fn travel<N: Number>(&self, chain: &LineChain<D>, x: &[Node<D, N>], hint: N) -> N {
         let p = self.end.lift().position(x);
         let mut s = hint;
         for _ in 0..ITERATIONS {
@@ -84,7 +84,7 @@ impl<const D: usize> PointOnCurve<D> {
     }
 
     /// The nearest point of the whole chain, m: where a search begins.
-    pub fn nearest(&self, chain: &CableChain<D>, x: &[Node<D>]) -> f64 {
+    pub fn nearest(&self, chain: &LineChain<D>, x: &[Node<D>]) -> f64 {
         let near = chain.near(&self.end.position(x), x);
         self.travel(chain, x, near)
     }

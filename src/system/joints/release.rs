@@ -3,7 +3,7 @@
 
 use super::Constraint;
 use crate::math::switches::grain;
-use crate::system::{State, Work};
+use crate::system::{State, Workspace};
 
 /// When a joint lets go, for good.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,7 +28,7 @@ impl<const D: usize> Constraint<D> {
     }
 }
 
-impl<const D: usize> Work<D> {
+impl<const D: usize> Workspace<D> {
     /// Takes over which joints have let go at a state, and which are due by then.
     pub(in crate::system) fn release(&mut self, state: &State) {
         let told = state.released.iter().zip(&self.releases);

@@ -9,7 +9,7 @@
 
 use nalgebra::SMatrix;
 
-use super::density::Values;
+use super::line_load::Values;
 use super::{Add, Instant};
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;

@@ -2,7 +2,7 @@
 
 use nalgebra::RowVector4;
 
-use super::density::{Density, Values};
+use super::line_load::{LineLoad, Values};
 use super::{Instant, PANELS};
 use crate::body::Node;
 use crate::elements::{Element, Nodal, shape};
@@ -10,7 +10,7 @@ use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
 use crate::system::winch::{PaidOut, longer_by};
-use crate::system::{CableChain, Rod};
+use crate::system::{LineChain, Rod};
 
 /// What a force is distributed along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Distributed<const D: usize = 2> {
     /// What it is distributed along. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
     pub on: Line,
     /// Components, N/m.
-    pub density: Density<D>,
+    pub density: LineLoad<D>,
 }
 
 /// Weights at the Gauss points, m, of a vector per length of an element of this length (m) on its coordinates: position and slope at both
@@ -76,7 +76,7 @@ impl<const D: usize> Distributed<D> {
     }
 
     /// First node of the body that it acts on.
-    pub(in crate::system) fn first_node(&self, chains: &[CableChain<D>]) -> usize {
+    pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
         match self.on {
             Line::Chain(chain) => chains[chain].nodes(0)[0],
             Line::Rod(rod) => rod.node,
@@ -85,7 +85,7 @@ impl<const D: usize> Distributed<D> {
 
     /// Forces on the nodes of a load of one N/m along every axis, on position and direction: on a chain the integrals of its
     /// shape functions; on a rod in the middle.
-    fn each(&self, chains: &[CableChain<D>], mut add: impl FnMut(usize, [f64; 2])) {
+    fn each(&self, chains: &[LineChain<D>], mut add: impl FnMut(usize, [f64; 2])) {
         let chain = match self.on {
             Line::Chain(chain) => &chains[chain],
             Line::Rod(rod) => return add(rod.node, [rod.length, 0.0]),

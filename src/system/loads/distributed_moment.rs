@@ -6,7 +6,7 @@
 //! of Structural Stability, 2nd ed. (1977), section 5.2 (moments without a potential).
 
 use super::Instant;
-use super::density::Density;
+use super::line_load::LineLoad;
 use crate::body::{Marker, Node, RodChain};
 use crate::elements::section::Vectors;
 use crate::math::jet::Number;
@@ -21,7 +21,7 @@ pub struct DistributedMoment {
     /// Whether it turns with the sections.
     pub follower: bool,
     /// Components along global axes or those of the sections, N m/m.
-    pub density: Density<3>,
+    pub density: LineLoad<3>,
 }
 
 impl DistributedMoment {

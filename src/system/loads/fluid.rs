@@ -12,8 +12,8 @@
 
 use nalgebra::SMatrix;
 
-use super::density::{Density, Values};
 use super::distributed::Line;
+use super::line_load::{LineLoad, Values};
 use super::{Add, Instant, PANELS};
 use crate::body::{Node, no_block};
 use crate::elements::{Element, shape};
@@ -21,13 +21,13 @@ use crate::math::function::Function;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, spun};
-use crate::system::CableChain;
+use crate::system::LineChain;
 use crate::system::signal::Signal;
 use crate::system::winch::{PaidOut, longer_by};
 
 /// What a fluid does at a place along a line, per reference length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Strip {
+pub struct FluidSegment {
     /// Drag across the line and along it: force by the square of the velocity, N s^2/m^3.
     pub drag: [f64; 2],
     /// Mass of the fluid that is displaced and has weight, kg/m: none without buoyancy.
@@ -42,9 +42,9 @@ pub struct Fluid<const D: usize = 2> {
     /// What it streams past. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
     pub on: Line,
     /// What it does at the Gauss points of every stretch in turn.
-    pub strips: Vec<Strip>,
+    pub strips: Vec<FluidSegment>,
     /// Velocity of the fluid, m/s.
-    pub current: Density<D>,
+    pub current: LineLoad<D>,
     /// Gravitational acceleration, m/s^2.
     pub gravity: Vector<D>,
     /// Velocity of the body as a whole beside its rates, where equilibria are sought in a steady motion: that of the origin, m/s, and
@@ -129,7 +129,7 @@ impl<const D: usize> Fluid<D> {
     }
 
     /// First node of the body that it streams past.
-    pub(in crate::system) fn first_node(&self, chains: &[CableChain<D>]) -> usize {
+    pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
         match self.on {
             Line::Chain(chain) => chains[chain].nodes(0)[0],
             Line::Rod(rod) => rod.node,
@@ -137,7 +137,7 @@ impl<const D: usize> Fluid<D> {
     }
 
     /// Nodes of its stretches.
-    pub(super) fn parts(&self, chains: &[CableChain<D>]) -> Vec<Vec<usize>> {
+    pub(super) fn parts(&self, chains: &[LineChain<D>]) -> Vec<Vec<usize>> {
         match self.on {
             Line::Chain(chain) => {
                 let stretches = 0..self.stretches();
@@ -147,7 +147,7 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    fn place(&self, chains: &[CableChain<D>], stretch: usize, point: usize) -> Place {
+    fn place(&self, chains: &[LineChain<D>], stretch: usize, point: usize) -> Place {
         let point = GAUSS_5[point];
         match self.on {
             Line::Chain(chain) => {
@@ -218,7 +218,7 @@ impl<const D: usize> Fluid<D> {
         &self,
         at: Instant<'_, D, N>,
         stretch: usize,
-        mut call: impl FnMut(&Place, &Flow<D, N>, &Strip, Vector<D, N>),
+        mut call: impl FnMut(&Place, &Flow<D, N>, &FluidSegment, Vector<D, N>),
     ) {
         let current = self.current(stretch, |signal| signal.value(at));
         let rates = self.current(stretch, |signal| signal.rate(at));

@@ -3,36 +3,36 @@
 
 mod bushing;
 mod contact;
+mod convective_inertia;
 mod couple;
-mod density;
 mod distributed;
 mod distributed_moment;
 mod fluid;
 mod force;
 mod joint_spring;
+mod line_load;
 mod moment;
 mod orientation_bushing;
 mod six_bushing;
 mod spring;
 mod stop;
-mod transport;
 
 pub use bushing::{Bushing, RotationalBushing};
 pub use contact::{Contact, Place, Surface};
+pub use convective_inertia::ConvectiveInertia;
 pub use couple::Couple;
-pub use density::{Density, Values};
 pub(in crate::system) use distributed::on_coordinates;
 pub use distributed::{Distributed, Line};
 pub use distributed_moment::DistributedMoment;
-pub use fluid::{Fluid, Strip};
+pub use fluid::{Fluid, FluidSegment};
 pub use force::Force;
 pub use joint_spring::JointSpring;
+pub use line_load::{LineLoad, Values};
 pub use moment::Moment;
 pub use orientation_bushing::OrientationBushing;
 pub use six_bushing::SixBushing;
 pub use spring::Spring;
 pub use stop::Stop;
-pub use transport::Transport;
 
 use super::end::{Add, End};
 use super::instant::Instant;
@@ -40,7 +40,7 @@ use super::signal::Signal;
 use crate::body::{Node, RodChain};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::CableChain;
+use crate::system::LineChain;
 
 /// Even parts of a body that does not bend in which what changes along it is integrated.
 pub const PANELS: usize = 8;
@@ -77,7 +77,7 @@ pub enum Load<const D: usize = 2> {
     /// The same in space, between a rigid body and an orientation.
     OrientationBushing(Box<OrientationBushing>),
     /// A cable that a winch pays out.
-    Transport(Transport),
+    ConvectiveInertia(ConvectiveInertia),
 }
 
 impl<const D: usize> Load<D> {
@@ -88,7 +88,7 @@ impl<const D: usize> Load<D> {
             Self::DistributedMoment(load) => load.add_force(at, f),
             Self::Fluid(load) => load.add_force(at, f),
             Self::Contact(load) => load.add_force(at, f),
-            Self::Transport(load) => load.add_force(at, f),
+            Self::ConvectiveInertia(load) => load.add_force(at, f),
             _ => self.act(at, |end, [position, direction]| {
                 end.add_force(position, direction, f);
             }),
@@ -109,7 +109,7 @@ impl<const D: usize> Load<D> {
             Self::Distributed(_)
             | Self::DistributedMoment(_)
             | Self::Fluid(_)
-            | Self::Transport(_) => {}
+            | Self::ConvectiveInertia(_) => {}
             Self::Spring(load) => load.act(at, call),
             Self::JointSpring(load) => load.act(at, call),
             Self::Stop(load) => load.act(at, call),
@@ -138,7 +138,7 @@ impl<const D: usize> Load<D> {
             Self::Fluid(load) => {
                 (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
             }
-            Self::Transport(load) => {
+            Self::ConvectiveInertia(load) => {
                 (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
             }
             _ => None,
@@ -154,7 +154,7 @@ impl<const D: usize> Load<D> {
             // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
             Self::Couple(_) | Self::Distributed(_) | Self::DistributedMoment(_) => {}
             // The same: rope is paid out slowly beside its waves.
-            Self::Transport(_) => {}
+            Self::ConvectiveInertia(_) => {}
             Self::Fluid(load) => load.add_damping(at, damping),
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::JointSpring(load) => load.add_tangent(at, stiffness, damping),
@@ -185,7 +185,7 @@ impl<const D: usize> Load<D> {
             Self::Bushing(load) => load.power(at),
             Self::RotationalBushing(load) => load.power(at),
             Self::OrientationBushing(load) => load.power(at),
-            Self::Transport(load) => [load.power(at), none],
+            Self::ConvectiveInertia(load) => [load.power(at), none],
         }
     }
 
@@ -218,7 +218,7 @@ impl<const D: usize> Load<D> {
             Self::RotationalBushing(load) => load.work(before, after),
             Self::OrientationBushing(load) => load.work(before, after),
             // Where equilibria are sought winches stand.
-            Self::Transport(_) => 0.0,
+            Self::ConvectiveInertia(_) => 0.0,
             Self::Spring(_)
             | Self::JointSpring(_)
             | Self::Stop(_)
@@ -249,7 +249,10 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
             // At rest there is none.
             Self::Contact(load) => load.friction = 0.0,
-            Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) | Self::Transport(_) => {}
+            Self::JointSpring(_)
+            | Self::Stop(_)
+            | Self::SixBushing(_)
+            | Self::ConvectiveInertia(_) => {}
             Self::Bushing(load) => {
                 hold(&mut load.position, 1.0);
                 hold(&mut load.velocity, 1.0);
@@ -295,7 +298,7 @@ impl<const D: usize> Load<D> {
             | Self::Spring(_)
             | Self::Contact(_)
             | Self::Bushing(_)
-            | Self::Transport(_) => false,
+            | Self::ConvectiveInertia(_) => false,
         }
     }
 
@@ -335,7 +338,7 @@ impl<const D: usize> Load<D> {
             | Self::Stop(_)
             | Self::Contact(_)
             | Self::SixBushing(_)
-            | Self::Transport(_) => (&[], &[]),
+            | Self::ConvectiveInertia(_) => (&[], &[]),
             Self::Bushing(load) => (&load.position, &load.velocity),
             Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
             Self::OrientationBushing(load) => (&load.quaternion, &load.velocity),
@@ -356,7 +359,7 @@ impl<const D: usize> Load<D> {
     }
 
     /// Nodes on which its forces depend and act, of every part of it that depends on no others.
-    pub fn parts(&self, chains: &[CableChain<D>], sections: &[RodChain]) -> Vec<Vec<usize>> {
+    pub fn parts(&self, chains: &[LineChain<D>], sections: &[RodChain]) -> Vec<Vec<usize>> {
         match self {
             Self::Fluid(load) => load.parts(chains),
             Self::DistributedMoment(load) => {
@@ -365,7 +368,7 @@ impl<const D: usize> Load<D> {
                 elements.map(|j| rod.all_nodes(j).to_vec()).collect()
             }
             Self::Contact(load) => load.parts(),
-            Self::Transport(load) => load.parts(chains),
+            Self::ConvectiveInertia(load) => load.parts(chains),
             _ => vec![self.ends().iter().flat_map(End::nodes).collect()],
         }
     }
@@ -376,7 +379,7 @@ impl<const D: usize> Load<D> {
             Self::DistributedMoment(load) => load.add_force_on(at, part, f),
             Self::Fluid(load) => load.add_force_on(at, part, f),
             Self::Contact(load) => load.add_part(at, part, f),
-            Self::Transport(load) => load.add_part(at, part, f),
+            Self::ConvectiveInertia(load) => load.add_part(at, part, f),
             _ => self.add_force(at, f),
         }
     }
@@ -387,7 +390,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => vec![End::Body(load.marker)],
             Self::Moment(load) => load.ends.to_vec(),
             Self::Couple(load) => load.ends.to_vec(),
-            Self::Distributed(_) | Self::Fluid(_) | Self::Transport(_) => vec![],
+            Self::Distributed(_) | Self::Fluid(_) | Self::ConvectiveInertia(_) => vec![],
             Self::DistributedMoment(load) => vec![End::Body(load.end)],
             Self::Spring(load) => load.ends.to_vec(),
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),

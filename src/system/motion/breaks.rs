@@ -12,7 +12,7 @@ use crate::math::function::Function;
 use crate::math::switches::grain;
 use crate::system::joints::Joint;
 use crate::system::signal::{Drive, Signal};
-use crate::system::{Accepted, State, System, Work};
+use crate::system::{State, StepOutcome, System, Workspace};
 
 /// Jump of a driven coordinate, relative, that counts as one.
 const JUMP: f64 = 1e-9;
@@ -52,7 +52,7 @@ impl<const D: usize> System<D> {
     }
 
     /// The time at which functions of time are taken at `time`.
-    pub(in crate::system) fn clock(&self, time: f64, work: &Work<D>) -> f64 {
+    pub(in crate::system) fn clock(&self, time: f64, work: &Workspace<D>) -> f64 {
         match work.stretch {
             Some([first, last]) => time.max(first).min(last),
             None => self.now(time),
@@ -115,7 +115,7 @@ impl<const D: usize> Model<'_, D> {
     }
 
     /// Ends the stretch; a state at its end goes on after the kink or jump there.
-    pub(in crate::system) fn leave(&mut self, state: &mut State) -> Accepted {
+    pub(in crate::system) fn leave(&mut self, state: &mut State) -> StepOutcome {
         let before = self
             .work
             .stretch
@@ -124,10 +124,10 @@ impl<const D: usize> Model<'_, D> {
         let crossed = self.crossing.take();
         let mut driven = self.system.driven_at(state.time.min(before));
         if driven.any(|(_, orders)| orders.iter().any(|x| !x.is_finite())) {
-            return Accepted::NotFinite;
+            return StepOutcome::NotFinite;
         }
         if crossed.is_none_or(|time| state.time < time - grain(time)) {
-            return Accepted::AsIs;
+            return StepOutcome::AsIs;
         }
         let after = self.system.now(crossed.unwrap_or(state.time));
         let smallest = self.system.size().min(1.0);
@@ -135,19 +135,19 @@ impl<const D: usize> Model<'_, D> {
         let pairs = (self.system.driven_at(before)).zip(self.system.driven_at(after));
         for ((index, [p, v, a]), (_, [q, u, b])) in pairs {
             if (q - p).abs() > JUMP * p.abs().max(q.abs()).max(smallest) {
-                return Accepted::Jumped(index);
+                return StepOutcome::Jumped(index);
             }
             let smooth = (after - before) * (a.abs() + b.abs());
             jumps |= (u - v).abs() > ROUNDOFF * (u.abs() + v.abs()) + 2.0 * smooth;
         }
         if !jumps {
-            return Accepted::AsIs;
+            return StepOutcome::AsIs;
         }
         self.strike(state, [before, after])
     }
 
     /// Velocities after an impulse of what is driven, whose velocity jumps from one time to another.
-    fn strike(&mut self, state: &mut State, [before, after]: [f64; 2]) -> Accepted {
+    fn strike(&mut self, state: &mut State, [before, after]: [f64; 2]) -> StepOutcome {
         let (system, time) = (self.system, state.time);
         let rates = Some(&state.rates[..]);
         self.work.stretch = Some([before, before]);
@@ -157,7 +157,7 @@ impl<const D: usize> Model<'_, D> {
         let mut old = std::mem::take(&mut self.work.v);
         // Material keeps its velocity, not the mesh that it passes through.
         self.work.other.fill(no_node());
-        let Work {
+        let Workspace {
             drives, x, other, ..
         } = &mut *self.work;
         system.add_passing(drives, 1.0, x, other);
@@ -179,8 +179,8 @@ impl<const D: usize> Model<'_, D> {
         }
         self.work.stretch = None;
         match kept {
-            true => Accepted::Moved,
-            false => Accepted::Broken,
+            true => StepOutcome::Moved,
+            false => StepOutcome::ConstraintsViolated,
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::body::{Node, RENEWED, largest_turn};
 use crate::elements::Element;
 use crate::system::instant::Instant;
 use crate::system::signal::{Trajectory, moved};
-use crate::system::{State, System, Work};
+use crate::system::{State, System, Workspace};
 
 /// A second-order system with identity inertia, `q'' = a(t, q, q')`, with `K = -da/dq` and
 /// `R = -da/dq'`.
@@ -63,7 +63,7 @@ pub trait Dynamics {
         false
     }
     /// Told of every accepted step: brings the state back to the constraints and counts turns on.
-    fn accepted(&mut self, state: &mut State) -> Accepted;
+    fn accepted(&mut self, state: &mut State) -> StepOutcome;
     /// Begins a stretch in which nothing has a kink or jumps: from a time to the one returned, `until` at the
     /// latest. Accelerations at both ends are those inside it.
     fn begin_stretch(&mut self, from: f64, until: f64) -> f64;
@@ -80,24 +80,24 @@ pub trait Dynamics {
         0.0
     }
     /// Ends the stretch, at whose end or before it the state stands; beyond a jump it goes on differently.
-    fn end_stretch(&mut self, state: &mut State) -> Accepted;
+    fn end_stretch(&mut self, state: &mut State) -> StepOutcome;
 }
 
 /// What became of an accepted state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Accepted {
+pub enum StepOutcome {
     /// It stands.
     AsIs,
     /// It was brought back to the constraints.
     Moved,
     /// A slide would have left its cable; the joint. The state is that before the step.
-    RanOff(usize),
+    SliderLeftCable(usize),
     /// A winch has taken in its whole cable; its driven coordinate.
-    TakenIn(usize),
+    WinchEmpty(usize),
     /// An element of a rod is bent or twisted beyond what its frames hold: the rod, among the bodies, and the element.
-    Overbent(usize, usize),
+    ElementOverDeformed(usize, usize),
     /// It is off the constraints and cannot be brought back.
-    Broken,
+    ConstraintsViolated,
     /// A driven coordinate jumps; its index.
     Jumped(usize),
     /// A driven coordinate has no value.
@@ -126,7 +126,7 @@ pub struct Model<'a, const D: usize = 2> {
     slopes: &'a [[f64; 2]],
     start: f64,
     /// Scratch of the system.
-    pub work: &'a mut Work<D>,
+    pub work: &'a mut Workspace<D>,
     pub(in crate::system) time: f64,
     /// The kink or jump that ends the stretch under way.
     pub(in crate::system) crossing: Option<f64>,
@@ -140,7 +140,7 @@ impl<'a, const D: usize> Model<'a, D> {
     pub fn new(
         system: &'a System<D>,
         inputs: &'a [f64],
-        work: &'a mut Work<D>,
+        work: &'a mut Workspace<D>,
         state: &State,
     ) -> Self {
         work.resume(state);
@@ -443,18 +443,18 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         self.renew_beyond(state, RENEWED)
     }
 
-    fn accepted(&mut self, state: &mut State) -> Accepted {
+    fn accepted(&mut self, state: &mut State) -> StepOutcome {
         if !self.system.is_projected() {
             return self.count(state);
         }
         self.work.rank.reach(&state.coordinates);
         if !self.project(state) {
-            return Accepted::Broken;
+            return StepOutcome::ConstraintsViolated;
         }
         self.system.watch_rank(state.time, self.work);
         self.system.stop_blocked(state, self.work);
         match self.count(state) {
-            Accepted::AsIs => Accepted::Moved,
+            StepOutcome::AsIs => StepOutcome::Moved,
             other => other,
         }
     }
@@ -475,7 +475,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         self.enter(from, until)
     }
 
-    fn end_stretch(&mut self, state: &mut State) -> Accepted {
+    fn end_stretch(&mut self, state: &mut State) -> StepOutcome {
         self.leave(state)
     }
 }

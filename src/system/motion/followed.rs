@@ -1,12 +1,12 @@
 //! What a state keeps beside coordinates and rates: driven motions, angles over full turns, slides, joints that have let go.
 
-use super::dynamics::{Accepted, Model};
+use super::dynamics::{Model, StepOutcome};
 use crate::system::State;
 use crate::system::joints::ConstraintKind;
 
 impl<const D: usize> Model<'_, D> {
     /// Counts angles on, follows slides and driven motions.
-    pub fn count(&mut self, state: &mut State) -> Accepted {
+    pub fn count(&mut self, state: &mut State) -> StepOutcome {
         let system = self.system;
         for (told, is_released) in state.released.iter_mut().zip(&self.work.released) {
             *told = f64::from(u8::from(*is_released));
@@ -15,14 +15,14 @@ impl<const D: usize> Model<'_, D> {
             *driven = course.orders(state.time);
         }
         if let Some(drive) = system.taken_in(self.work) {
-            return Accepted::TakenIn(drive);
+            return StepOutcome::WinchEmpty(drive);
         }
         if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains().is_empty() {
-            return Accepted::AsIs;
+            return StepOutcome::AsIs;
         }
         system.forward_kinematics(state.time, &state.coordinates, None, self.work);
         if let Some((body, element)) = system.overbent(&self.work.x) {
-            return Accepted::Overbent(body, element);
+            return StepOutcome::ElementOverDeformed(body, element);
         }
         for (i, angle) in system.angles.iter().enumerate() {
             state.angles[i] = angle.value(&self.work.x, self.work.angles[i]);
@@ -39,12 +39,12 @@ impl<const D: usize> Model<'_, D> {
             if !is_released && !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
                 let joint = constraint.joint.unwrap_or(0);
                 state.copy_from(&self.work.before);
-                return Accepted::RanOff(joint);
+                return StepOutcome::SliderLeftCable(joint);
             }
         }
         if !system.slides.is_empty() {
             self.work.before.copy_from(state);
         }
-        Accepted::AsIs
+        StepOutcome::AsIs
     }
 }

@@ -14,7 +14,7 @@ use crate::system::end::{End, coupling};
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::signal::Drive;
-use crate::system::{CableChain, LumpedMass, System, Work};
+use crate::system::{LineChain, LumpedMass, System, Workspace};
 
 impl<const D: usize> System<D> {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
@@ -23,7 +23,7 @@ impl<const D: usize> System<D> {
         time: f64,
         q: &[f64],
         v: Option<&[f64]>,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) {
         let clock = self.clock(time, work);
         let mut trajectories = work.trajectories.iter();
@@ -62,7 +62,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Puts nodal rates into `work`; what drives them is that of the last [`System::forward_kinematics`].
-    pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Work<D>) {
+    pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Workspace<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
         self.add_driven(&work.targets, 1, &mut work.v);
         self.lengthen_rates(work);
@@ -86,7 +86,11 @@ impl<const D: usize> System<D> {
         }
     }
 
-    pub(in crate::system) fn instant<'a>(&'a self, time: f64, work: &'a Work<D>) -> Instant<'a, D> {
+    pub(in crate::system) fn instant<'a>(
+        &'a self,
+        time: f64,
+        work: &'a Workspace<D>,
+    ) -> Instant<'a, D> {
         Instant {
             time: self.clock(time, work),
             inputs: &work.inputs,
@@ -102,7 +106,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Total force on the nodes in `work`, but for constraints, and what damping of cables takes out.
-    pub(in crate::system) fn forces(&self, time: f64, work: &mut Work<D>) {
+    pub(in crate::system) fn forces(&self, time: f64, work: &mut Workspace<D>) {
         let mut force = std::mem::take(&mut work.f);
         force.copy_from_slice(&self.weight);
         work.dissipated = 0.0;
@@ -140,8 +144,8 @@ impl<const D: usize> System<D> {
     }
 
     /// Generalized forces `T^T (f - M G c'')` of the nodal forces in `work`, which stay.
-    pub(in crate::system) fn reduce(&self, work: &mut Work<D>, a: &mut [f64]) {
-        let change = |sign: f64, work: &mut Work<D>| {
+    pub(in crate::system) fn reduce(&self, work: &mut Workspace<D>, a: &mut [f64]) {
+        let change = |sign: f64, work: &mut Workspace<D>| {
             for (driven, [_, _, second]) in self.driven.iter().zip(&work.targets) {
                 add(&driven.inertia, sign * second, &mut work.f);
             }
@@ -161,14 +165,14 @@ impl<const D: usize> System<D> {
     }
 
     /// Tangent at the state in `work`, with the multipliers of its last acceleration.
-    pub(in crate::system) fn assemble(&self, time: f64, work: &mut Work<D>) {
+    pub(in crate::system) fn assemble(&self, time: f64, work: &mut Workspace<D>) {
         let assembly = &self.elimination.assembly;
         let clock = self.clock(time, work);
         if !self.has_no_frames() {
             self.add_multiplied(work);
         }
         self.set_base(work);
-        let Work { tangent, x, v, .. } = work;
+        let Workspace { tangent, x, v, .. } = work;
         let (drives, travel, angles) = (&work.drives, &work.travel, &work.angles);
         tangent.clear();
         let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
@@ -258,7 +262,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.supply`.
-    pub(in crate::system) fn add_multiplied(&self, work: &mut Work<D>) {
+    pub(in crate::system) fn add_multiplied(&self, work: &mut Workspace<D>) {
         let mut sum = std::mem::take(&mut work.supply);
         sum.copy_from_slice(&work.f);
         let view = self.view(work);
@@ -272,7 +276,7 @@ impl<const D: usize> System<D> {
 
     /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.supply`:
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
-    pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work<D>) {
+    pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Workspace<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
         self.shorten(&work.drives, &mut work.other);
         self.frames.place_changes(&work.x, &mut work.other);
@@ -295,7 +299,12 @@ impl<const D: usize> System<D> {
 
     /// Power that comes in through loads and motions and that is dissipated, W, at the state, forces and
     /// accelerations in place.
-    pub(in crate::system) fn powers(&self, time: f64, a: &[f64], work: &mut Work<D>) -> [f64; 2] {
+    pub(in crate::system) fn powers(
+        &self,
+        time: f64,
+        a: &[f64],
+        work: &mut Workspace<D>,
+    ) -> [f64; 2] {
         if !self.drives.is_empty() {
             self.supply(a, work);
         }
@@ -412,7 +421,7 @@ impl<const D: usize> System<D> {
 /// Adds the mass of cables and of what is lumped at points, times a matrix over the axes, to a matrix over the free
 /// coordinates.
 pub(in crate::system) fn add_mass<const D: usize>(
-    (chains, lumped_masses): (&[CableChain<D>], &[LumpedMass]),
+    (chains, lumped_masses): (&[LineChain<D>], &[LumpedMass]),
     axes: &SMatrix<f64, D, D>,
     assembly: &Assembly<D>,
     matrix: &mut Matrix<f64>,

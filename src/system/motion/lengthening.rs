@@ -6,7 +6,7 @@ use crate::body::{Node, NodeBlock, map_node};
 use crate::elements::Nodal;
 use crate::math::jet::Number;
 use crate::system::winch::Length;
-use crate::system::{System, Winch, Work};
+use crate::system::{System, Winch, Workspace};
 
 /// Part of the reference length below which a cable cannot be taken in.
 const SHORTEST: f64 = 1e-3;
@@ -50,7 +50,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes positions for `x_ref + u` to `x_ref + s u`.
-    pub(super) fn lengthen(&self, work: &mut Work<D>) {
+    pub(super) fn lengthen(&self, work: &mut Workspace<D>) {
         for (_, node, now) in self.lengthened(&work.drives) {
             let root = now.root[0];
             change(&mut work.x[node], &self.reference[node], |x, from| {
@@ -60,7 +60,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes rates from `u'` to `s u' + s' u` at the positions in `work`.
-    pub(super) fn lengthen_rates(&self, work: &mut Work<D>) {
+    pub(super) fn lengthen_rates(&self, work: &mut Workspace<D>) {
         for (_, node, now) in self.lengthened(&work.drives) {
             let ([root, rate, _], way) = (now.root, self.way(node, &work.x, &now));
             change(&mut work.v[node], &way, |v, u| root * v + rate * u);
@@ -68,7 +68,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes rates of nodes for `u'` back from `x'` at the positions in `work`.
-    pub(in crate::system) fn shorten_rates(&self, work: &Work<D>, v: &mut [Node<D>]) {
+    pub(in crate::system) fn shorten_rates(&self, work: &Workspace<D>, v: &mut [Node<D>]) {
         for (_, node, now) in self.lengthened(&work.drives) {
             let ([root, rate, _], way) = (now.root, self.way(node, &work.x, &now));
             change(&mut v[node], &way, |v, u| (v - rate * u) / root);
@@ -144,14 +144,14 @@ impl<const D: usize> System<D> {
     }
 
     /// The driven coordinate of a winch that has taken in its whole cable at the configuration in `work`.
-    pub(super) fn taken_in(&self, work: &Work<D>) -> Option<usize> {
+    pub(super) fn taken_in(&self, work: &Workspace<D>) -> Option<usize> {
         let shortest =
             |winch: &&Winch<D>| work.drives[winch.drive][0] <= (SHORTEST - 1.0) * winch.length;
         self.winches.iter().find(shortest).map(|winch| winch.drive)
     }
 
     /// The driven coordinate of a winch that has paid out cable at the configuration in `work`, and how much, m.
-    pub fn begun(&self, work: &Work<D>) -> Option<(usize, f64)> {
+    pub fn begun(&self, work: &Workspace<D>) -> Option<(usize, f64)> {
         self.winches.iter().find_map(|winch| {
             let [travel, ..] = work.drives[winch.drive];
             (travel.abs() > BEGUN * winch.length).then_some((winch.drive, travel))

@@ -15,7 +15,7 @@ use crate::body::{Jacobian, Node, SparseRows, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::joints::{Constraint, View};
-use crate::system::{System, Work};
+use crate::system::{System, Workspace};
 
 /// Most iterations of a projection.
 const ITERATIONS: usize = 20;
@@ -62,7 +62,7 @@ impl<const D: usize> ConstraintRow<'_, D> {
 
 impl<const D: usize> System<D> {
     /// Fills in the Jacobian at the nodal coordinates in `work`, unless it is that already.
-    pub(super) fn jacobians(&self, work: &mut Work<D>) {
+    pub(super) fn jacobians(&self, work: &mut Workspace<D>) {
         if !work.outdates_jacobian() {
             return;
         }
@@ -93,7 +93,7 @@ impl<const D: usize> System<D> {
         time: f64,
         q: &[f64],
         v: Option<&[f64]>,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         mut visit: impl FnMut(ConstraintRow<'_, D>),
     ) {
         self.forward_kinematics(time, q, v, work);
@@ -111,7 +111,7 @@ impl<const D: usize> System<D> {
     }
 
     /// The state in `work` as constraints see it.
-    pub(in crate::system) fn view<'a>(&'a self, work: &'a Work<D>) -> View<'a, D> {
+    pub(in crate::system) fn view<'a>(&'a self, work: &'a Workspace<D>) -> View<'a, D> {
         View {
             x: &work.x,
             v: &work.v,
@@ -145,7 +145,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`, and finds multipliers.
-    pub(in crate::system) fn constrain(&self, work: &mut Work<D>, a: &mut [f64]) {
+    pub(in crate::system) fn constrain(&self, work: &mut Workspace<D>, a: &mut [f64]) {
         self.jacobians(work);
         self.ask_accelerations(work);
         work.jacobian.factor(RANK);
@@ -156,7 +156,11 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes the part of `q` out that constraints do not allow where the last acceleration was.
-    pub(in crate::system) fn project_on_tangent_plane(&self, work: &mut Work<D>, q: &mut [f64]) {
+    pub(in crate::system) fn project_on_tangent_plane(
+        &self,
+        work: &mut Workspace<D>,
+        q: &mut [f64],
+    ) {
         if work.is_without_multipliers {
             work.right.fill(0.0);
             self.bring_tree(work, q);
@@ -166,7 +170,7 @@ impl<const D: usize> System<D> {
     }
 
     /// What constraints ask of accelerations, into `work.right`.
-    pub(in crate::system) fn ask_accelerations(&self, work: &mut Work<D>) {
+    pub(in crate::system) fn ask_accelerations(&self, work: &mut Workspace<D>) {
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
         let is_still = self.driven.is_empty() && self.winches.is_empty();
         let is_driven = !(is_still && self.has_no_frames());
@@ -202,7 +206,7 @@ impl<const D: usize> System<D> {
         &self,
         time: f64,
         q: &mut [f64],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) -> f64 {
         let (mut before, mut rank) = (f64::INFINITY, RANK);
         for _ in 0..ITERATIONS {
@@ -228,7 +232,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Projects velocities onto the constraints at the positions and drives in `work`.
-    pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
+    pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Workspace<D>) {
         self.prepare(work);
         self.missing_rates(v, work);
         self.correct(v, work, (2, RANK));
@@ -238,26 +242,26 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes velocities for what is missing. Returns the largest residual, relative to the size of its constraint, 1/s.
-    fn missing_rates(&self, v: &[f64], work: &mut Work<D>) -> f64 {
+    fn missing_rates(&self, v: &[f64], work: &mut Workspace<D>) -> f64 {
         self.rate_kinematics(v, work);
         self.missing(work, false)
     }
 
     /// What corrections are found with: the factors of the tree that constraints make, or the Jacobian.
-    fn prepare(&self, work: &mut Work<D>) {
+    fn prepare(&self, work: &mut Workspace<D>) {
         if !self.factor_tree(work) {
             self.jacobians(work);
         }
     }
 
     /// Whether all constraints count where corrections were found last.
-    fn has_full_rank(&self, work: &Work<D>) -> bool {
+    fn has_full_rank(&self, work: &Workspace<D>) -> bool {
         work.is_tree || work.jacobian.has_full_rank()
     }
 
     /// Takes the residuals of positions or rates at what is in `work` for what is missing. Returns the largest one, relative
     /// to the size of its constraint.
-    fn missing(&self, work: &mut Work<D>, is_position: bool) -> f64 {
+    fn missing(&self, work: &mut Workspace<D>, is_position: bool) -> f64 {
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
         self.fill_right(
@@ -283,7 +287,7 @@ impl<const D: usize> System<D> {
 
     /// Adds what is missing to first order, with the Jacobian in `work`, in so many passes and by rows that others
     /// leave so much of.
-    fn correct(&self, q: &mut [f64], work: &mut Work<D>, (passes, rank): (usize, f64)) {
+    fn correct(&self, q: &mut [f64], work: &mut Workspace<D>, (passes, rank): (usize, f64)) {
         let mut change = std::mem::take(&mut work.a);
         change.fill(0.0);
         if work.is_tree {

@@ -7,7 +7,7 @@ use crate::body::{Jacobian, no_node};
 use crate::math::sparse::{graph, parts};
 use crate::math::vector::dot;
 use crate::system::joints::{Constraint, ConstraintKind};
-use crate::system::{State, System, Work};
+use crate::system::{State, System, Workspace};
 
 /// Part of a row of the Jacobian below which others give it exactly, but for the residuals of the state.
 const EXACT: f64 = 1e-6;
@@ -165,7 +165,7 @@ impl<const D: usize> System<D> {
 
     /// Looks for constraints that do not count at an accepted state, at the configuration in `work`. Those that others give
     /// exactly are none of them: where as many constraints count as anywhere, and others leave nothing of the rest.
-    pub(in crate::system) fn watch_rank(&self, time: f64, work: &mut Work<D>) {
+    pub(in crate::system) fn watch_rank(&self, time: f64, work: &mut Workspace<D>) {
         if self.constraints.is_empty() || work.is_tree {
             return;
         }
@@ -196,7 +196,7 @@ impl<const D: usize> System<D> {
     /// Takes out of the velocities of a state that was just accepted what leads where constraints do not let bodies go. At a dead point such a
     /// velocity satisfies all constraints to first order: it grows with the forces while positions are brought back after every
     /// step.
-    pub(in crate::system) fn stop_blocked(&self, state: &mut State, work: &mut Work<D>) {
+    pub(in crate::system) fn stop_blocked(&self, state: &mut State, work: &mut Workspace<D>) {
         let watch = &mut work.rank;
         let passed = state.time - watch.accepted;
         watch.accepted = state.time;
@@ -226,7 +226,7 @@ impl<const D: usize> System<D> {
     }
 
     /// What did not count at accepted states since the last call, but for what was told before, and since when (s).
-    pub fn newly_singular(&self, work: &mut Work<D>) -> Option<(f64, Held)> {
+    pub fn newly_singular(&self, work: &mut Workspace<D>) -> Option<(f64, Held)> {
         let watch = &mut work.rank;
         let time = watch.time.take()?;
         let words = &watch.words;
@@ -245,7 +245,7 @@ impl<const D: usize> System<D> {
 
     /// What holds, at least in part, what others hold already at a state, and bodies that need not be kept rigid, since joints
     /// do. What is told to hold nearly so is not told again.
-    pub fn redundant_at(&self, state: &State, work: &mut Work<D>) -> Redundant {
+    pub fn redundant_at(&self, state: &State, work: &mut Workspace<D>) -> Redundant {
         let dependent = self.dependent(RANK, state, work);
         let released = self.released_rows(work);
         work.rank.keep(&work.jacobian, released);
@@ -283,7 +283,7 @@ impl<const D: usize> System<D> {
     }
 
     /// What is held by others at a state but for less than a part, relative, and not everywhere.
-    pub fn held_within(&self, part: f64, state: &State, work: &mut Work<D>) -> Held {
+    pub fn held_within(&self, part: f64, state: &State, work: &mut Workspace<D>) -> Held {
         let rows = self.dependent(part, state, work);
         let mut held = self.holding(rows);
         (held.holders).retain(|holder| !self.redundant.contains(holder));
@@ -291,7 +291,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Constraints of which others leave less than a part.
-    fn dependent(&self, part: f64, state: &State, work: &mut Work<D>) -> Vec<usize> {
+    fn dependent(&self, part: f64, state: &State, work: &mut Workspace<D>) -> Vec<usize> {
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
         self.jacobians(work);
@@ -302,7 +302,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Number of constraints whose joints have let go.
-    fn released_rows(&self, work: &Work<D>) -> usize {
+    fn released_rows(&self, work: &Workspace<D>) -> usize {
         let constraints = self.constraints.iter();
         constraints
             .filter(|of| of.is_released(&work.released))

@@ -2,7 +2,7 @@
 
 use crate::body::{Derivative, Node};
 use crate::math::jet::Number;
-use crate::system::{State, System, Work};
+use crate::system::{State, System, Workspace};
 
 impl<const D: usize> System<D> {
     /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
@@ -33,7 +33,7 @@ impl<const D: usize> System<D> {
 
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
     /// angular velocities rates.
-    pub(in crate::system) fn to_rotations(&self, work: &mut Work<D>, q: &mut [f64]) {
+    pub(in crate::system) fn to_rotations(&self, work: &mut Workspace<D>, q: &mut [f64]) {
         if self.has_no_frames() {
             return;
         }
@@ -42,7 +42,7 @@ impl<const D: usize> System<D> {
     }
 
     /// The configuration is that in which the tangent is made.
-    pub(in crate::system) fn set_base(&self, work: &mut Work<D>) {
+    pub(in crate::system) fn set_base(&self, work: &mut Workspace<D>) {
         work.tangent.stages.set_base(&work.x);
         work.base_turns.copy_from_slice(&work.turns);
         for stage in &mut work.stages {
@@ -51,7 +51,7 @@ impl<const D: usize> System<D> {
     }
 
     /// The configuration is that of a stage.
-    pub(in crate::system) fn set_stage(&self, stage: usize, work: &mut Work<D>) {
+    pub(in crate::system) fn set_stage(&self, stage: usize, work: &mut Workspace<D>) {
         let assembly = &self.elimination.assembly;
         work.tangent.stages.set(assembly, stage, &work.x);
         let kept = work.stages[1 + stage].iter_mut().zip(&work.carries);
@@ -66,7 +66,12 @@ impl<const D: usize> System<D> {
     /// (from 1 on). Taken for each other, corrections would leave constraints and stiff directions by as much as bodies and sections
     /// have turned from the frames that the state holds. Between stages inertia is linear in `q`: all of them change as where the tangent
     /// was made, but for sections of beams, whose shear is stiffer than they are inert.
-    pub(in crate::system) fn to_tangent(&self, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
+    pub(in crate::system) fn to_tangent(
+        &self,
+        stage: usize,
+        work: &mut Workspace<D>,
+        q: &mut [f64],
+    ) {
         if !self.has_no_frames() {
             self.frames.to_spins(&work.base_turns, q);
             self.change_at(Derivative::Back, stage, work, q);
@@ -77,7 +82,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn back_from_tangent(
         &self,
         stage: usize,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         q: &mut [f64],
     ) {
         if !self.has_no_frames() {
@@ -86,7 +91,7 @@ impl<const D: usize> System<D> {
         }
     }
 
-    fn change_at(&self, order: Derivative, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
+    fn change_at(&self, order: Derivative, stage: usize, work: &mut Workspace<D>, q: &mut [f64]) {
         self.change_carried(work, q, |work| {
             let carries = &work.stages[stage];
             (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
@@ -95,7 +100,7 @@ impl<const D: usize> System<D> {
 
     /// Takes the part out of second derivatives of `q` that constraints, which see small rotations, do not allow where the last acceleration
     /// was.
-    pub(in crate::system) fn take_out_normal(&self, work: &mut Work<D>, q: &mut [f64]) {
+    pub(in crate::system) fn take_out_normal(&self, work: &mut Workspace<D>, q: &mut [f64]) {
         if !self.has_no_frames() {
             self.frames.to_spins(&work.turns, q);
             self.turn_carried(Derivative::Back, work, q);
@@ -105,7 +110,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Angular accelerations become second derivatives of rotations.
-    pub(in crate::system) fn to_second(&self, work: &mut Work<D>, a: &mut [f64]) {
+    pub(in crate::system) fn to_second(&self, work: &mut Workspace<D>, a: &mut [f64]) {
         if self.has_no_frames() {
             return;
         }
@@ -114,14 +119,19 @@ impl<const D: usize> System<D> {
     }
 
     /// Changes of `q` that stand for spins of carried frames, or second derivatives, become those of their rotations.
-    fn turn_carried(&self, order: Derivative, work: &mut Work<D>, q: &mut [f64]) {
+    fn turn_carried(&self, order: Derivative, work: &mut Workspace<D>, q: &mut [f64]) {
         self.change_carried(work, q, |work| {
             (self.frames).turn_carried(order, &work.carries, &work.other, &mut work.y);
         });
     }
 
     /// Changes what stands in `q` for carried frames: among the free coordinates `y`, with `other` over the nodes.
-    fn change_carried(&self, work: &mut Work<D>, q: &mut [f64], change: impl Fn(&mut Work<D>)) {
+    fn change_carried(
+        &self,
+        work: &mut Workspace<D>,
+        q: &mut [f64],
+        change: impl Fn(&mut Workspace<D>),
+    ) {
         if self.frames.carried().is_empty() {
             return;
         }
@@ -136,7 +146,7 @@ impl<const D: usize> System<D> {
         &self,
         state: &mut State,
         size: f64,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) -> bool {
         if self.has_no_frames() {
             return false;

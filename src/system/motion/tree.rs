@@ -9,8 +9,8 @@ use nalgebra::Vector3;
 use crate::body::{Articulated, Frame, Link, no_node};
 use crate::math::space::{Vector, components, moment};
 use crate::system::end::End;
-use crate::system::joints::{Constraint, ConstraintKind, HeldRow, Target, View};
-use crate::system::{System, Work};
+use crate::system::joints::{Constraint, ConstraintKind, LinearConstraint, Target, View};
+use crate::system::{System, Workspace};
 
 /// The point that a joint holds.
 #[derive(Clone, Debug)]
@@ -194,7 +194,7 @@ fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
         }
         let pair = &mut pairs[index];
         match &constraint.kind {
-            ConstraintKind::HeldRow(held) => {
+            ConstraintKind::LinearConstraint(held) => {
                 let goes_on = pair.ends.is_none_or(|ends| ends == held.ends);
                 if !goes_on || !holds_point(held, pair.pins.len()) || pair.pins.len() == 3 {
                     return None;
@@ -224,7 +224,7 @@ fn body<const D: usize>(system: &System<D>, end: &End<D>) -> Option<Option<usize
 }
 
 /// Whether a row holds a point of the second end at that of the first, along this axis.
-fn holds_point<const D: usize>(held: &HeldRow<D>, axis: usize) -> bool {
+fn holds_point<const D: usize>(held: &LinearConstraint<D>, axis: usize) -> bool {
     let start = match held.ends[0] {
         End::Ground(point) => point.get(axis).copied(),
         End::Body(_) => Some(0.0),
@@ -253,7 +253,7 @@ impl<const D: usize> System<D> {
 
     /// Factors the tree at the nodal coordinates in `work`, unless it is that already. False where there is no tree, or where
     /// turns that a joint holds depend on each other: then multipliers are to be used.
-    pub(in crate::system) fn factor_tree(&self, work: &mut Work<D>) -> bool {
+    pub(in crate::system) fn factor_tree(&self, work: &mut Workspace<D>) -> bool {
         let Some(tree) = self.tree() else {
             return false;
         };
@@ -282,7 +282,7 @@ impl<const D: usize> System<D> {
 
     /// Changes `q` by the least that makes its products with the rows of the Jacobian what `work.right` says, with the factors
     /// of the tree.
-    pub(in crate::system) fn bring_tree(&self, work: &mut Work<D>, q: &mut [f64]) {
+    pub(in crate::system) fn bring_tree(&self, work: &mut Workspace<D>, q: &mut [f64]) {
         let Some(tree) = self.tree() else {
             return;
         };
@@ -337,7 +337,7 @@ impl<const D: usize> System<D> {
 
     /// Turns free accelerations into constrained ones as [`System::constrain`] does, but for multipliers; false where there is
     /// no tree.
-    pub(in crate::system) fn constrain_tree(&self, work: &mut Work<D>, a: &mut [f64]) -> bool {
+    pub(in crate::system) fn constrain_tree(&self, work: &mut Workspace<D>, a: &mut [f64]) -> bool {
         if !self.factor_tree(work) {
             return false;
         }

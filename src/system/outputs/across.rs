@@ -1,11 +1,11 @@
 //! How fast a line turns across itself.
 
 use crate::math::space::{Vector, components};
-use crate::system::{CableChain, Evaluation, System};
+use crate::system::{Evaluation, LineChain, System};
 
 impl<const D: usize> Evaluation<D> {
     /// Square of the largest angular velocity across the tangent, against space, at the nodes of a line, rad^2/s^2.
-    pub fn turning_across(&self, system: &System<D>, chain: &CableChain<D>) -> f64 {
+    pub fn turning_across(&self, system: &System<D>, chain: &LineChain<D>) -> f64 {
         let rotation = system.rotation;
         let count = chain.elements().len();
         let nodes = (0..=count).map(|k| match k {

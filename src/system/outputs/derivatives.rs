@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 use crate::body::{Node, add_node, carried_node, map_node, no_node, product, turned};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::system::signal::Drive;
-use crate::system::{Evaluation, State, System, Work};
+use crate::system::{Evaluation, State, System, Workspace};
 
 /// An evaluation with derivatives, and what it takes to make one.
 #[derive(Clone, Debug)]
@@ -76,7 +76,7 @@ impl<const D: usize> Derivatives<D> {
         (plain, state): (&Evaluation<D>, &State),
         slopes: &[[f64; 2]],
         order: usize,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) {
         let time = system.now(state.time);
         self.values.time = Jet::new(time, 1.0, 0.0);
@@ -140,7 +140,7 @@ impl<const D: usize> Derivatives<D> {
         system: &System<D>,
         plain: &Evaluation<D>,
         direction: &[f64],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) {
         self.values.time = Jet::from_re(plain.time);
         self.set_inputs(plain, |i| {
@@ -246,7 +246,7 @@ impl<const D: usize> Derivatives<D> {
         system: &System<D>,
         plain: &Evaluation<D>,
         k: usize,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) {
         self.pull(system, k, work);
         self.driven.fill([[Jet::from_re(0.0); D]; 2]);
@@ -295,7 +295,7 @@ impl<const D: usize> Derivatives<D> {
     }
 
     /// Derivative `k` of forces on the nodes; of moments on rigid bodies of space, along their axes.
-    fn pull(&mut self, system: &System<D>, k: usize, work: &mut Work<D>) {
+    fn pull(&mut self, system: &System<D>, k: usize, work: &mut Workspace<D>) {
         if system.frames.is_empty() && system.winches().is_empty() {
             return take(&self.f, k, &mut self.one);
         }
@@ -366,7 +366,7 @@ impl<const D: usize> Derivatives<D> {
 
     /// What constraints ask of derivative `k` of the accelerations; what their multipliers so far do to it as the
     /// Jacobian changes is taken out of the forces.
-    fn turn_constraints(&mut self, system: &System<D>, k: usize, work: &mut Work<D>) {
+    fn turn_constraints(&mut self, system: &System<D>, k: usize, work: &mut Workspace<D>) {
         let below = if k == 1 { &work.a } else { &self.q[0] };
         let moved = &mut self.moved[k - 1];
         system.elimination.expand(below, &mut work.y, moved);

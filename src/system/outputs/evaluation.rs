@@ -10,7 +10,7 @@ use crate::math::space::{Vector, axis, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
 use crate::system::motion::forces::weighted;
-use crate::system::{CableChain, End, Model, State, System, Work};
+use crate::system::{End, LineChain, Model, State, System, Workspace};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
@@ -84,7 +84,7 @@ impl<const D: usize> Evaluation<D> {
     }
 
     /// Computes coordinates and rates.
-    pub fn kinematics(&mut self, system: &System<D>, state: &State, work: &mut Work<D>) {
+    pub fn kinematics(&mut self, system: &System<D>, state: &State, work: &mut Workspace<D>) {
         work.resume(state);
         self.time = system.now(state.time);
         system.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
@@ -103,7 +103,7 @@ impl<const D: usize> Evaluation<D> {
         system: &System<D>,
         state: &State,
         inputs: &[f64],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) {
         self.dynamics_moving(system, state, (inputs, &[]), work);
     }
@@ -114,7 +114,7 @@ impl<const D: usize> Evaluation<D> {
         system: &System<D>,
         state: &State,
         (inputs, slopes): (&[f64], &[[f64; 2]]),
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) {
         self.set_inputs(inputs, slopes);
         let mut a = std::mem::take(&mut work.a);
@@ -347,7 +347,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Sum of the positions of a chain of its reference length, each times its mass, kg m.
-    fn sum_of(&self, chain: &CableChain<D>) -> Vector<D, N> {
+    fn sum_of(&self, chain: &LineChain<D>) -> Vector<D, N> {
         let mut sum = Vector::zeros();
         for (j, element) in chain.elements().iter().enumerate() {
             sum += chain.element(j, &self.x) * element.weight().map(N::of);
@@ -366,7 +366,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn element(
         &self,
         marker: &Marker,
-    ) -> Option<(&CableChain<D>, usize, f64)> {
+    ) -> Option<(&LineChain<D>, usize, f64)> {
         let first = self.bodies[marker.body].start;
         let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;
         let (j, xi) = match self.sections(chain) {
@@ -377,7 +377,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Bending and torsion of a rod whose line is this chain.
-    pub fn sections(&self, chain: &CableChain<D>) -> Option<&RodChain> {
+    pub fn sections(&self, chain: &LineChain<D>) -> Option<&RodChain> {
         let first = chain.nodes(0)[0];
         self.rod_chains().iter().find(|rod| rod.line() == first)
     }
@@ -386,7 +386,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn element_after(
         &self,
         marker: &Marker,
-    ) -> Option<(&CableChain<D>, usize, f64)> {
+    ) -> Option<(&LineChain<D>, usize, f64)> {
         let (chain, j, xi) = self.element(marker)?;
         let is_before = xi == 1.0 && j + 1 < chain.elements().len();
         Some(if is_before {

@@ -15,7 +15,7 @@ use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::rotation::axes;
 use crate::math::space::{Vector, components};
-use crate::system::{CableChain, Evaluation, System};
+use crate::system::{Evaluation, LineChain, System};
 
 /// Weight of section frames beside places in the fit of a rod or beam of space: what places leave open, the roll about a straight
 /// line, the frames decide, and nothing else noticeably.
@@ -54,7 +54,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn rigid_fit(
         &self,
         system: &System<D>,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         drawn: &[Node<D>],
     ) -> RigidFit<N> {
         let by = system.length_now(chain, &self.drives).longer_by();
@@ -75,7 +75,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Means of the places along a chain, as drawn and now, m.
-    fn means(&self, chain: &CableChain<D>, drawn: &[Node<D>]) -> (Vector3<f64>, Vector3<N>) {
+    fn means(&self, chain: &LineChain<D>, drawn: &[Node<D>]) -> (Vector3<f64>, Vector3<N>) {
         let (mut before, mut now) = (Vector3::zeros(), Vector3::zeros());
         let whole = 1.0 / chain.length();
         for_each_point(chain, |j, values, weight| {
@@ -89,7 +89,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     fn spatial(
         &self,
         system: &System<D>,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         drawn: &[Node<D>],
         (mut moments, inertia): (Matrix3<N>, Matrix3<f64>),
     ) -> [Vector3<N>; 3] {
@@ -166,7 +166,7 @@ impl<const D: usize> Evaluation<D> {
     pub fn elastic_displacement(
         &self,
         system: &System<D>,
-        chain: &CableChain<D>,
+        chain: &LineChain<D>,
         drawn: &[Node<D>],
     ) -> f64 {
         let fit = self.rigid_fit(system, chain, drawn);
@@ -181,7 +181,7 @@ impl<const D: usize> Evaluation<D> {
 
 /// Calls back with points along a chain: element, weights of its coordinates there, and length that the point stands for, m.
 fn for_each_point<const D: usize>(
-    chain: &CableChain<D>,
+    chain: &LineChain<D>,
     mut each: impl FnMut(usize, Vector4<f64>, f64),
 ) {
     for (j, element) in chain.elements().iter().enumerate() {
@@ -194,7 +194,7 @@ fn for_each_point<const D: usize>(
 
 /// Place along an element, m.
 fn place<const D: usize, N: Number>(
-    chain: &CableChain<D>,
+    chain: &LineChain<D>,
     j: usize,
     x: &[Node<D, N>],
     values: Vector4<N>,

@@ -20,7 +20,7 @@ use crate::elements::{Element, shape};
 use crate::math::jet::Number;
 use crate::math::rotation::rotation_vector;
 use crate::math::space::{Vector, components};
-use crate::system::{CableChain, Evaluation, System};
+use crate::system::{Evaluation, LineChain, System};
 
 /// Parts of an element between which its tangents are compared: more than half a turn is seen.
 const PARTS: u32 = 4;
@@ -30,7 +30,7 @@ const STIFFENING: f64 = 1.0 / 240.0;
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// What curvature is off times the square of the length of the element, m: the largest over the nodes between elements
     /// where nothing exerts a moment; over such ends where there are no such nodes, since there curvature vanishes.
-    pub fn missed(&self, system: &System<D>, chain: &CableChain<D>) -> N {
+    pub fn missed(&self, system: &System<D>, chain: &LineChain<D>) -> N {
         let (elements, x) = (chain.elements(), &self.x[..]);
         let length = |j: usize| elements[j].length();
         let curvature = |j: usize, xi: f64| elements[j].curvature_change(&chain.element(j, x), xi);
@@ -67,7 +67,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Displacement, m, that bending of whole elements makes of one end of a chain where the other one is held: the larger one of both
     /// ends. What elements are bent by as drawn, from these nodes, makes none.
-    pub fn bent_away(&self, system: &System<D>, chain: &CableChain<D>, drawn: &[Node<D>]) -> N {
+    pub fn bent_away(&self, system: &System<D>, chain: &LineChain<D>, drawn: &[Node<D>]) -> N {
         let x = &self.x[..];
         let place = |node: usize| Vector3::from(components(&Vector::from(x[node][0])));
         let [first, last] = [0, chain.elements().len() - 1].map(|j| chain.nodes(j));
@@ -92,7 +92,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
 /// Error of the rotation over an element, rad.
 fn bent_too_far<const D: usize, N: Number>(
-    chain: &CableChain<D>,
+    chain: &LineChain<D>,
     j: usize,
     x: &[Node<D, N>],
     drawn: &[Node<D>],
@@ -110,11 +110,7 @@ fn bent_too_far<const D: usize, N: Number>(
 }
 
 /// Rotation vector by which the tangent of an element turns from its first end to its last, rad.
-fn bend<const D: usize, N: Number>(
-    chain: &CableChain<D>,
-    j: usize,
-    x: &[Node<D, N>],
-) -> Vector3<N> {
+fn bend<const D: usize, N: Number>(chain: &LineChain<D>, j: usize, x: &[Node<D, N>]) -> Vector3<N> {
     let (e, length) = (chain.element(j, x), chain.element_length(j));
     let tangent = |k: u32| {
         let xi = N::of(f64::from(k) / f64::from(PARTS));

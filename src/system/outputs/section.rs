@@ -19,7 +19,7 @@ use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, GAUSS_5, Point, integrals_to};
 use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
 use crate::system::loads::{self, Load, Values};
-use crate::system::{CableChain, System};
+use crate::system::{LineChain, System};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force that the element before a node of a cable exerts on the one after it (report Eq. 14), N:
@@ -89,7 +89,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     fn integrated(
         &self,
         system: &System<D>,
-        (chain, j): (&CableChain<D>, usize),
+        (chain, j): (&LineChain<D>, usize),
         first: Vector<D, N>,
         xi: f64,
     ) -> (Vector<D, N>, Vector3<N>) {
@@ -132,7 +132,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub(super) fn lack(
         &self,
         system: &System<D>,
-        (chain, j): (&CableChain<D>, usize),
+        (chain, j): (&LineChain<D>, usize),
     ) -> (Nodal<D, N>, [Vector3<N>; 2]) {
         let part = &chain.elements()[j];
         let now = system.length_now(chain, &self.drives);
@@ -164,7 +164,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Absolute accelerations of the coordinates of an element, in the axes of the frame, m/s^2.
-    fn inertia(&self, system: &System<D>, (chain, j): (&CableChain<D>, usize)) -> Nodal<D, N> {
+    fn inertia(&self, system: &System<D>, (chain, j): (&LineChain<D>, usize)) -> Nodal<D, N> {
         let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let rate = system.rotation;
         let of = |k: usize| carried(rate, e.column(k).into(), v.column(k).into());
@@ -209,7 +209,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     fn moments(
         &self,
         system: &System<D>,
-        (chain, j): (&CableChain<D>, usize),
+        (chain, j): (&LineChain<D>, usize),
     ) -> Option<Values<3, N>> {
         let (at, first) = (self.instant(system), chain.nodes(0)[0]);
         let mut sum: Option<Values<3, N>> = None;

@@ -2,7 +2,7 @@
 
 use crate::math::eigen::symmetric_eigenvalues;
 use crate::math::vector::{dot, norm};
-use crate::system::{Dynamics, Model, State, System, Work};
+use crate::system::{Dynamics, Model, State, System, Workspace};
 
 /// Steps of the Lanczos iteration, and what is added to its largest value, which it nears from below.
 const STEPS: usize = 40;
@@ -15,7 +15,7 @@ const MARGIN: f64 = 1.02;
 pub fn fastest<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
 ) -> (f64, f64) {
     let n = state.rates.len();

@@ -15,7 +15,7 @@ use super::linearization::Linearization;
 use super::modes::{Mode, in_basis};
 use crate::math::krylov::{Krylov, Ritz};
 use crate::math::row_space::RowSpace;
-use crate::system::{System, Work};
+use crate::system::{System, Workspace};
 
 /// Residual, relative, at which a value counts as found.
 const CONVERGED: f64 = 1e-10;
@@ -49,7 +49,7 @@ pub(super) enum NotFound {
 /// basis, free of the roundoff of its sparse form.
 pub(super) fn lowest<const D: usize>(
     system: &System<D>,
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     linear: &Linearization<'_, D>,
     count: usize,
 ) -> Result<Vec<Mode>, NotFound> {
@@ -57,7 +57,7 @@ pub(super) fn lowest<const D: usize>(
     let scale = scale(system, work, count)?;
     let missing = NotFound::Missing(count);
     let mut shift = -0.1 * scale;
-    let is_below = |shift: f64, work: &mut Work<D>| below(system, work, shift) == Some(0);
+    let is_below = |shift: f64, work: &mut Workspace<D>| below(system, work, shift) == Some(0);
     for _ in 0..2 * DECADES {
         if is_below(shift, work) {
             break;
@@ -144,7 +144,7 @@ fn split(
 }
 
 /// Number of eigenvalues of `K` below; the shift gives way where it is one of them.
-fn below<const D: usize>(system: &System<D>, work: &mut Work<D>, shift: f64) -> Option<usize> {
+fn below<const D: usize>(system: &System<D>, work: &mut Workspace<D>, shift: f64) -> Option<usize> {
     let mut factor = |shift: f64| work.tangent.factor_below(&system.elimination, shift);
     factor(shift).or_else(|| factor(shift * (1.0 + 1e-9)))
 }
@@ -152,7 +152,7 @@ fn below<const D: usize>(system: &System<D>, work: &mut Work<D>, shift: f64) -> 
 /// Size of the eigenvalue number `count` of the symmetric `K`, to a factor of ten upwards.
 fn scale<const D: usize>(
     system: &System<D>,
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     count: usize,
 ) -> Result<f64, NotFound> {
     let n = system.coordinates();
@@ -180,7 +180,7 @@ fn scale<const D: usize>(
 /// Slowest eigenvalues `s` where `K` is symmetric and `R` vanishes, so many or more.
 pub(super) fn slowest_conservative<const D: usize>(
     system: &System<D>,
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     linear: &Linearization<'_, D>,
     count: usize,
 ) -> Result<Vec<Complex<f64>>, NotFound> {
@@ -201,7 +201,7 @@ pub(super) fn slowest_conservative<const D: usize>(
 /// Slowest eigenvalues `s` of `s^2 I + s R + K`, so many or more, of a pair the one with the positive imaginary part.
 pub(super) fn slowest<const D: usize>(
     system: &System<D>,
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     linear: &Linearization<'_, D>,
     count: usize,
 ) -> Result<Vec<Complex<f64>>, NotFound> {

@@ -23,7 +23,7 @@ use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::{General, Matrix};
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
-use crate::system::{System, Work};
+use crate::system::{System, Workspace};
 
 /// `K` and `R` over the free coordinates, and what constraints make of them: rows and columns of multipliers stand with
 /// `K`.
@@ -69,7 +69,7 @@ impl<const D: usize> System<D> {
     pub(super) fn linearization(
         &self,
         time: f64,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         at_rest: bool,
     ) -> Linearization<'_, D> {
         let pattern = self.elimination.assembly.pattern();
@@ -121,7 +121,7 @@ impl<const D: usize> System<D> {
 
     fn linearize_chains(
         &self,
-        work: &Work<D>,
+        work: &Workspace<D>,
         at_rest: bool,
         probe: &mut Probe<D>,
         made: &mut Linearization<'_, D>,
@@ -179,7 +179,7 @@ impl<const D: usize> System<D> {
     fn linearize_loads(
         &self,
         time: f64,
-        work: &Work<D>,
+        work: &Workspace<D>,
         at_rest: bool,
         probe: &mut Probe<D>,
         made: &mut Linearization<'_, D>,
@@ -250,7 +250,7 @@ impl<const D: usize> System<D> {
     /// rotations are measured about axes that stand still in the frame of the scene, those in which the body's lie at the
     /// instant. With a body's angular momentum `L = J w` its moment is `J p'' + (w J - J w - L) p'`, every vector as the
     /// matrix of its cross product.
-    fn linearize_frames(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
+    fn linearize_frames(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
         for frame in self.frames.list() {
@@ -283,7 +283,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Forces of a turning frame.
-    fn linearize_rotation(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
+    fn linearize_rotation(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
         if !self.is_turning() {
             return;
         }
@@ -343,7 +343,7 @@ impl<const D: usize> System<D> {
     }
 
     /// The Coriolis force on rigid bodies of space in a turning frame.
-    fn linearize_coriolis(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
+    fn linearize_coriolis(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
         let coriolis = spin_matrix::<D>(self.rotation) * 2.0;
@@ -368,7 +368,7 @@ impl<const D: usize> System<D> {
     /// `d (J^T lambda) / dx` of one constraint.
     fn linearize_constraint(
         &self,
-        work: &Work<D>,
+        work: &Workspace<D>,
         (constraint, lambda): (&Constraint<D>, f64),
         probe: &mut Probe<D>,
     ) -> Blocks {

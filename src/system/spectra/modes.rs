@@ -7,7 +7,7 @@ use super::iteration::{self, NotFound, SLOW};
 use super::linearization::Linearization;
 use super::spectrum::{MIDDLE, SpectrumError, at_rest, is_small};
 use crate::body::no_node;
-use crate::system::{Dynamics, Model, State, System, Work};
+use crate::system::{Dynamics, Model, State, System, Workspace};
 
 /// A natural mode without dampers.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub(super) fn in_basis<const D: usize>(
 pub fn modes<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
     count: usize,
 ) -> Result<Vec<Mode>, SpectrumError> {
@@ -80,7 +80,7 @@ pub fn modes<const D: usize>(
 pub fn damping_along<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
     ways: &[Vec<f64>],
 ) -> Vec<f64> {

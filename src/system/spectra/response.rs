@@ -1,7 +1,7 @@
 //! Slow responses about a state: displacements that grow as `e^(s t)` under forces that do.
 
 use crate::body::no_node;
-use crate::system::{Dynamics, Model, State, System, Work};
+use crate::system::{Dynamics, Model, State, System, Workspace};
 
 /// Solves `(s^2 I + K) d = a` for accelerations `a` that forces make at a state, without dampers and rates; `rate` is `s`, 1/s. Where
 /// `s` is far below all natural frequencies `d` is the static answer; what nothing holds moves by its inertia.
@@ -9,7 +9,7 @@ use crate::system::{Dynamics, Model, State, System, Work};
 pub fn slow_response<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
     rate: f64,
     accelerations: &mut [f64],

@@ -8,7 +8,7 @@ use crate::body::{Frames, Node, RodChain};
 use crate::elements::beam::VELOCITIES;
 use crate::elements::rod::Tangent;
 use crate::math::sparse::Matrix;
-use crate::system::{System, Work};
+use crate::system::{System, Workspace};
 
 /// A matrix over the velocities of an element of a rod.
 type Whole = SMatrix<f64, VELOCITIES, VELOCITIES>;
@@ -31,7 +31,7 @@ impl RodElastic<'_> {
 
 impl<const D: usize> System<D> {
     /// What forces on the axes that rods carry add where these turn.
-    pub(super) fn linearize_carried(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
+    pub(super) fn linearize_carried(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
         if self.frames.carried().is_empty() {
             return;
         }
@@ -48,7 +48,7 @@ impl<const D: usize> System<D> {
     /// What a scene that turns adds to the inertia of spins.
     pub(super) fn linearize_turning(
         &self,
-        work: &Work<D>,
+        work: &Workspace<D>,
         probe: &mut Probe<D>,
         made: &mut Linearization<'_, D>,
     ) {
@@ -78,7 +78,7 @@ impl<const D: usize> System<D> {
     /// Bending and torsion of rods, at rest.
     pub(super) fn linearize_rods<'a>(
         &'a self,
-        work: &Work<D>,
+        work: &Workspace<D>,
         at_rest: bool,
         made: &mut Linearization<'a, D>,
     ) {

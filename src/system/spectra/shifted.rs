@@ -13,7 +13,7 @@ use crate::math::row_space::RowSpace;
 use crate::math::space::Vector;
 use crate::math::sparse::{self, Factors, General};
 use crate::math::vector::dot;
-use crate::system::Work;
+use crate::system::Workspace;
 
 /// Factors of `s^2 I + s R + K` for one `s`.
 pub(super) struct Shifted<'a, const D: usize, T: ComplexField> {
@@ -33,7 +33,7 @@ impl<'a, const D: usize> Linearization<'a, D> {
     }
 
     /// Gives the solves of `work` the symmetric part of `K`, exactly, in place of the tangent of steps, which leaves small parts out.
-    pub fn hand_over(&self, work: &mut Work<D>) {
+    pub fn hand_over(&self, work: &mut Workspace<D>) {
         let pattern = self.elimination.assembly.pattern();
         (self.stiffness).symmetric_part(pattern, &mut work.tangent.stiffness);
     }

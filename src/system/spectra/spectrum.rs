@@ -8,7 +8,7 @@ use super::iteration::{self, NotFound};
 use super::linearization::Linearization;
 use crate::body::{Node, add_node, no_node};
 use crate::math::space::{Vector, components};
-use crate::system::{Dynamics, Model, State, System, Work};
+use crate::system::{Dynamics, Model, State, System, Workspace};
 
 /// Free coordinates up to which all eigenvalues are computed, with dense matrices; and up to which they are
 /// where this many times the number that is wanted exceeds them.
@@ -75,7 +75,7 @@ impl From<NotFound> for SpectrumError {
 pub fn linearized<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
 ) -> [DMatrix<f64>; 3] {
     let linear = at(system, inputs, work, state);
@@ -89,7 +89,7 @@ pub fn linearized<const D: usize>(
 fn at<'a, const D: usize>(
     system: &'a System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
 ) -> Linearization<'a, D> {
     let (q, v) = (&state.coordinates, &state.rates);
@@ -108,7 +108,7 @@ fn at<'a, const D: usize>(
 pub fn natural_frequencies<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
     count: usize,
 ) -> Result<Vec<f64>, SpectrumError> {
@@ -170,7 +170,7 @@ pub fn natural_frequencies<const D: usize>(
 pub fn eigenvalues<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
@@ -236,7 +236,7 @@ fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>
 /// whose equations change in time.
 fn refuse_paid_out<const D: usize>(
     system: &System<D>,
-    work: &Work<D>,
+    work: &Workspace<D>,
     at_rest: bool,
 ) -> Result<(), SpectrumError> {
     for winch in system.winches() {
@@ -312,7 +312,7 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
 pub(super) fn at_rest<'a, const D: usize>(
     system: &'a System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
 ) -> Result<Linearization<'a, D>, SpectrumError> {
     let rest = vec![0.0; state.rates.len()];

@@ -9,7 +9,7 @@ use crate::math::row_space::RowSpace;
 use crate::math::space::{Vector, components, vector};
 use crate::math::vector::{dot, norm};
 use crate::system::joints::View;
-use crate::system::{System, Work};
+use crate::system::{System, Workspace};
 
 /// Part of a unit displacement against a constraint up to which it is kept.
 const HELD: f64 = 1e-6;
@@ -47,7 +47,7 @@ impl<const D: usize> System<D> {
     /// What the turning of constraints adds to `K`.
     pub(super) fn add_turning(
         &self,
-        work: &Work<D>,
+        work: &Workspace<D>,
         at_rest: bool,
         made: &mut Linearization<'_, D>,
     ) {
@@ -85,7 +85,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Rates of some rows of the Jacobian, in `q`.
-    fn turning_rows(&self, work: &Work<D>, rows: &[usize]) -> Vec<Vec<f64>> {
+    fn turning_rows(&self, work: &Workspace<D>, rows: &[usize]) -> Vec<Vec<f64>> {
         let pairs = work.x.iter().zip(&work.v);
         let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
         let v = work.v.iter().map(|v| map_node(v, Jet::from_re));

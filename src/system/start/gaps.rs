@@ -9,7 +9,7 @@ use super::placement::Gap;
 use crate::body::{Node, NodeKind, product, turn_inner};
 use crate::math::space::{Vector, moment, rotated, spins};
 use crate::system::joints::{Constraint, ConstraintKind, Linear, View};
-use crate::system::{System, Work};
+use crate::system::{System, Workspace};
 
 impl<const D: usize> System<D> {
     /// Points of nodes, without what are axes.
@@ -60,7 +60,7 @@ impl<const D: usize> System<D> {
     }
 
     /// What is missing of every joint, by positions and by angles, beyond `least` relative to the size of the system.
-    pub(super) fn gaps_by_joint(&self, x: &[Node<D>], work: &Work<D>, least: f64) -> Vec<Gap> {
+    pub(super) fn gaps_by_joint(&self, x: &[Node<D>], work: &Workspace<D>, least: f64) -> Vec<Gap> {
         let size = self.extent(x);
         let gaps = self.gaps(x, work, size);
         // Squares of the sines of angles, or of lengths, and how many.
@@ -137,7 +137,7 @@ impl<const D: usize> System<D> {
     }
 
     /// What a row is more than it is to equal.
-    pub(super) fn gap_of(&self, linear: &Linear<D>, x: &[Node<D>], work: &Work<D>) -> f64 {
+    pub(super) fn gap_of(&self, linear: &Linear<D>, x: &[Node<D>], work: &Workspace<D>) -> f64 {
         if !self.is_seen(linear) {
             return 0.0;
         }
@@ -147,7 +147,7 @@ impl<const D: usize> System<D> {
     }
 
     /// What is missing of every row and constraint; lengths relative to `size`.
-    pub(super) fn gaps(&self, x: &[Node<D>], work: &Work<D>, size: f64) -> Vec<f64> {
+    pub(super) fn gaps(&self, x: &[Node<D>], work: &Workspace<D>, size: f64) -> Vec<f64> {
         let mut gaps = Vec::new();
         for linear in &self.linear {
             gaps.push(self.gap_of(linear, x, work) / linear_size(linear, size));
@@ -163,7 +163,12 @@ impl<const D: usize> System<D> {
     }
 
     /// Derivatives of the gaps by translations (relative to `size`) and turns of all bodies.
-    pub(super) fn rigid_jacobian(&self, x: &[Node<D>], work: &Work<D>, size: f64) -> DMatrix<f64> {
+    pub(super) fn rigid_jacobian(
+        &self,
+        x: &[Node<D>],
+        work: &Workspace<D>,
+        size: f64,
+    ) -> DMatrix<f64> {
         let count = self.linear.len() + self.all_constraints().count();
         let free = D + spins(D).len();
         let mut jacobian = DMatrix::zeros(count, free * self.bodies.len());
@@ -216,14 +221,14 @@ fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64
         | ConstraintKind::AngleBetween(_)
         | ConstraintKind::DrivenTurn(_)
         | ConstraintKind::DrivenOrientation(_) => 1.0,
-        ConstraintKind::HeldRow(row) if row.holds_direction() => 1.0,
+        ConstraintKind::LinearConstraint(row) if row.holds_direction() => 1.0,
         ConstraintKind::Perpendicular(right) if right.is_angle() => 1.0,
-        ConstraintKind::Related(related) if related.is_angle() => 1.0,
+        ConstraintKind::Coupler(related) if related.is_angle() => 1.0,
         ConstraintKind::Distance(_)
         | ConstraintKind::PointOnLine(_)
         | ConstraintKind::PointOnCurve(_)
-        | ConstraintKind::HeldRow(_)
+        | ConstraintKind::LinearConstraint(_)
         | ConstraintKind::Perpendicular(_)
-        | ConstraintKind::Related(_) => size,
+        | ConstraintKind::Coupler(_) => size,
     }
 }

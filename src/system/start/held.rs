@@ -6,11 +6,11 @@ use crate::math::function::Function;
 use crate::math::space::{Vector, carried};
 use crate::system::loads::Load;
 use crate::system::signal::Drive;
-use crate::system::{Instant, System, Work};
+use crate::system::{Instant, System, Workspace};
 
 /// How far joints are apart: what has to be added to the reference, and values of the constraints.
 #[derive(Clone, Debug, Default)]
-pub(in crate::system) struct Open<const D: usize> {
+pub(in crate::system) struct OpenGaps<const D: usize> {
     /// Change of the reference that holds the linear rows where they are, m.
     pub reference: Vec<Node<D>>,
     /// Values of the non-linear constraints.
@@ -20,7 +20,12 @@ pub(in crate::system) struct Open<const D: usize> {
 impl<const D: usize> System<D> {
     /// The same system with loads and motions held as they are at the time and under the inputs in
     /// `work`, and with the loads of the initial state where asked for.
-    pub(in crate::system) fn held(&self, time: f64, work: &Work<D>, with_initial: bool) -> Self {
+    pub(in crate::system) fn held(
+        &self,
+        time: f64,
+        work: &Workspace<D>,
+        with_initial: bool,
+    ) -> Self {
         let at = self.instant(time, work);
         let mut held = self.clone();
         if with_initial {
@@ -38,7 +43,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Scales gravity, the speed of rotation squared, and all loads but springs.
-    pub(in crate::system) fn scale_loads(&mut self, fraction: f64, work: &Work<D>) {
+    pub(in crate::system) fn scale_loads(&mut self, fraction: f64, work: &Workspace<D>) {
         for load in &mut self.loads {
             let at = Instant {
                 time: 0.0,
@@ -93,7 +98,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Holds joints apart by a fraction of their gaps.
-    pub(in crate::system) fn open(&mut self, open: &Open<D>, fraction: f64) {
+    pub(in crate::system) fn open(&mut self, open: &OpenGaps<D>, fraction: f64) {
         for (x, change) in self.reference.iter_mut().zip(&open.reference) {
             add_node(x, fraction, change);
         }

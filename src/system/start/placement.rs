@@ -8,14 +8,14 @@
 use nalgebra::{DVector, Vector3};
 
 use super::equilibrium;
-use super::held::Open;
+use super::held::OpenGaps;
 use crate::body::{Node, add_node, no_node};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins};
 use crate::system::instant::Instant;
 use crate::system::joints::{ConstraintKind, View};
 use crate::system::loads::Load;
-use crate::system::{CableChain, Dynamics, Model, State, System, Work};
+use crate::system::{Dynamics, LineChain, Model, State, System, Workspace};
 
 /// Most iterations.
 const ITERATIONS: usize = 200;
@@ -65,7 +65,7 @@ impl<const D: usize> System<D> {
         time: f64,
         inputs: &[f64],
         described: (&[Node<D>], &[Node<D>]),
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) -> Result<State, NotAssembled> {
         let mut state = self.blank_state(time);
         self.start_courses(&mut state, inputs);
@@ -105,7 +105,7 @@ impl<const D: usize> System<D> {
         &self,
         rates: &[Node<D>],
         inputs: &[f64],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         state: &mut State,
     ) -> bool {
         work.resume(state);
@@ -127,14 +127,14 @@ impl<const D: usize> System<D> {
     }
 
     /// Nodal coordinates of a state.
-    pub fn nodes_of(&self, state: &State, work: &mut Work<D>) -> Vec<Node<D>> {
+    pub fn nodes_of(&self, state: &State, work: &mut Workspace<D>) -> Vec<Node<D>> {
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
         work.x.clone()
     }
 
     /// Coordinates that come closest to nodal ones in the mass norm.
-    fn approach(&self, x: &[Node<D>], work: &mut Work<D>, state: &mut State) {
+    fn approach(&self, x: &[Node<D>], work: &mut Workspace<D>, state: &mut State) {
         let missing = difference(x, &work.x);
         if missing.iter().any(|m| *m != no_node()) {
             let mut q = std::mem::take(&mut state.coordinates);
@@ -149,13 +149,13 @@ impl<const D: usize> System<D> {
         &self,
         (nodes, x): (&[Node<D>], &[Node<D>]),
         inputs: &[f64],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         state: &mut State,
     ) -> Option<()> {
         if self.chains.is_empty() {
             return None;
         }
-        let mut open = Open {
+        let mut open = OpenGaps {
             reference: vec![no_node(); x.len()],
             offsets: Vec::new(),
         };
@@ -197,7 +197,7 @@ impl<const D: usize> System<D> {
     /// Size of the largest body, with what joins it: length of a cable, reach of the ends of joints from the centre
     /// of mass of a rigid body, length of a distance, m. 0 where there are only particles.
     pub fn body_size(&self) -> f64 {
-        let cables = self.chains.iter().map(CableChain::length);
+        let cables = self.chains.iter().map(LineChain::length);
         let joints = self.joints.iter().flat_map(|joint| {
             let reach = joint.ends.each_ref().map(|end| match end.marker() {
                 Some(marker) if marker.element.is_none() => marker.arm(),
@@ -215,7 +215,7 @@ impl<const D: usize> System<D> {
         (time, inputs): (f64, &[f64]),
         nodes: &[Node<D>],
         part: f64,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) -> Vec<Gap> {
         let mut state = self.blank_state(time);
         self.start_courses(&mut state, inputs);
@@ -232,7 +232,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn coordinates_of(
         &self,
         dx: &[Node<D>],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         q: &mut [f64],
     ) {
         work.f.fill(no_node());
@@ -250,7 +250,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn rates_of(
         &self,
         v: &mut [Node<D>],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         rates: &mut [f64],
     ) {
         // Before `coordinates_of`, which needs the same scratch.
@@ -275,7 +275,7 @@ impl<const D: usize> System<D> {
 
     /// Turns bodies, each about its centre, whose orientations are driven to where they are to be: conditions that are sines of
     /// angles lead there from less than a quarter of a turn away.
-    fn turn_driven(&self, x: &mut [Node<D>], work: &Work<D>) {
+    fn turn_driven(&self, x: &mut [Node<D>], work: &Workspace<D>) {
         for constraint in &self.constraints {
             let ConstraintKind::DrivenOrientation(driven) = &constraint.kind else {
                 continue;
@@ -321,7 +321,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Moves bodies as a whole until rows and constraints hold, or else to where the least of them is missing that was found.
-    fn fit(&self, x: &mut [Node<D>], work: &mut Work<D>) -> Result<(), NotAssembled> {
+    fn fit(&self, x: &mut [Node<D>], work: &mut Workspace<D>) -> Result<(), NotAssembled> {
         let (size, free) = (self.extent(x), D + spins(D).len());
         let mut best = f64::INFINITY;
         // Sum of squares of gaps where it is least, and where that is.

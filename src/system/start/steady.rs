@@ -10,7 +10,7 @@ use super::equilibrium::Turning;
 use crate::body::{Node, NodeKind, add_node, carried_node, no_node, product, turn_inner};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins, spun};
-use crate::system::{State, System, Work};
+use crate::system::{State, System, Workspace};
 
 /// Part of the largest entry below which motions and joints leave a field free.
 const FREE: f64 = 1e-9;
@@ -77,7 +77,7 @@ impl<const D: usize> System<D> {
         &self,
         state: &State,
         rates: &[Node<D>],
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
     ) -> Result<Steady<D>, NotSteady> {
         let x = self.nodes_of(state, work);
         let size = self.size();
@@ -125,7 +125,7 @@ impl<const D: usize> System<D> {
     /// What rows and constraints see of fields, and what they ask for.
     fn velocity_rows(
         &self,
-        work: &Work<D>,
+        work: &Workspace<D>,
         fields: &[Vec<Node<D>>],
     ) -> (DMatrix<f64>, DVector<f64>) {
         let mut rows: Vec<(Vec<f64>, f64)> = Vec::new();
@@ -211,7 +211,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Whether motions ask for the accelerations that a steady motion has.
-    fn keeps(&self, steady: &Steady<D>, x: &[Node<D>], work: &Work<D>) -> bool {
+    fn keeps(&self, steady: &Steady<D>, x: &[Node<D>], work: &Workspace<D>) -> bool {
         let square: f64 = steady.rate.iter().map(|rate| rate * rate).sum();
         let center = steady
             .turning()

@@ -17,7 +17,7 @@
 use super::newton::{Newton, seed};
 use super::{ROUNDINGS, Rest};
 use crate::body::{Node, NodeKind, no_node};
-use crate::system::{Dynamics, State, System, Work};
+use crate::system::{Dynamics, State, System, Workspace};
 
 /// Samples of roundoff.
 const SAMPLES: usize = 4;
@@ -72,7 +72,7 @@ fn worst(squares: &Squares) -> Option<Rest> {
 }
 
 /// Sizes of what the forces over the nodes are summed from, N.
-fn terms<const D: usize>(system: &System<D>, time: f64, work: &mut Work<D>) -> Vec<Node<D>> {
+fn terms<const D: usize>(system: &System<D>, time: f64, work: &mut Workspace<D>) -> Vec<Node<D>> {
     system.add_multiplied(work);
     let mut loads = vec![no_node(); work.x.len()];
     for load in &system.loads {
@@ -91,7 +91,7 @@ fn terms<const D: usize>(system: &System<D>, time: f64, work: &mut Work<D>) -> V
 }
 
 /// Sizes of the numbers that coordinates are summed from: places, m, and directions, which are near 1.
-fn sizes<const D: usize>(system: &System<D>, work: &Work<D>) -> Vec<Node<D>> {
+fn sizes<const D: usize>(system: &System<D>, work: &Workspace<D>) -> Vec<Node<D>> {
     let size = system.size();
     let node = |(node, x): (usize, &Node<D>)| {
         let mut sizes = x.map(|part| part.map(|x| x.abs().max(1.0)));
@@ -106,7 +106,7 @@ fn sizes<const D: usize>(system: &System<D>, work: &Work<D>) -> Vec<Node<D>> {
 /// A sample of what roundoff leaves, over `q`.
 fn rounded<const D: usize>(
     system: &System<D>,
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     (sizes, of_sizes): (&[Node<D>], &[f64]),
     (terms, of_terms): (&[Node<D>], &[f64]),
 ) -> Vec<f64> {
@@ -134,7 +134,7 @@ fn rounded<const D: usize>(
 /// Adds the squares of a force over `q` to those of the bodies.
 fn gather<const D: usize>(
     system: &System<D>,
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     force: &mut [f64],
     weight: f64,
     column: usize,

@@ -17,14 +17,14 @@ mod unsymmetric;
 
 use std::cell::Cell;
 
-use super::held::Open;
+use super::held::OpenGaps;
 use super::steady::Steady;
 use crate::body::Node;
 use crate::math::space::Vector;
 use crate::math::vector::norm;
 use crate::system::loads::Load;
-use crate::system::{Dynamics, Model, State, System, Work};
-use newton::{EDGE, Guard, Newton, stiffest};
+use crate::system::{Dynamics, Model, State, System, Workspace};
+use newton::{AcceptanceTest, EDGE, Newton, stiffest};
 
 /// Smallest step of the way.
 const SMALLEST: f64 = 1.0 / 256.0;
@@ -70,7 +70,7 @@ pub enum Failure {
     Correction(f64),
     /// A rod, among the bodies, with an element that a correction bent or twisted beyond what its frames hold, and which that is.
     #[error("an element is bent or twisted beyond what it holds")]
-    Overbent(usize, usize),
+    ElementOverDeformed(usize, usize),
     /// A body that moves away without end, among the bodies.
     #[error("a body moves away without end under the loads; expected bodies that are held")]
     Away(usize),
@@ -81,7 +81,7 @@ pub enum Failure {
     Restless,
     /// The work was done that is allowed.
     #[error("the work limit is reached; expected an equilibrium within it")]
-    Work,
+    Workspace,
     /// It ended where forces do not balance.
     #[error(
         "expected forces that cancel to roundoff, found {:.1e} {} left, {:.1e} times that", .0.size, .0.unit(), .0.relative()
@@ -138,7 +138,7 @@ pub struct Turning<const D: usize = 2> {
 pub fn find<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &mut State,
     (steady, most_work): (Option<Steady<D>>, f64),
 ) -> Result<Found, NotFound> {
@@ -150,7 +150,7 @@ pub fn find<const D: usize>(
     if let Some(Turning { rate, center }) = turning {
         held.turn(rate, center);
     }
-    let way = |fraction: f64, work: &Work<D>| {
+    let way = |fraction: f64, work: &Workspace<D>| {
         let mut part = held.clone();
         part.scale_loads(fraction, work);
         part
@@ -182,8 +182,8 @@ pub fn find<const D: usize>(
 pub(super) fn close<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    (open, described): (&Open<D>, &[Node<D>]),
-    work: &mut Work<D>,
+    (open, described): (&OpenGaps<D>, &[Node<D>]),
+    work: &mut Workspace<D>,
     state: &mut State,
 ) -> Result<Found, NotFound> {
     let mut held = system.held_at(inputs, work, state);
@@ -194,7 +194,7 @@ pub(super) fn close<const D: usize>(
         let stiffness = BENT * chain.axial_stiffness() * chain.length().powi(2);
         chain.stiffen(stiffness, described);
     }
-    let way = |fraction: f64, _: &Work<D>| {
+    let way = |fraction: f64, _: &Workspace<D>| {
         let mut part = held.clone();
         part.open(open, 1.0 - fraction);
         part
@@ -217,7 +217,7 @@ pub(super) fn close<const D: usize>(
 }
 
 impl<const D: usize> System<D> {
-    fn held_at(&self, inputs: &[f64], work: &mut Work<D>, state: &State) -> Self {
+    fn held_at(&self, inputs: &[f64], work: &mut Workspace<D>, state: &State) -> Self {
         let model = Model::new(self, inputs, work, state);
         self.forward_kinematics(state.time, &state.coordinates, None, model.work);
         let mut held = self.held(state.time, model.work, true);
@@ -270,8 +270,8 @@ impl Path<'_> {
     /// Follows systems from 0 to 1.
     fn follow<const D: usize>(
         &self,
-        way: impl Fn(f64, &Work<D>) -> System<D>,
-        work: &mut Work<D>,
+        way: impl Fn(f64, &Workspace<D>) -> System<D>,
+        work: &mut Workspace<D>,
         state: &mut State,
     ) -> Result<Found, NotFound> {
         let (mut reached, mut step) = (0.0, self.first);
@@ -313,19 +313,20 @@ impl Path<'_> {
                     state.copy_from(&from);
                     why = left;
                     step /= 2.0;
-                    if step < SMALLEST || why == Failure::Work {
+                    if step < SMALLEST || why == Failure::Workspace {
                         break;
                     }
                 }
             }
         }
-        if self.swings && !self.predicts && why != Failure::Work {
+        if self.swings && !self.predicts && why != Failure::Workspace {
             let whole = way(1.0, work);
             match self.with_newton(&whole, work, state, |newton, state| newton.swing(state)) {
                 Ok(found) => return Ok(found),
                 Err(error) => {
                     state.copy_from(&from);
-                    let is_known = matches!(why, Failure::Overbent(..) | Failure::Rest(_));
+                    let is_known =
+                        matches!(why, Failure::ElementOverDeformed(..) | Failure::Rest(_));
                     if !(is_known && error == Failure::Restless) {
                         why = error;
                     }
@@ -340,14 +341,14 @@ impl Path<'_> {
         &self,
         (before, next): (&System<D>, &System<D>),
         tries: Tries,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         (from, state): (&State, &mut State),
     ) -> Result<Found, Failure> {
         let guards = match next.is_conservative() {
-            true => [Guard::Turns, Guard::Potential],
-            false => [Guard::Turns, Guard::Transient],
+            true => [AcceptanceTest::Turns, AcceptanceTest::Potential],
+            false => [AcceptanceTest::Turns, AcceptanceTest::Transient],
         };
-        let start = |work: &mut Work<D>, state: &mut State| {
+        let start = |work: &mut Workspace<D>, state: &mut State| {
             state.copy_from(from);
             if self.predicts {
                 self.predict((before, next), work, state);
@@ -375,7 +376,7 @@ impl Path<'_> {
     fn with_newton<const D: usize, T>(
         &self,
         system: &System<D>,
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         state: &mut State,
         find: impl FnOnce(&mut Newton<'_, '_, D>, &mut State) -> T,
     ) -> T {
@@ -391,7 +392,7 @@ impl Path<'_> {
     fn predict<const D: usize>(
         &self,
         (before, next): (&System<D>, &System<D>),
-        work: &mut Work<D>,
+        work: &mut Workspace<D>,
         state: &mut State,
     ) {
         let least = smallest_shift(before, self.inputs, work, state);
@@ -407,7 +408,7 @@ impl Path<'_> {
 fn first_step<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
 ) -> f64 {
     if system.is_conservative() || system.rod_chains.is_empty() {
@@ -441,7 +442,7 @@ fn first_step<const D: usize>(
 fn smallest_shift<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
-    work: &mut Work<D>,
+    work: &mut Workspace<D>,
     state: &State,
 ) -> f64 {
     let mut model = Model::new(system, inputs, work, state);

@@ -9,12 +9,12 @@
 //! of tension structures by dynamic relaxation, Int. J. Space Structures 14 (1999) (kinetic damping); E. Hairer, C. Lubich,
 //! Energy-diminishing integration of gradient systems, IMA J. Numer. Anal. 34 (2014) (implicit Euler).
 
-use super::newton::{ESCAPES, Guard, LARGEST_TURN, NOISE, Newton};
+use super::newton::{AcceptanceTest, ESCAPES, LARGEST_TURN, NOISE, Newton};
 use super::{Failure, Found, unsymmetric};
 use crate::body::{Node, NodeKind};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
-use crate::system::{Accepted, Dynamics, State};
+use crate::system::{Dynamics, State, StepOutcome};
 
 /// Most steps.
 const STEPS: usize = 4000;
@@ -51,7 +51,7 @@ impl<const D: usize> Newton<'_, '_, D> {
         if !self.is_conservative {
             return Err(Failure::Restless);
         }
-        let (size, guard) = (self.model.system.scale(), Guard::Turns);
+        let (size, guard) = (self.model.system.scale(), AcceptanceTest::Turns);
         let (mut why, mut failures) = (Failure::Restless, 0);
         let start = self.model.system.nodes_of(state, self.model.work);
         let (mut stops, mut is_due, mut waits, mut escapes) = (0_usize, false, 0, 0);
@@ -105,7 +105,7 @@ impl<const D: usize> Newton<'_, '_, D> {
     }
 
     /// An equilibrium that Newton's method finds from a place on the way; one that is not stable is left if that may be.
-    fn rest_beside(&mut self, state: &mut State, guard: Guard, leaves: bool) -> Beside {
+    fn rest_beside(&mut self, state: &mut State, guard: AcceptanceTest, leaves: bool) -> Beside {
         state.rates.fill(0.0);
         if self.relax(state, guard).is_err() {
             return Beside::Nothing;
@@ -164,7 +164,10 @@ impl<const D: usize> Newton<'_, '_, D> {
             }
             before = correction;
             state.coordinates.copy_from_slice(&self.trial);
-            if !matches!(self.model.accepted(state), Accepted::AsIs | Accepted::Moved) {
+            if !matches!(
+                self.model.accepted(state),
+                StepOutcome::AsIs | StepOutcome::Moved
+            ) {
                 return None;
             }
             let pairs = state.coordinates.iter().zip(&from);

@@ -5,7 +5,7 @@ use super::unsymmetric;
 use super::{Failure, Found};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
-use crate::system::{Accepted, Dynamics, Model, State};
+use crate::system::{Dynamics, Model, State, StepOutcome};
 
 /// Iterations for one system, and where time is what regularizes.
 const ITERATIONS: usize = 100;
@@ -39,7 +39,7 @@ pub(super) const NOISE: f64 = 1e-10;
 
 /// What a Newton iteration must respect.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Guard {
+pub(super) enum AcceptanceTest {
     /// No slope turns too far: fast, and right for most loads.
     Turns,
     /// The potential decreases as well: slow in the narrow valleys of stiff bodies, but it gets there
@@ -90,10 +90,14 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
     }
 
     /// An equilibrium where forces balance, stable where that can be had.
-    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, Failure> {
+    pub(super) fn settle(
+        &mut self,
+        state: &mut State,
+        guard: AcceptanceTest,
+    ) -> Result<Found, Failure> {
         let failure = |this: &Self, correction: f64| match (this.exhausted(), this.overbent) {
             (Some(failure), _) => failure,
-            (None, Some((body, element))) => Failure::Overbent(body, element),
+            (None, Some((body, element))) => Failure::ElementOverDeformed(body, element),
             (None, None) => Failure::Correction(correction),
         };
         let mut is_stable = false;
@@ -118,13 +122,13 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
 
     /// That the work is done that was allowed.
     pub(super) fn exhausted(&self) -> Option<Failure> {
-        (self.model.is_exhausted()).then_some(Failure::Work)
+        (self.model.is_exhausted()).then_some(Failure::Workspace)
     }
 
     /// An equilibrium; on failure the last correction.
-    pub(super) fn relax(&mut self, state: &mut State, guard: Guard) -> Result<(), f64> {
+    pub(super) fn relax(&mut self, state: &mut State, guard: AcceptanceTest) -> Result<(), f64> {
         let (time, size) = (state.time, self.model.system.scale());
-        let is_transient = guard == Guard::Transient;
+        let is_transient = guard == AcceptanceTest::Transient;
         let (mut shift, mut before, mut correction) = (self.kept, f64::INFINITY, f64::INFINITY);
         let (mut strength, mut is_nudged, mut is_refused) = (0.0, false, false);
         for iteration in 0..self.most_iterations(guard) {
@@ -192,9 +196,9 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         Err(correction)
     }
 
-    fn most_iterations(&self, guard: Guard) -> usize {
+    fn most_iterations(&self, guard: AcceptanceTest) -> usize {
         let is_hasty = self.is_hasty && !self.is_conservative;
-        match (guard == Guard::Transient, is_hasty) {
+        match (guard == AcceptanceTest::Transient, is_hasty) {
             (false, false) => ITERATIONS,
             (true, false) => TRANSIENT,
             (false, true) => HASTY,
@@ -223,10 +227,10 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
     }
 
     /// Puts as much of the correction as turns no slope too far into `trial`; whether that is a better place.
-    fn is_better(&mut self, state: &State, guard: Guard) -> bool {
+    fn is_better(&mut self, state: &State, guard: AcceptanceTest) -> bool {
         let q = &state.coordinates;
         let fraction = self.step_fraction(q);
-        if guard != Guard::Potential {
+        if guard != AcceptanceTest::Potential {
             return true;
         }
         let predicted = fraction * dot(&self.force, &self.x);
@@ -247,10 +251,10 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         state.coordinates.copy_from_slice(&self.trial);
         let accepted = self.model.accepted(state);
         state.rates.fill(0.0);
-        if let Accepted::Overbent(body, element) = accepted {
+        if let StepOutcome::ElementOverDeformed(body, element) = accepted {
             self.overbent = Some((body, element));
         }
-        let holds = matches!(accepted, Accepted::AsIs | Accepted::Moved);
+        let holds = matches!(accepted, StepOutcome::AsIs | StepOutcome::Moved);
         if !holds {
             state.copy_from(&before);
         }

@@ -23,7 +23,7 @@ use crate::math::space::{components, vector};
 
 /// A frame at a node of a rod or beam.
 #[derive(Clone, Debug)]
-pub struct Carried {
+pub struct SectionFrame {
     /// Its first node; the second one follows. Both hold position and axes, as those of a rigid body do.
     pub node: usize,
     /// The node of the line that it is at.
@@ -47,7 +47,7 @@ pub enum Derivative {
 
 /// How a carried frame has turned from the one that the state holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Carry {
+pub struct SectionFrameState {
     /// Tangent that it is carried from, tangent, and rate of that, 1/s.
     from: Vector3<f64>,
     tangent: Vector3<f64>,
@@ -62,7 +62,7 @@ pub struct Carry {
     lean: Lean,
 }
 
-impl Carry {
+impl SectionFrameState {
     /// `h`: by how much less of the spin about the tangent a change of it takes.
     fn by_tangent(&self) -> Vector3<f64> {
         self.from.cross(&self.tangent) / (1.0 + self.from.dot(&self.tangent))
@@ -81,7 +81,7 @@ impl Carry {
     }
 
     /// How far it has turned, rad: as a whole or about the tangent.
-    fn size(&self, frame: &Carried) -> f64 {
+    fn size(&self, frame: &SectionFrame) -> f64 {
         if frame.leans {
             return self.lean.size();
         }
@@ -107,7 +107,7 @@ fn turned_by<N: Number>(axes: &Axes<N>, velocity: &Vector3<N>) -> Axes<N> {
     axes.map(|axis| velocity.cross(&axis))
 }
 
-impl Carried {
+impl SectionFrame {
     /// Its axes, or their rates where `x` holds rates.
     pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         axes_at(self.node, x)
@@ -239,12 +239,12 @@ impl Carried {
 
 impl Frames {
     /// Those that rods carry.
-    pub fn carried(&self) -> &[Carried] {
+    pub fn carried(&self) -> &[SectionFrame] {
         &self.carried
     }
 
     /// The same, to be changed.
-    pub fn carried_mut(&mut self) -> &mut [Carried] {
+    pub fn carried_mut(&mut self) -> &mut [SectionFrame] {
         &mut self.carried
     }
 
@@ -268,7 +268,7 @@ impl Frames {
     pub(in crate::body) fn carried_of<const D: usize>(
         &self,
         node: usize,
-    ) -> Option<(&Carried, bool)> {
+    ) -> Option<(&SectionFrame, bool)> {
         if D == 2 || self.carried.is_empty() {
             return None;
         }
@@ -281,7 +281,7 @@ impl Frames {
     pub(super) fn place_carried<const D: usize>(
         &self,
         from: &[Quaternion],
-        carries: &mut [Carry],
+        carries: &mut [SectionFrameState],
         x: &mut [Node<D>],
     ) {
         for ((frame, from), carry) in self.carried.iter().zip(from).zip(carries) {
@@ -299,12 +299,12 @@ impl Frames {
             let rotation = x[frame.node][1][0];
             let base = rotated(&tangent, &t, &second);
             let second = base * rotation.cos() + t.cross(&base) * rotation.sin();
-            *carry = Carry {
+            *carry = SectionFrameState {
                 from: tangent,
                 tangent: t,
                 stretch,
                 rotation,
-                ..Carry::default()
+                ..SectionFrameState::default()
             };
             set_axes_at(frame.node, &[t, second, t.cross(&second)], x);
         }
@@ -314,7 +314,7 @@ impl Frames {
     pub(super) fn place_carried_rates<const D: usize>(
         &self,
         x: &[Node<D>],
-        carries: &mut [Carry],
+        carries: &mut [SectionFrameState],
         v: &mut [Node<D>],
     ) {
         for (frame, carry) in self.carried.iter().zip(carries) {
@@ -403,7 +403,7 @@ impl Frames {
     /// What a force on the position of a marker and a moment along the axes of its carried frame do to the nodes that have
     /// coordinates.
     pub(super) fn pull_on_carried<const D: usize, N: Number>(
-        frame: &Carried,
+        frame: &SectionFrame,
         (force, moment): (&[N; D], &Vector3<N>),
         x: &[Node<D, N>],
         term: &mut impl FnMut(usize, &Node<D, N>),
@@ -421,7 +421,7 @@ impl Frames {
     pub fn turn_carried<const D: usize>(
         &self,
         order: Derivative,
-        carries: &[Carry],
+        carries: &[SectionFrameState],
         dx: &[Node<D>],
         y: &mut [f64],
     ) {
@@ -450,7 +450,7 @@ impl Frames {
     }
 
     /// The largest turn of a carried frame from that of the state, rad.
-    pub fn largest_carry(&self, carries: &[Carry]) -> f64 {
+    pub fn largest_carry(&self, carries: &[SectionFrameState]) -> f64 {
         let frames = self.carried.iter().zip(carries);
         let sizes = frames.map(|(frame, carry)| carry.size(frame));
         sizes.fold(0.0, f64::max)
@@ -460,7 +460,7 @@ impl Frames {
     /// and in `v`, both over the free coordinates, stands for nothing and for spins.
     pub fn renew_carried<const D: usize>(
         &self,
-        (x, carries): (&[Node<D>], &[Carry]),
+        (x, carries): (&[Node<D>], &[SectionFrameState]),
         frames: &mut [Quaternion],
         [q, v]: [&mut [f64]; 2],
     ) {

@@ -8,7 +8,7 @@ use crate::system::end::{End, reach};
 
 /// `sum over both ends of (coefficients . position + coefficients . direction) = target`.
 #[derive(Clone, Debug)]
-pub struct HeldRow<const D: usize> {
+pub struct LinearConstraint<const D: usize> {
     /// The ends.
     pub ends: [End<D>; 2],
     /// Coefficients on position and direction of both.
@@ -29,7 +29,7 @@ pub(super) fn coincide<const D: usize>(rows: &mut Rows<'_, D>) -> Option<Constra
     None
 }
 
-impl<const D: usize> HeldRow<D> {
+impl<const D: usize> LinearConstraint<D> {
     /// The row of a joint with these ends.
     pub fn new(linear: &Linear<D>, ends: [End<D>; 2]) -> Self {
         let size = reach(&ends);

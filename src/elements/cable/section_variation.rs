@@ -11,7 +11,7 @@ use crate::math::quadrature::GAUSS_5;
 /// What the stiffnesses and the mass of [`Parameters`] are multiplied by along an element, one everywhere by default, and the
 /// mass of a fluid beside them.
 #[derive(Clone, Copy, Debug)]
-pub struct Taper {
+pub struct SectionVariation {
     /// Of axial stiffness.
     pub axial: Along,
     /// Of bending stiffness.
@@ -22,7 +22,7 @@ pub struct Taper {
     pub added: Along,
 }
 
-impl Default for Taper {
+impl Default for SectionVariation {
     fn default() -> Self {
         let [axial, bending, density] = [Along::from(1.0); 3];
         Self {
@@ -34,7 +34,7 @@ impl Default for Taper {
     }
 }
 
-impl Taper {
+impl SectionVariation {
     /// Mass per reference length that is moved at `xi` in [0, 1], kg/m: that of the cable and that of the fluid.
     pub(super) fn moved(&self, parameters: &Parameters, xi: f64) -> f64 {
         parameters.line_density * self.density.at(xi) + self.added.at(xi)
@@ -52,7 +52,11 @@ impl Taper {
 }
 
 /// Mass matrix of a cable with or without bending stiffness, that of the fluid which moves along with it.
-pub(super) fn mass(parameters: &Parameters, taper: &Taper, bends: bool) -> SMatrix<f64, 4, 4> {
+pub(super) fn mass(
+    parameters: &Parameters,
+    taper: &SectionVariation,
+    bends: bool,
+) -> SMatrix<f64, 4, 4> {
     let l = parameters.length;
     let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
     let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);

@@ -5,13 +5,13 @@ use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
-use crate::body::{Articulated, Carry, Jacobian, Node, STAGES, Tangent, Turn, no_node};
+use crate::body::{Articulated, Jacobian, Node, STAGES, SectionFrameState, Tangent, Turn, no_node};
 use crate::math::recent::Recent;
 use crate::math::rotation::{NO_TURN, Quaternion};
 
 /// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
 #[derive(Clone, Debug)]
-pub struct Work<const D: usize = 2> {
+pub struct Workspace<const D: usize = 2> {
     /// Nodal coordinates, m.
     pub x: Vec<Node<D>>,
     /// Their rates.
@@ -46,10 +46,10 @@ pub struct Work<const D: usize = 2> {
     pub(super) frames: Vec<Quaternion>,
     pub(super) turns: Vec<Turn>,
     /// The same of frames that rods carry.
-    pub(super) carries: Vec<Carry>,
+    pub(super) carries: Vec<SectionFrameState>,
     /// Both where the tangent was made, and of frames that lean at the stages of an implicit method too.
     pub(super) base_turns: Vec<Turn>,
-    pub(super) stages: [Vec<Carry>; 1 + STAGES],
+    pub(super) stages: [Vec<SectionFrameState>; 1 + STAGES],
     /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
     pub(super) torques: Vec<[f64; 3]>,
     /// The state accepted last, to go back to from a step that leaves a cable.
@@ -114,7 +114,7 @@ impl<const D: usize> Configuration<D> {
     }
 }
 
-impl<const D: usize> Work<D> {
+impl<const D: usize> Workspace<D> {
     /// Whether the Jacobian is not that of the configuration in place; from now on it is.
     pub(super) fn outdates_jacobian(&mut self) -> bool {
         let held = (&self.travel[..], &self.released[..]);
@@ -137,7 +137,7 @@ impl<const D: usize> Work<D> {
         let lambda = vec![0.0; system.constraints.len()];
         let rank = RankWatch::new(lambda.len(), system.coordinates());
         let turns = vec![Turn::default(); system.frames.list().len()];
-        let carries = vec![Carry::default(); system.frames.carried().len()];
+        let carries = vec![SectionFrameState::default(); system.frames.carried().len()];
         Self {
             x: nodes.clone(),
             v: nodes.clone(),

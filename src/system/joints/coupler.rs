@@ -11,7 +11,7 @@ use crate::system::end::{Add, End};
 
 /// A relation between coordinates.
 #[derive(Clone, Debug)]
-pub struct Related<const D: usize> {
+pub struct Coupler<const D: usize> {
     /// Coordinates and their factors: one or two.
     pub terms: Vec<(f64, Coordinate<D>)>,
     /// What the sum is where nothing drives it, m or rad.
@@ -22,7 +22,7 @@ pub struct Related<const D: usize> {
     pub size: f64,
 }
 
-impl<const D: usize> Related<D> {
+impl<const D: usize> Coupler<D> {
     /// Value of the driven coordinate or one of its derivatives.
     fn driven<N: Number>(&self, view: &View<'_, D, N>, order: usize) -> N {
         let drive = self.drive.map(|drive| view.drives[drive][order]);

@@ -4,22 +4,22 @@
 use super::{Instant, Values};
 use crate::body::Node;
 use crate::math::jet::Number;
-use crate::system::CableChain;
+use crate::system::LineChain;
 use crate::system::loads::on_coordinates;
 use crate::system::winch::PaidOut;
 
 /// What a winch does to its cable.
 #[derive(Clone, Debug)]
-pub struct Transport {
+pub struct ConvectiveInertia {
     /// Index of the winch.
     pub winch: usize,
     /// Index of its cable among the chains.
     pub chain: usize,
 }
 
-impl Transport {
+impl ConvectiveInertia {
     /// First node of the cable.
-    pub(super) fn first_node<const D: usize>(&self, chains: &[CableChain<D>]) -> usize {
+    pub(super) fn first_node<const D: usize>(&self, chains: &[LineChain<D>]) -> usize {
         chains[self.chain].nodes(0)[0]
     }
 
@@ -33,7 +33,7 @@ impl Transport {
     }
 
     /// Nodes of its elements.
-    pub(super) fn parts<const D: usize>(&self, chains: &[CableChain<D>]) -> Vec<Vec<usize>> {
+    pub(super) fn parts<const D: usize>(&self, chains: &[LineChain<D>]) -> Vec<Vec<usize>> {
         let chain = &chains[self.chain];
         let elements = 0..chain.elements().len();
         elements.map(|j| chain.nodes(j).to_vec()).collect()

@@ -15,14 +15,14 @@ pub type Values<const K: usize, N> = [Vector<K, N>; GAUSS_5.len()];
 
 /// A vector per reference length, 1/m times its unit.
 #[derive(Clone, Debug)]
-pub struct Density<const K: usize> {
+pub struct LineLoad<const K: usize> {
     /// Components that are the same everywhere; zero of those that change.
     pub uniform: [Signal; K],
     /// Components that change, at the Gauss points of every stretch in turn; empty of those that do not.
     pub along: [Vec<Signal>; K],
 }
 
-impl<const K: usize> Density<K> {
+impl<const K: usize> LineLoad<K> {
     /// Whether a component changes along the body.
     pub fn changes(&self) -> bool {
         self.along.iter().any(|values| !values.is_empty())
