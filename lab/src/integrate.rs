@@ -142,8 +142,8 @@ fn fixed(
     while state.time < until {
         let (from, near) = (state.time, grain(state.time));
         // History goes on over outputs but not over jumps.
-        let jumps = dynamics.begin_stretch(from - 8.0 * near, until) <= from + near;
-        let end = dynamics.begin_stretch(from, until);
+        let jumps = dynamics.begin_smooth_interval(from - 8.0 * near, until) <= from + near;
+        let end = dynamics.begin_smooth_interval(from, until);
         let way = end - from;
         if from <= 0.0 || jumps {
             method.begin(dynamics, from, &state.coordinates, &state.rates);
@@ -161,7 +161,7 @@ fn fixed(
                 return (counts, Err(stop));
             }
         }
-        if let StepOutcome::Jumped(drive) = dynamics.end_stretch(state) {
+        if let StepOutcome::Jumped(drive) = dynamics.end_smooth_interval(state) {
             return (counts, Err(StepError::Jumped(drive)));
         }
         counts.newton_iterations += method.newton_iterations() - before;

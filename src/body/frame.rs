@@ -403,7 +403,7 @@ impl Frames {
 
     /// Forces over the nodes become those on centres of mass and moments along axes; with the spins of `v`, less what
     /// these ask for.
-    pub fn pull_all<const D: usize, N: Number>(
+    pub fn pull_back<const D: usize, N: Number>(
         &self,
         (x, v): (&[Node<D, N>], Option<&[Node<D, N>]>),
         f: &mut [Node<D, N>],

@@ -232,7 +232,7 @@ impl Jacobian {
         }
         rest.fill(0.0);
         self.rows.add(row, 1.0 / size, rest);
-        self.bring(3, |_| 0.0, rest);
+        self.solve_minimum_norm(3, |_| 0.0, rest);
         short_dot(rest, rest).sqrt()
     }
 
@@ -290,7 +290,12 @@ impl Jacobian {
 
     /// Changes `q` by the least that makes `J q = right` as far as rows count. Two passes do so to roundoff; one is
     /// enough for an iteration that begins anew with what is missing.
-    pub fn bring(&mut self, passes: usize, right: impl Fn(usize) -> f64, q: &mut [f64]) {
+    pub fn solve_minimum_norm(
+        &mut self,
+        passes: usize,
+        right: impl Fn(usize) -> f64,
+        q: &mut [f64],
+    ) {
         self.lambda.fill(0.0);
         for _ in 0..passes {
             for (row, place) in self.place.iter().enumerate() {
@@ -310,7 +315,7 @@ impl Jacobian {
         }
     }
 
-    /// Multipliers: what [`Jacobian::bring`] took out last is `J^T lambda`, zero for rows that do not count.
+    /// Multipliers: what [`Jacobian::solve_minimum_norm`] took out last is `J^T lambda`, zero for rows that do not count.
     pub fn multipliers(&self) -> &[f64] {
         &self.lambda
     }

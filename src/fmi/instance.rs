@@ -194,7 +194,7 @@ impl Instance {
         let time = self.simulation.time();
         self.log_event(format_args!("initialized at time {time} s"));
         self.log_redundant();
-        if let Some(gaps) = self.simulation.misfits() {
+        if let Some(gaps) = self.simulation.initial_gaps() {
             let message = format_args!(
                 "bodies were moved to close joints that are far apart as described: {gaps}"
             );

@@ -119,7 +119,7 @@ impl Trial {
     }
 }
 
-/// Chooses lengths of steps over a stretch without jumps.
+/// Chooses lengths of steps over a smooth interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Controller {
     /// Most growth after the next step: what just failed at a length will not succeed at a longer one.

@@ -3,7 +3,7 @@
 //!
 //! Positions and velocities are the polynomials through the start of the step and its stages; what drives the system is the
 //! same all the way. Between stages the polynomial leaves the equilibrium of stiff directions, so that they are let come
-//! to rest there ([`Method::relax_within`]), as at the end of a step that is read.
+//! to rest there ([`Method::polish_within`]), as at the end of a step that is read.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8 (the collocation
 //! polynomial of Radau IIA as dense output).
@@ -66,7 +66,7 @@ pub(super) fn follow(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    (tolerance, rival, pitch): (&Tolerance, Option<AlternativeMethod>, Pitch),
+    (tolerance, alternative, pitch): (&Tolerance, Option<AlternativeMethod>, Pitch),
 ) -> Result<(), StepError> {
     let (end, before) = (state.dense.end(), state.time);
     let near = shortest(until, end);
@@ -86,7 +86,7 @@ pub(super) fn follow(
         state.dense.under_way = 0.0;
         let trial = Trial::whole(state.dense.length);
         let step = (trial, state.dense.operations, true);
-        if rival.is_some_and(|rival| rival.takes_over(state, step)) {
+        if alternative.is_some_and(|alternative| alternative.takes_over(state, step)) {
             state.dense.length = 0.0;
         }
     }
@@ -108,7 +108,7 @@ fn come_to_rest(
     let (mut first, mut before) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..RELAXATIONS {
         let read = (state.time, &mut state.coordinates[..], &mut state.rates[..]);
-        let left = method.relax_within(dynamics, &state.dense, read, tolerance);
+        let left = method.polish_within(dynamics, &state.dense, read, tolerance);
         if left.is_nan() || left >= first {
             return Ok(false);
         }

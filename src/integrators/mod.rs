@@ -67,7 +67,7 @@ pub trait Method: Send {
         1.0
     }
     /// Goes on with the first (0) or the second (1) of its tableaux, where it has two.
-    fn take_up(&mut self, _variant: usize) {}
+    fn use_variant(&mut self, _variant: usize) {}
     /// The tableau that would get over the time that remains (s) with fewer operations than the one in use, and the step (s) to
     /// propose to it, where errors allow that in use steps of `h` (s).
     fn cheaper(&self, _h: f64, _remaining: f64) -> Option<(usize, f64)> {
@@ -91,7 +91,7 @@ pub trait Method: Send {
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]);
     /// The state accepted last is read: lets accelerations that were not solved to the tolerance come to rest,
     /// since forces are read from them. Whether the state has moved.
-    fn relax(
+    fn polish_accelerations(
         &mut self,
         _dynamics: &mut dyn Dynamics,
         _state: (f64, &mut [f64], &mut [f64]),
@@ -105,9 +105,9 @@ pub trait Method: Send {
     }
     /// Keeps stages and powers of the last attempt, which has succeeded, so that it is read in between.
     fn keep(&mut self, _step: &mut DenseStep) {}
-    /// As [`Method::relax`] for a state within a step that is kept, whoever took it. What was left unsolved, in units of
+    /// As [`Method::polish_accelerations`] for a state within a step that is kept, whoever took it. What was left unsolved, in units of
     /// what may be; beyond 1 the state has been corrected.
-    fn relax_within(
+    fn polish_within(
         &mut self,
         _dynamics: &mut dyn Dynamics,
         _step: &DenseStep,
@@ -117,7 +117,7 @@ pub trait Method: Send {
         0.0
     }
     /// Begins a step with the polynomial of the one before, which was kept.
-    fn recall(&mut self, _before: &DenseStep) {}
+    fn start_from_dense(&mut self, _before: &DenseStep) {}
     /// Errors of position and velocity that the last step to a state is estimated to have left in it, as far
     /// as the method can tell; it is the end of the step, or stands within one that is kept.
     fn error(
@@ -179,7 +179,7 @@ pub enum StepError {
 /// Error of a step, in tolerances and without what adds up of drives, below which twice its length would be accurate
 /// enough: it is not the fastest waves that set its length.
 const QUIET: f64 = 1.0 / 16.0;
-/// Steps to the end of a stretch from which on their number depends on their length alone.
+/// Steps to the end of a smooth interval from which on their number depends on their length alone.
 const MANY: f64 = 4.0;
 /// Most corrections of a state that is read.
 const RELAXATIONS: usize = 3;
@@ -215,41 +215,53 @@ fn advance_choosing(
     while result.is_ok() && state.time < until {
         let index = state.pace.index(methods.len());
         for method in methods.iter_mut() {
-            // The rival's as well, which is measured by what it would take.
-            method.take_up(state.pace.variant());
+            // That of the alternative method as well, which is measured by what it would take.
+            method.use_variant(state.pace.variant());
         }
-        let rival = methods
+        let alternative = methods
             .get(1 - index)
             .map(|method| AlternativeMethod::of(&**method));
         let method = &mut *methods[index];
         if state.dense.is_under_way() {
-            dynamics.begin_stretch(state.dense.start, until);
-            result = dense::follow(method, dynamics, state, until, (tolerance, rival, pitch));
+            dynamics.begin_smooth_interval(state.dense.start, until);
+            result = dense::follow(
+                method,
+                dynamics,
+                state,
+                until,
+                (tolerance, alternative, pitch),
+            );
         } else {
-            let end = dynamics.begin_stretch(state.time, until);
-            let goal = (tolerance, rival, pitch, &mut counts);
+            let end = dynamics.begin_smooth_interval(state.time, until);
+            let goal = (tolerance, alternative, pitch, &mut counts);
             result = advance_smoothly(method, dynamics, state, end, goal);
             counts.newton_iterations += method.newton_iterations();
         }
         // What one method cannot do the other may.
-        if result == Err(StepError::StepTooSmall) && rival.is_some() && state.time > given_up {
+        if result == Err(StepError::StepTooSmall) && alternative.is_some() && state.time > given_up
+        {
             given_up = state.time;
             selection::give_up(state);
             result = Ok(());
         }
-        let crossed = outcome(dynamics.end_stretch(state));
+        let crossed = outcome(dynamics.end_smooth_interval(state));
         result = result.and(crossed.map(drop));
     }
     (counts, result)
 }
 
-/// Advances over a stretch without jumps, until its rival is to go on, or until a step is to lead beyond the stretch.
+/// Advances over a smooth interval, until the alternative method is to go on, or until a step is to lead beyond the interval.
 fn advance_smoothly(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    (tolerance, rival, pitch, counts): (&Tolerance, Option<AlternativeMethod>, Pitch, &mut Counts),
+    (tolerance, alternative, pitch, counts): (
+        &Tolerance,
+        Option<AlternativeMethod>,
+        Pitch,
+        &mut Counts,
+    ),
 ) -> Result<(), StepError> {
     let follows = state.dense.has_ended_at(state.time);
     let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
@@ -263,7 +275,7 @@ fn advance_smoothly(
             return Ok(());
         }
         if is_fresh || remaining > MANY * state.step {
-            take_up_cheaper(method, state, (pitch.way(remaining), is_settled));
+            use_cheaper_variant(method, state, (pitch.way(remaining), is_settled));
         }
         if dynamics.is_exhausted() {
             return Err(StepError::TooMuchWork);
@@ -286,19 +298,19 @@ fn advance_smoothly(
                 if is_beyond {
                     let operations = dynamics.operations() - counted;
                     dense::begin(method, state, [trial.h, operations, controller.ceiling()]);
-                    let aim = (tolerance, rival, pitch);
+                    let aim = (tolerance, alternative, pitch);
                     return dense::follow(method, dynamics, state, until, aim);
                 }
                 is_fresh = false;
                 take(method, state, (trial, until));
-                settle(method, dynamics, state)?;
-                relax(method, dynamics, state, (until, tolerance))?;
+                project(method, dynamics, state)?;
+                polish_accelerations(method, dynamics, state, (until, tolerance))?;
                 let since = since(dynamics, &mut counted);
                 let alike = dynamics.steps_in(tolerance.time, trial.h);
                 // The whole of a step that is cut short would have another error.
                 let is_quiet = error / alike < QUIET * trial.part.powi(4);
                 let step = (trial, since, is_quiet);
-                if rival.is_some_and(|rival| rival.takes_over(state, step)) {
+                if alternative.is_some_and(|alternative| alternative.takes_over(state, step)) {
                     return Ok(());
                 }
             }
@@ -338,7 +350,7 @@ fn begin(
     dynamics.renew(state);
     method.begin(dynamics, state.time, &state.coordinates, &state.rates);
     if state.dense.has_ended_at(state.time) {
-        method.recall(&state.dense);
+        method.start_from_dense(&state.dense);
     }
     let is_settled = state.step > 0.0;
     if !is_settled {
@@ -355,14 +367,14 @@ fn since(dynamics: &dyn Dynamics, counted: &mut f64) -> f64 {
 
 /// Goes on with the tableau that takes fewer operations over the time that remains (s); with the second only where errors
 /// have set the step.
-fn take_up_cheaper(
+fn use_cheaper_variant(
     method: &mut dyn Method,
     state: &mut State,
     (remaining, is_settled): (f64, bool),
 ) {
     let cheaper = method.cheaper(state.step, remaining);
     if let Some((variant, step)) = cheaper.filter(|(variant, _)| *variant == 0 || is_settled) {
-        method.take_up(variant);
+        method.use_variant(variant);
         state.pace.set_variant(variant);
         state.step = step;
     }
@@ -394,7 +406,7 @@ fn shortest(one: f64, other: f64) -> f64 {
 }
 
 /// Lets the system do with an accepted state what it must.
-fn settle(
+fn project(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
@@ -406,7 +418,7 @@ fn settle(
 }
 
 /// Lets forces come to rest in a state at the end of a call, which is read.
-fn relax(
+fn polish_accelerations(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
@@ -417,10 +429,10 @@ fn relax(
     }
     for _ in 0..RELAXATIONS {
         let read = (state.time, &mut state.coordinates[..], &mut state.rates[..]);
-        if !method.relax(dynamics, read, tolerance) {
+        if !method.polish_accelerations(dynamics, read, tolerance) {
             break;
         }
-        settle(method, dynamics, state)?;
+        project(method, dynamics, state)?;
     }
     Ok(())
 }

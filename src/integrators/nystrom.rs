@@ -233,7 +233,7 @@ impl Method for Nystrom {
         (self.tableau().c.len() - 1) as f64
     }
 
-    fn take_up(&mut self, variant: usize) {
+    fn use_variant(&mut self, variant: usize) {
         self.variant = variant;
     }
 

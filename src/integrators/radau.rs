@@ -300,7 +300,7 @@ impl Method for Radau {
         dynamics.acceleration(time, q, v, &mut self.a);
     }
 
-    fn relax(
+    fn polish_accelerations(
         &mut self,
         dynamics: &mut dyn Dynamics,
         state: (f64, &mut [f64], &mut [f64]),
@@ -326,7 +326,7 @@ impl Method for Radau {
         self.kept.at = [step.start, step.length];
     }
 
-    fn relax_within(
+    fn polish_within(
         &mut self,
         dynamics: &mut dyn Dynamics,
         step: &DenseStep,
@@ -336,7 +336,7 @@ impl Method for Radau {
         self.relax_in_between(dynamics, step, state, tolerance)
     }
 
-    fn recall(&mut self, before: &DenseStep) {
+    fn start_from_dense(&mut self, before: &DenseStep) {
         let [_, _, stages @ ..] = before.parts();
         for (z, stage) in self.zq.iter_mut().zip(stages) {
             z.copy_from_slice(stage);

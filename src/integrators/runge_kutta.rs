@@ -190,7 +190,7 @@ impl Method for RungeKutta {
         (self.method().c.len() - 1) as f64
     }
 
-    fn take_up(&mut self, variant: usize) {
+    fn use_variant(&mut self, variant: usize) {
         self.variant = variant;
     }
 

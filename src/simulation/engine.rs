@@ -73,7 +73,7 @@ const MISFIT: f64 = 0.5;
 #[derive(Clone, Debug, Default)]
 pub(super) struct InitialWarnings {
     /// Gaps of joints as described.
-    pub misfits: Option<String>,
+    pub initial_gaps: Option<String>,
     /// The equilibrium is not stable, and could not be left.
     pub is_unstable: bool,
 }
@@ -146,9 +146,9 @@ impl<const D: usize> Engine<D> {
             motions,
             ..
         } = &self.assembled;
-        let misfits = system.misfits((time, values), nodes, MISFIT, &mut self.work);
+        let initial_gaps = system.initial_gaps((time, values), nodes, MISFIT, &mut self.work);
         self.remarks = InitialWarnings::default();
-        if let Some((drive, travel)) = system.begun(&self.work) {
+        if let Some((drive, travel)) = system.paid_out_at_start(&self.work) {
             let name = self.driven_name(drive);
             return Err(Error::Begun(format!(
                 "expected a winch `{name}` that has paid out nothing at the start, found {travel} m: the cable is as long \
@@ -194,8 +194,8 @@ impl<const D: usize> Engine<D> {
         }
         self.assembled.begin(&mut state);
         self.work.begin();
-        if !misfits.is_empty() {
-            self.remarks.misfits = Some(self.gaps(&misfits));
+        if !initial_gaps.is_empty() {
+            self.remarks.initial_gaps = Some(self.gaps(&initial_gaps));
         }
         let spectra = self.spectra(values, &state)?;
         self.forget();

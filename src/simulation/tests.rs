@@ -89,7 +89,7 @@ fn bodies_that_were_moved_far_are_told() {
                "point": [{x}, 0.0] }} ]"#
         ));
         bar.initialize(0.0).expect("a bar that can be moved");
-        bar.misfits().map(str::to_owned)
+        bar.initial_gaps().map(str::to_owned)
     };
     assert_eq!(bar(0.1), None);
     assert_eq!(bar(2.0).as_deref(), Some("joint `pin` 2.000 m"));

@@ -7,9 +7,9 @@ use super::{
 impl Simulation {
     /// Gaps, in words, of joints that bodies as described do not fit by far: bodies were moved, or cables deformed, to
     /// close them.
-    pub fn misfits(&self) -> Option<&str> {
+    pub fn initial_gaps(&self) -> Option<&str> {
         let engine = self.engine.as_ref()?;
-        engine.remarks().misfits.as_deref()
+        engine.remarks().initial_gaps.as_deref()
     }
 
     /// Whether the simulation starts from an equilibrium that is not stable and that could not be left.

@@ -16,14 +16,14 @@ use crate::math::space::{Vector, axis, cross, turned};
 #[expect(clippy::large_enum_variant, reason = "there are few")]
 pub enum Coordinate<const D: usize> {
     /// A way, m.
-    Way(Way<D>),
+    Translation(Translation<D>),
     /// An angle, rad, and its index among those that the system counts.
     Angle(Angle<D>, usize),
 }
 
 /// The way from a point to another along a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Way<const D: usize> {
+pub struct Translation<const D: usize> {
     /// From here to there.
     pub ends: [End<D>; 2],
     /// A unit vector of the first end's body, or fixed in space.
@@ -32,7 +32,7 @@ pub struct Way<const D: usize> {
     pub turn: [f64; 2],
 }
 
-impl<const D: usize> Way<D> {
+impl<const D: usize> Translation<D> {
     /// The unit vector, or its rate where `x` holds rates of bodies.
     fn along<N: Number>(&self, x: &[Node<D, N>], is_rate: bool) -> Vector<D, N> {
         let [sin, cos] = self.turn.map(N::of);
@@ -76,7 +76,7 @@ impl<const D: usize> Way<D> {
     }
 
     /// Adds its second derivatives by coordinates, times a factor.
-    pub fn add_curvature(&self, factor: f64, add: Add<'_, D>) {
+    pub fn add_hessian(&self, factor: f64, add: Add<'_, D>) {
         let Direction::Of(first) = &self.direction else {
             return;
         };
@@ -118,7 +118,7 @@ impl<const D: usize> Angle<D> {
     }
 
     /// Adds its second derivatives by coordinates, times a factor; in space without what is zero where the joint has one axis.
-    pub fn add_curvature(&self, factor: f64, x: &[Node<D>], add: Add<'_, D>) {
+    pub fn add_hessian(&self, factor: f64, x: &[Node<D>], add: Add<'_, D>) {
         let Some(turn) = self.about() else {
             let zero = SMatrix::zeros();
             let [first, second] = self.ends.map(|end| end.curl(x) * factor);
@@ -138,7 +138,7 @@ impl<const D: usize> Coordinate<D> {
     /// Its value, m or rad: the angle that is nearest to that among `angles`.
     pub fn value<N: Number>(&self, x: &[Node<D, N>], angles: &[N]) -> N {
         match self {
-            Self::Way(way) => way.value(x),
+            Self::Translation(way) => way.value(x),
             Self::Angle(angle, counted) => angle.value(x, angles[*counted]),
         }
     }
@@ -147,7 +147,7 @@ impl<const D: usize> Coordinate<D> {
     #[inline(always)]
     pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
         match self {
-            Self::Way(way) => way.gradient(x),
+            Self::Translation(way) => way.gradient(x),
             Self::Angle(angle, _) => angle.gradient(x),
         }
     }
@@ -161,16 +161,16 @@ impl<const D: usize> Coordinate<D> {
     /// Its second derivative in time but for the part of accelerations, 1/s^2.
     pub fn bend<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         match self {
-            Self::Way(way) => way.bend(v),
+            Self::Translation(way) => way.bend(v),
             Self::Angle(angle, _) => angle.bend(x, v),
         }
     }
 
     /// Adds its second derivatives by coordinates, times a factor.
-    pub fn add_curvature(&self, factor: f64, x: &[Node<D>], add: Add<'_, D>) {
+    pub fn add_hessian(&self, factor: f64, x: &[Node<D>], add: Add<'_, D>) {
         match self {
-            Self::Way(way) => way.add_curvature(factor, add),
-            Self::Angle(angle, _) => angle.add_curvature(factor, x, add),
+            Self::Translation(way) => way.add_hessian(factor, add),
+            Self::Angle(angle, _) => angle.add_hessian(factor, x, add),
         }
     }
 
@@ -195,7 +195,7 @@ impl<const D: usize> Coordinate<D> {
     /// What it is measured between.
     pub fn ends(&self) -> [End<D>; 2] {
         match self {
-            Self::Way(way) => way.ends,
+            Self::Translation(way) => way.ends,
             Self::Angle(angle, _) => angle.ends,
         }
     }

@@ -22,7 +22,7 @@ mod workspace;
 
 pub use attitude::Attitude;
 pub use build::{BuildError, LumpedMass, Parts};
-pub use coordinate::{Coordinate, Way};
+pub use coordinate::{Coordinate, Translation};
 pub use direction::{AxisTurn, Direction};
 pub use end::{Angle, End, reach};
 pub use gradient::Gradient;

@@ -20,7 +20,7 @@ pub struct Workspace<const D: usize = 2> {
     pub f: Vec<Node<D>>,
     /// Nodal accelerations, or another nodal vector; forces that linear constraints supply.
     pub(super) other: Vec<Node<D>>,
-    pub(super) supply: Vec<Node<D>>,
+    pub(super) linear_constraint_forces: Vec<Node<D>>,
     /// A vector of free coordinates.
     pub(super) y: Vec<f64>,
     /// Accelerations.
@@ -32,8 +32,8 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) recent: Vec<Recent>,
     /// What driven rows are to equal, with two derivatives.
     pub(super) targets: Vec<[f64; 3]>,
-    /// First and last time at which functions of time are taken in the smooth stretch that is under way.
-    pub(super) stretch: Option<[f64; 2]>,
+    /// First and last time at which functions of time are taken in the smooth interval under way.
+    pub(super) smooth_interval: Option<[f64; 2]>,
     /// Inputs and their rates at the time of the last configuration.
     pub(super) inputs: Vec<f64>,
     pub(super) input_rates: Vec<f64>,
@@ -143,14 +143,14 @@ impl<const D: usize> Workspace<D> {
             v: nodes.clone(),
             f: nodes.clone(),
             other: nodes.clone(),
-            supply: nodes,
+            linear_constraint_forces: nodes,
             y: vec![0.0; system.elimination.scratch()],
             a: vec![0.0; system.coordinates()],
             drives: vec![[0.0; 3]; system.drives.len()],
             targets: vec![[0.0; 3]; system.driven.len()],
             trajectories: vec![Trajectory::default(); system.trajectories().count()],
             recent: vec![Recent::default(); system.drives.len()],
-            stretch: None,
+            smooth_interval: None,
             inputs: Vec::new(),
             input_rates: Vec::new(),
             angles: vec![0.0; system.angles.len()],

@@ -135,12 +135,12 @@ impl Dynamics for Problem {
         self.calls >= self.most_calls
     }
 
-    fn begin_stretch(&mut self, from: f64, until: f64) -> f64 {
+    fn begin_smooth_interval(&mut self, from: f64, until: f64) -> f64 {
         let next = self.breaks.iter().find(|t| **t > from);
         next.map_or(until, |t| t.min(until))
     }
 
-    fn end_stretch(&mut self, _state: &mut State) -> StepOutcome {
+    fn end_smooth_interval(&mut self, _state: &mut State) -> StepOutcome {
         StepOutcome::AsIs
     }
 }

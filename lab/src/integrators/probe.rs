@@ -158,11 +158,11 @@ impl Dynamics for Probe<'_> {
         self.model.is_exhausted()
     }
 
-    fn begin_stretch(&mut self, from: f64, until: f64) -> f64 {
-        self.model.begin_stretch(from, until)
+    fn begin_smooth_interval(&mut self, from: f64, until: f64) -> f64 {
+        self.model.begin_smooth_interval(from, until)
     }
 
-    fn end_stretch(&mut self, state: &mut State) -> StepOutcome {
-        self.model.end_stretch(state)
+    fn end_smooth_interval(&mut self, state: &mut State) -> StepOutcome {
+        self.model.end_smooth_interval(state)
     }
 }

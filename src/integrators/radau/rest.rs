@@ -19,7 +19,7 @@ const NOTHING: f64 = 1e-4;
 const UNSOLVED_WITHIN: f64 = 0.05;
 
 impl Radau {
-    /// As [`Method::relax`](crate::integrators::Method::relax).
+    /// As [`Method::polish_accelerations`](crate::integrators::Method::polish_accelerations).
     pub(super) fn relax_at_end(
         &mut self,
         dynamics: &mut dyn Dynamics,
@@ -46,7 +46,7 @@ impl Radau {
         true
     }
 
-    /// As [`Method::relax_within`](crate::integrators::Method::relax_within).
+    /// As [`Method::polish_within`](crate::integrators::Method::polish_within).
     pub(super) fn relax_in_between(
         &mut self,
         dynamics: &mut dyn Dynamics,

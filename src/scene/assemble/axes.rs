@@ -106,7 +106,7 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn across_way(&self, ends: [End<D>; 2], direction: Vector<D>) -> Primitive<D> {
         Primitive::Perpendicular(Perpendicular {
             direction: self.fixed(&ends[0], direction),
-            across: Across::Way(ends, self.size_of(&ends)),
+            across: Across::Translation(ends, self.size_of(&ends)),
         })
     }
 

@@ -5,11 +5,11 @@ use crate::math::space::{Vector, axis, vector};
 use crate::scene::resolved::{self, First, Gear, JointCoordinate, Pivot, Slider, Turning};
 use crate::system::joints::{Coupler, Primitive};
 use crate::system::loads::{JointSpring, Load, SixBushing, Stop};
-use crate::system::{Angle, Coordinate, Direction, End, Way};
+use crate::system::{Angle, Coordinate, Direction, End, Translation};
 
 impl<const D: usize> Builder<'_, D> {
     /// The way along the line of a joint.
-    pub(super) fn way(&self, slider: &Slider<'_>) -> Way<D> {
+    pub(super) fn way(&self, slider: &Slider<'_>) -> Translation<D> {
         let ends = self.ends(slider.ends);
         let still = [0.0, 1.0];
         let (direction, turn) = match (slider.ends.first, &ends[0]) {
@@ -20,7 +20,7 @@ impl<const D: usize> Builder<'_, D> {
             (First::Marker(_), first) => (self.fixed(first, vector(slider.along)), still),
             _ => (Direction::Fixed(vector(slider.along)), still),
         };
-        Way {
+        Translation {
             ends,
             direction,
             turn,
@@ -37,7 +37,7 @@ impl<const D: usize> Builder<'_, D> {
 
     pub(super) fn coordinate(&mut self, of: &JointCoordinate<'_>) -> Coordinate<D> {
         match of {
-            JointCoordinate::Displacement(slider) => Coordinate::Way(self.way(slider)),
+            JointCoordinate::Displacement(slider) => Coordinate::Translation(self.way(slider)),
             JointCoordinate::Angle(pivot) => self.counted(pivot),
         }
     }
@@ -92,7 +92,7 @@ impl<const D: usize> Builder<'_, D> {
         let second = axes.map(|axis| self.fixed(&ends[1], axis));
         // In space alone.
         let three = |of: &[Direction<D>; D]| std::array::from_fn(|k| of[k.min(D - 1)]);
-        let ways = three(&first).map(|direction| Way {
+        let ways = three(&first).map(|direction| Translation {
             ends,
             direction,
             turn: [0.0, 1.0],

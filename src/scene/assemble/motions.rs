@@ -53,7 +53,7 @@ impl<const D: usize> Builder<'_, D> {
                 let driven = match slider.ends.is_grounded() {
                     true => Primitive::DrivenDistance(unit(slider.direction), drive),
                     false => Primitive::Coupler(Coupler {
-                        terms: vec![(1.0, Coordinate::Way(self.way(slider)))],
+                        terms: vec![(1.0, Coordinate::Translation(self.way(slider)))],
                         offset: 0.0,
                         drive: Some(drive),
                         size: self.size_of(&ends),

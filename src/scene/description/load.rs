@@ -320,7 +320,7 @@ impl ActionKind {
     }
 
     /// Whether it may change along what it acts on.
-    pub fn is_spread(self) -> bool {
+    pub fn is_distributed(self) -> bool {
         matches!(self.acts_on(), ActsOn::Cable | ActsOn::Sections)
     }
 

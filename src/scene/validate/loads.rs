@@ -70,9 +70,9 @@ impl Load {
 }
 
 /// A component of a load as a function of time; of what changes along a body see [`function_along`].
-pub(super) fn component(path: &str, of: &Value, is_spread: bool) -> Result<Signal, Error> {
+pub(super) fn component(path: &str, of: &Value, is_distributed: bool) -> Result<Signal, Error> {
     let function = match of {
-        Value::Expression(text) if is_spread => function_along(path, text),
+        Value::Expression(text) if is_distributed => function_along(path, text),
         _ => value(path, of, false),
     };
     function.map(Signal::Function)
@@ -131,7 +131,7 @@ impl<'a> Resolved<'a> {
         let components = self.signals(&format!("{path}.value"), kind, given)?;
         let of = [&load.marker, &load.joint, &load.body];
         let mut action = self.resolve_action(path, (kind, load.follower), of, components)?;
-        if kind.is_spread() {
+        if kind.is_distributed() {
             let values = given.components().iter().enumerate();
             action.along = values
                 .filter_map(|(k, of)| Some((k, of.along()?)))
@@ -197,7 +197,7 @@ impl<'a> Resolved<'a> {
         kind: ActionKind,
         given: &LoadValue,
     ) -> Result<Vec<Signal>, Error> {
-        let signal = |path: &str, of: &Value| component(path, of, kind.is_spread());
+        let signal = |path: &str, of: &Value| component(path, of, kind.is_distributed());
         match (kind.is_force(), given) {
             (true, _) => components(path, self.scene.dimension, given.components(), signal),
             (false, _) if kind.components(self.scene.dimension) > 1 => {

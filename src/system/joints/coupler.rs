@@ -59,7 +59,7 @@ impl<const D: usize> Coupler<D> {
 
     pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         for (factor, of) in &self.terms {
-            of.add_curvature(lambda * factor, view.x, &mut *add);
+            of.add_hessian(lambda * factor, view.x, &mut *add);
         }
     }
 

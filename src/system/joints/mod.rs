@@ -33,7 +33,7 @@ pub use target::Target;
 pub use unit::UnitLength;
 
 use super::LineChain;
-use super::coordinate::Way;
+use super::coordinate::Translation;
 use super::direction::AxisTurn;
 use super::end::{Add, End};
 use super::gradient::Gradient;
@@ -89,7 +89,7 @@ pub struct Joint<const D: usize = 2> {
     /// In space the turn about its axis, where it has one.
     pub turn: Option<AxisTurn<D>>,
     /// The way that its second end can go along a line of the first, where that stands still or belongs to a rigid body.
-    pub way: Option<Way<D>>,
+    pub way: Option<Translation<D>>,
     /// When it lets go, if it does.
     pub release: Option<Release>,
 }

@@ -19,7 +19,7 @@ pub enum Across<const D: usize> {
     /// A direction.
     Direction(Direction<D>),
     /// The way from the first point to the second; residuals are relative to a size, m.
-    Way([End<D>; 2], f64),
+    Translation([End<D>; 2], f64),
 }
 
 /// A right angle.
@@ -37,7 +37,7 @@ impl<const D: usize> Perpendicular<D> {
         let mut ends = vec![self.direction.end()];
         match &self.across {
             Across::Direction(second) => ends.push(second.end()),
-            Across::Way(points, _) => ends.extend(points),
+            Across::Translation(points, _) => ends.extend(points),
         }
         ends
     }
@@ -51,7 +51,7 @@ impl<const D: usize> Perpendicular<D> {
     pub fn size(&self) -> f64 {
         match self.across {
             Across::Direction(_) => 1.0,
-            Across::Way(_, size) => size,
+            Across::Translation(_, size) => size,
         }
     }
 
@@ -59,7 +59,7 @@ impl<const D: usize> Perpendicular<D> {
         let first = self.direction.value(view.x);
         match &self.across {
             Across::Direction(second) => first.dot(&second.value(view.x)),
-            Across::Way(points, _) => first.dot(&way(points, view)),
+            Across::Translation(points, _) => first.dot(&way(points, view)),
         }
     }
 
@@ -74,7 +74,7 @@ impl<const D: usize> Perpendicular<D> {
                     (second.end().lift(), [none, first]),
                 ],
             },
-            Across::Way(points, _) => {
+            Across::Translation(points, _) => {
                 let [_, b] = points.map(|end| end.lift());
                 let way = way(points, view);
                 // The direction belongs to the marker of the first point, if to any.
@@ -93,7 +93,7 @@ impl<const D: usize> Perpendicular<D> {
         let first = self.direction.rate(view.v);
         let second = match &self.across {
             Across::Direction(second) => second.rate(view.v),
-            Across::Way(points, _) => {
+            Across::Translation(points, _) => {
                 let [a, b] = points.map(|end| end.lift().velocity(view.v));
                 b - a
             }
@@ -111,7 +111,7 @@ impl<const D: usize> Perpendicular<D> {
                 bilinear([(first, 1), (second, 1)], product, add);
             }
             Across::Direction(Direction::Fixed(_)) => {}
-            Across::Way([_, b], _) => {
+            Across::Translation([_, b], _) => {
                 if let End::Body(second) = b {
                     bilinear([(first, 1), (second, 0)], product, add);
                 }

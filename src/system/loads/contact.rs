@@ -125,7 +125,7 @@ impl<const D: usize> Surface<D> {
 impl<const D: usize> Contact<D> {
     /// The body, if a winch pays it out.
     fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
-        match self.is_spread() {
+        match self.is_distributed() {
             true => at.paid_out(self.first_node()),
             false => None,
         }
@@ -184,7 +184,7 @@ impl<const D: usize> Contact<D> {
     }
 
     /// Whether it is that of a body, not of a marker.
-    pub(in crate::system) fn is_spread(&self) -> bool {
+    pub(in crate::system) fn is_distributed(&self) -> bool {
         self.places.len() > 1
     }
 
@@ -278,7 +278,7 @@ impl<const D: usize> Contact<D> {
         at: Instant<'_, D, N>,
         call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
     ) {
-        if !self.is_spread() {
+        if !self.is_distributed() {
             self.each_force(at, 0..1, call);
         }
     }

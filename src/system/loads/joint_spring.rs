@@ -53,7 +53,7 @@ impl<const D: usize> JointSpring<D> {
         if self.stiffness != 0.0 {
             of.add_square(self.stiffness, at.x, &mut *stiffness);
         }
-        of.add_curvature(-self.force(at), at.x, stiffness);
+        of.add_hessian(-self.force(at), at.x, stiffness);
         if self.damping > 0.0 {
             of.add_square(self.damping, at.x, damping);
         }

@@ -132,9 +132,8 @@ impl<const D: usize> Load<D> {
             Self::Distributed(load) => (load.density.changes()
                 && load.first_node(at.chains) == first)
                 .then(|| load.changing(at, stretch)),
-            Self::Contact(load) => {
-                (load.is_spread() && load.first_node() == first).then(|| load.changing(at, stretch))
-            }
+            Self::Contact(load) => (load.is_distributed() && load.first_node() == first)
+                .then(|| load.changing(at, stretch)),
             Self::Fluid(load) => {
                 (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
             }
@@ -396,7 +395,7 @@ impl<const D: usize> Load<D> {
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),
             Self::Stop(load) => load.coordinate.ends().to_vec(),
             // Elements couple their nodes already.
-            Self::Contact(load) if load.is_spread() => vec![],
+            Self::Contact(load) if load.is_distributed() => vec![],
             Self::Contact(load) => vec![End::Body(load.places[0].marker)],
             Self::SixBushing(load) => load.ends().to_vec(),
             Self::Bushing(load) => vec![End::Body(load.marker)],

@@ -13,7 +13,7 @@ use super::{Add, Instant};
 use crate::body::Node;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::coordinate::Way;
+use crate::system::coordinate::Translation;
 use crate::system::direction::Direction;
 use crate::system::end::{End, bilinear};
 use crate::system::gradient::Terms;
@@ -29,7 +29,7 @@ const HALF_TURN: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub struct SixBushing<const D: usize> {
     /// Ways along the axes of the first end.
-    pub ways: [Way<D>; 3],
+    pub ways: [Translation<D>; 3],
     /// Ways without force, m.
     pub rest: [f64; 3],
     /// Axes of both ends, which are the same without moment.
@@ -207,7 +207,7 @@ impl<const D: usize> SixBushing<D> {
             let gradient = way.gradient(at.x);
             gradient.add_square(self.stiffness[0][k], &mut *stiffness);
             gradient.add_square(self.damping[0][k], &mut *damping);
-            way.add_curvature(-force[k], &mut *stiffness);
+            way.add_hessian(-force[k], &mut *stiffness);
             let of_turn = terms(&turned.by_products(&Vector3::ith(k, 1.0)));
             of_turn.add_square(self.stiffness[1][k], &mut *stiffness);
             of_turn.add_square(self.damping[1][k], &mut *damping);

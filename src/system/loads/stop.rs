@@ -91,7 +91,7 @@ impl<const D: usize> Stop<D> {
         };
         let (of, factor) = (&self.coordinate, self.damped(&contact));
         of.add_square(self.stiffness * factor, at.x, &mut *stiffness);
-        of.add_curvature(-self.force(at), at.x, stiffness);
+        of.add_hessian(-self.force(at), at.x, stiffness);
         if factor > 0.0 {
             of.add_square(self.stiffness * self.damping * contact.depth, at.x, damping);
         }

@@ -1,6 +1,6 @@
 //! Kinks and jumps of functions of time: no step leads across one, and none is taken from both sides at once.
 //!
-//! Between two of them motion is smooth: functions of time are taken inside that stretch also at its ends,
+//! Between two of them motion is smooth: functions of time are taken inside that interval also at its ends,
 //! [`grain`] away, so that a method which evaluates the end of its step sees the branch that the step was on.
 //! Where the velocity of a driven coordinate jumps, an impulse of its drive sets the bodies moving: of all
 //! velocities that joints and motions allow, those that change least in the mass norm (E. J. Routh, Dynamics
@@ -53,7 +53,7 @@ impl<const D: usize> System<D> {
 
     /// The time at which functions of time are taken at `time`.
     pub(in crate::system) fn clock(&self, time: f64, work: &Workspace<D>) -> f64 {
-        match work.stretch {
+        match work.smooth_interval {
             Some([first, last]) => time.max(first).min(last),
             None => self.now(time),
         }
@@ -89,13 +89,13 @@ impl<const D: usize> System<D> {
 }
 
 impl<const D: usize> Model<'_, D> {
-    /// Begins a stretch without kinks and jumps at `from`; its end, `until` at the latest.
+    /// Begins a smooth interval at `from`; its end, `until` at the latest.
     pub(in crate::system) fn enter(&mut self, from: f64, until: f64) -> f64 {
         let (first, last) = (from + grain(from), until + grain(until));
         self.work.release_at(from, self.inputs);
         let found = self.system.next_break(first, last);
         self.crossing = found;
-        self.work.stretch = match (self.system.has_breaks, found) {
+        self.work.smooth_interval = match (self.system.has_breaks, found) {
             (true, Some(time)) => Some([first, (time - grain(time)).max(first)]),
             (true, None) => Some([first, f64::INFINITY]),
             (false, _) => None,
@@ -114,11 +114,11 @@ impl<const D: usize> Model<'_, D> {
         found.map_or(to, |time| (time - 2.0 * grain(time)).max(from))
     }
 
-    /// Ends the stretch; a state at its end goes on after the kink or jump there.
+    /// Ends the smooth interval. A state at its end goes on after the kink or jump there.
     pub(in crate::system) fn leave(&mut self, state: &mut State) -> StepOutcome {
         let before = self
             .work
-            .stretch
+            .smooth_interval
             .take()
             .map_or(state.time, |[_, last]| last);
         let crossed = self.crossing.take();
@@ -150,7 +150,7 @@ impl<const D: usize> Model<'_, D> {
     fn strike(&mut self, state: &mut State, [before, after]: [f64; 2]) -> StepOutcome {
         let (system, time) = (self.system, state.time);
         let rates = Some(&state.rates[..]);
-        self.work.stretch = Some([before, before]);
+        self.work.smooth_interval = Some([before, before]);
         system.forward_kinematics(time, &state.coordinates, rates, self.work);
         let motion = (&self.work.x[..], &self.work.v[..]);
         let energy = system.kinetic(&self.work.drives, motion);
@@ -161,11 +161,15 @@ impl<const D: usize> Model<'_, D> {
             drives, x, other, ..
         } = &mut *self.work;
         system.add_passing(drives, 1.0, x, other);
-        self.work.stretch = Some([after, after]);
+        self.work.smooth_interval = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
-        self.work.supply.fill(no_node());
-        system.add_driven(&self.work.targets, 1, &mut self.work.supply);
-        for (rate, driven) in old.iter_mut().zip(&self.work.supply) {
+        self.work.linear_constraint_forces.fill(no_node());
+        system.add_driven(
+            &self.work.targets,
+            1,
+            &mut self.work.linear_constraint_forces,
+        );
+        for (rate, driven) in old.iter_mut().zip(&self.work.linear_constraint_forces) {
             add_node(rate, -1.0, driven);
         }
         system.rates_of(&mut old, self.work, &mut state.rates);
@@ -177,7 +181,7 @@ impl<const D: usize> Model<'_, D> {
             let motion = (&self.work.x[..], &self.work.v[..]);
             state.work[0] += system.kinetic(&self.work.drives, motion) - energy;
         }
-        self.work.stretch = None;
+        self.work.smooth_interval = None;
         match kept {
             true => StepOutcome::Moved,
             false => StepOutcome::ConstraintsViolated,

@@ -64,9 +64,9 @@ pub trait Dynamics {
     }
     /// Told of every accepted step: brings the state back to the constraints and counts turns on.
     fn accepted(&mut self, state: &mut State) -> StepOutcome;
-    /// Begins a stretch in which nothing has a kink or jumps: from a time to the one returned, `until` at the
+    /// Begins a smooth interval: from a time to the one returned, `until` at the
     /// latest. Accelerations at both ends are those inside it.
-    fn begin_stretch(&mut self, from: f64, until: f64) -> f64;
+    fn begin_smooth_interval(&mut self, from: f64, until: f64) -> f64;
     /// Until when, no later than `to` (s), what drives the system goes on as it does at `from` without a kink or a jump if
     /// inputs stay as they are; `from` where a step may not lead beyond the communication point.
     fn unchanged_until(&self, from: f64, _to: f64) -> f64 {
@@ -79,8 +79,8 @@ pub trait Dynamics {
     fn operations(&self) -> f64 {
         0.0
     }
-    /// Ends the stretch, at whose end or before it the state stands; beyond a jump it goes on differently.
-    fn end_stretch(&mut self, state: &mut State) -> StepOutcome;
+    /// Ends the smooth interval, at whose end or before it the state stands; beyond a jump it goes on differently.
+    fn end_smooth_interval(&mut self, state: &mut State) -> StepOutcome;
 }
 
 /// What became of an accepted state.
@@ -128,7 +128,7 @@ pub struct Model<'a, const D: usize = 2> {
     /// Scratch of the system.
     pub work: &'a mut Workspace<D>,
     pub(in crate::system) time: f64,
-    /// The kink or jump that ends the stretch under way.
+    /// The kink or jump that ends the smooth interval under way.
     pub(in crate::system) crossing: Option<f64>,
     /// Operations so far, in accelerations, and the most of them.
     operations: f64,
@@ -146,7 +146,7 @@ impl<'a, const D: usize> Model<'a, D> {
         work.resume(state);
         work.rank.begin(state.time);
         work.release_at(state.time, inputs);
-        work.stretch = None;
+        work.smooth_interval = None;
         work.inputs.clear();
         work.inputs.extend_from_slice(inputs);
         work.input_rates.clear();
@@ -471,11 +471,11 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         self.operations
     }
 
-    fn begin_stretch(&mut self, from: f64, until: f64) -> f64 {
+    fn begin_smooth_interval(&mut self, from: f64, until: f64) -> f64 {
         self.enter(from, until)
     }
 
-    fn end_stretch(&mut self, state: &mut State) -> StepOutcome {
+    fn end_smooth_interval(&mut self, state: &mut State) -> StepOutcome {
         self.leave(state)
     }
 }

@@ -155,8 +155,8 @@ impl<const D: usize> System<D> {
             self.elimination.reduce(&work.f, &mut work.y, a);
         } else {
             work.other.copy_from_slice(&work.f);
-            self.shorten(&work.drives, &mut work.other);
-            (self.frames).pull_all((&work.x, Some(&work.v)), &mut work.other);
+            self.pull_back(&work.drives, &mut work.other);
+            (self.frames).pull_back((&work.x, Some(&work.v)), &mut work.other);
             let motion = (&work.x[..], &work.v[..]);
             self.add_rod_forces(motion, &work.torques, &mut work.other);
             self.elimination.reduce(&work.other, &mut work.y, a);
@@ -222,14 +222,19 @@ impl<const D: usize> System<D> {
             });
         }
         for frame in self.frames.list() {
-            let turned = Frames::geometric(frame, &work.supply, x);
+            let turned = Frames::geometric(frame, &work.linear_constraint_forces, x);
             let block = turning_block(&((turned + turned.transpose()) * 0.5));
             assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
         for frame in self.frames.carried() {
-            Frames::geometric_of_carried(frame, &work.supply, x, |a, b, block| {
-                assembly.add(a, b, block, &mut tangent.stiffness);
-            });
+            Frames::geometric_of_carried(
+                frame,
+                &work.linear_constraint_forces,
+                x,
+                |a, b, block| {
+                    assembly.add(a, b, block, &mut tangent.stiffness);
+                },
+            );
         }
         tangent.hold(assembly, &work.jacobian, &self.multipliers);
         self.add_multipliers(&view, &work.jacobian, &mut tangent.stiffness);
@@ -261,9 +266,9 @@ impl<const D: usize> System<D> {
         });
     }
 
-    /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.supply`.
+    /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.linear_constraint_forces`.
     pub(in crate::system) fn add_multiplied(&self, work: &mut Workspace<D>) {
-        let mut sum = std::mem::take(&mut work.supply);
+        let mut sum = std::mem::take(&mut work.linear_constraint_forces);
         sum.copy_from_slice(&work.f);
         let view = self.view(work);
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
@@ -271,30 +276,34 @@ impl<const D: usize> System<D> {
                 add(&[(node, *term)], -lambda, &mut sum);
             });
         }
-        work.supply = sum;
+        work.linear_constraint_forces = sum;
     }
 
-    /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.supply`:
+    /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.linear_constraint_forces`:
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
-    pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Workspace<D>) {
+    pub(in crate::system) fn linear_constraint_forces(&self, a: &[f64], work: &mut Workspace<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
-        self.shorten(&work.drives, &mut work.other);
+        self.pull_back(&work.drives, &mut work.other);
         self.frames.place_changes(&work.x, &mut work.other);
         (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);
         self.add_driven(&work.targets, 2, &mut work.other);
         self.add_lengthened(&work.drives, (&work.x, &work.v), &mut work.other);
-        for (supply, f) in work.supply.iter_mut().zip(&work.f) {
-            *supply = map_node(f, |f| -f);
+        for (linear_constraint_forces, f) in work.linear_constraint_forces.iter_mut().zip(&work.f) {
+            *linear_constraint_forces = map_node(f, |f| -f);
         }
-        self.add_inertia_now(&work.drives, &work.other, &mut work.supply);
-        let mut supply = std::mem::take(&mut work.supply);
+        self.add_inertia_now(
+            &work.drives,
+            &work.other,
+            &mut work.linear_constraint_forces,
+        );
+        let mut linear_constraint_forces = std::mem::take(&mut work.linear_constraint_forces);
         let view = self.view(work);
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             constraint.for_each(&view, |node, term| {
-                add(&[(node, *term)], *lambda, &mut supply);
+                add(&[(node, *term)], *lambda, &mut linear_constraint_forces);
             });
         }
-        work.supply = supply;
+        work.linear_constraint_forces = linear_constraint_forces;
     }
 
     /// Power that comes in through loads and motions and that is dissipated, W, at the state, forces and
@@ -306,7 +315,7 @@ impl<const D: usize> System<D> {
         work: &mut Workspace<D>,
     ) -> [f64; 2] {
         if !self.drives.is_empty() {
-            self.supply(a, work);
+            self.linear_constraint_forces(a, work);
         }
         let multiplied = self.constraints.iter().zip(work.lambda.iter().copied());
         let at = self.instant(time, work);
@@ -314,7 +323,7 @@ impl<const D: usize> System<D> {
             at,
             &self.view(work),
             |place| work.targets[place][1],
-            (&work.supply, work.dissipated),
+            (&work.linear_constraint_forces, work.dissipated),
             multiplied,
         )
     }
@@ -326,7 +335,7 @@ impl<const D: usize> System<D> {
         at: Instant<'_, D, N>,
         view: &View<'_, D, N>,
         rate_of: impl Fn(usize) -> N,
-        (supply, by_cables): (&[Node<D, N>], N),
+        (linear_constraint_forces, by_cables): (&[Node<D, N>], N),
         multiplied: impl Iterator<Item = (&'a Constraint<D>, N)>,
     ) -> [N; 2] {
         let mut power = [N::of(0.0), by_cables];
@@ -334,7 +343,7 @@ impl<const D: usize> System<D> {
             for (place, driven) in self.driven.iter().enumerate() {
                 let rate = rate_of(place);
                 for (node, c) in &driven.follow {
-                    power[0] += weighted(c, &supply[*node]) * rate;
+                    power[0] += weighted(c, &linear_constraint_forces[*node]) * rate;
                 }
             }
             for (constraint, lambda) in multiplied {

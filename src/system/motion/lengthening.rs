@@ -93,7 +93,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes forces on nodes to those on `u`, or second derivatives of `u` to what they are in those of the nodes.
-    pub(in crate::system) fn shorten<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
+    pub(in crate::system) fn pull_back<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
         for (_, node, now) in self.lengthened(drives) {
             of[node] = map_node(&of[node], |number| number * now.root[0]);
         }
@@ -151,7 +151,7 @@ impl<const D: usize> System<D> {
     }
 
     /// The driven coordinate of a winch that has paid out cable at the configuration in `work`, and how much, m.
-    pub fn begun(&self, work: &Workspace<D>) -> Option<(usize, f64)> {
+    pub fn paid_out_at_start(&self, work: &Workspace<D>) -> Option<(usize, f64)> {
         self.winches.iter().find_map(|winch| {
             let [travel, ..] = work.drives[winch.drive];
             (travel.abs() > BEGUN * winch.length).then_some((winch.drive, travel))

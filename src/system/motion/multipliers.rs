@@ -150,7 +150,7 @@ impl<const D: usize> System<D> {
         self.ask_accelerations(work);
         work.jacobian.factor(RANK);
         let right = &work.right;
-        work.jacobian.bring(2, |row| right[row], a);
+        work.jacobian.solve_minimum_norm(2, |row| right[row], a);
         work.lambda.copy_from_slice(work.jacobian.multipliers());
         work.is_without_multipliers = false;
     }
@@ -165,7 +165,7 @@ impl<const D: usize> System<D> {
             work.right.fill(0.0);
             self.bring_tree(work, q);
         } else {
-            work.jacobian.bring(2, |_| 0.0, q);
+            work.jacobian.solve_minimum_norm(2, |_| 0.0, q);
         }
     }
 
@@ -295,7 +295,7 @@ impl<const D: usize> System<D> {
         } else {
             work.jacobian.factor(rank);
             let right = &work.right;
-            (work.jacobian).bring(passes, |row| right[row], &mut change);
+            (work.jacobian).solve_minimum_norm(passes, |row| right[row], &mut change);
         }
         self.to_rotations(work, &mut change);
         q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);

@@ -129,7 +129,7 @@ impl<const D: usize> Derivatives<D> {
             self.forces(system, true);
             self.accelerations(system, plain, k, work);
         }
-        self.supply(system, order);
+        self.linear_constraint_forces(system, order);
     }
 
     /// Derivatives, of the first order, along a direction of the inputs of what
@@ -162,7 +162,7 @@ impl<const D: usize> Derivatives<D> {
         self.follow(system, plain);
         self.forces(system, false);
         self.accelerations(system, plain, 1, work);
-        self.supply(system, 1);
+        self.linear_constraint_forces(system, 1);
     }
 
     /// Inputs with derivatives, and their rates with derivatives.
@@ -272,7 +272,7 @@ impl<const D: usize> Derivatives<D> {
         system.elimination.reduce(&self.one, &mut work.y, q);
         if !system.constraints.is_empty() {
             let (jacobian, right) = (&mut work.jacobian, &self.right);
-            jacobian.bring(2, |row| right[row], q);
+            jacobian.solve_minimum_norm(2, |row| right[row], q);
             self.lambda[k].copy_from_slice(jacobian.multipliers());
             for (row, value) in self.values.lambda.iter_mut().enumerate() {
                 value.re = self.lambda[0][row];
@@ -300,9 +300,9 @@ impl<const D: usize> Derivatives<D> {
             return take(&self.f, k, &mut self.one);
         }
         self.pulled.copy_from_slice(&self.f);
-        system.shorten(&self.values.drives, &mut self.pulled);
+        system.pull_back(&self.values.drives, &mut self.pulled);
         let (x, v) = (&self.values.x, &self.values.v);
-        system.frames.pull_all((x, Some(v)), &mut self.pulled);
+        system.frames.pull_back((x, Some(v)), &mut self.pulled);
         system.add_rod_forces((x, v), &self.torques, &mut self.pulled);
         take(&self.pulled, k, &mut self.one);
         let elimination = &system.elimination;
@@ -392,28 +392,34 @@ impl<const D: usize> Derivatives<D> {
     }
 
     /// Forces that linear constraints supply.
-    fn supply(&mut self, system: &System<D>, order: usize) {
-        for (supply, f) in self.values.supply.iter_mut().zip(&self.f) {
-            *supply = map_node(f, |f| -f);
+    fn linear_constraint_forces(&mut self, system: &System<D>, order: usize) {
+        for (linear_constraint_forces, f) in
+            self.values.linear_constraint_forces.iter_mut().zip(&self.f)
+        {
+            *linear_constraint_forces = map_node(f, |f| -f);
         }
         for k in 0..=order {
             take(&self.values.acceleration, k, &mut self.one);
             self.other.fill(no_node());
             system.add_inertia(1.0, &self.one, &mut self.other);
-            add_order(&self.other, k, &mut self.values.supply);
+            add_order(&self.other, k, &mut self.values.linear_constraint_forces);
         }
         self.lengthen_supply(system);
-        let mut supply = std::mem::take(&mut self.values.supply);
+        let mut linear_constraint_forces =
+            std::mem::take(&mut self.values.linear_constraint_forces);
         let view = self.values.view(system);
         for (constraint, lambda) in system.constraints.iter().zip(&self.values.lambda) {
             constraint.for_each(&view, |node, term| {
-                let supply = supply[node].as_flattened_mut().iter_mut();
-                for (supply, term) in supply.zip(term.as_flattened()) {
-                    *supply += *term * *lambda;
+                let linear_constraint_forces =
+                    linear_constraint_forces[node].as_flattened_mut().iter_mut();
+                for (linear_constraint_forces, term) in
+                    linear_constraint_forces.zip(term.as_flattened())
+                {
+                    *linear_constraint_forces += *term * *lambda;
                 }
             });
         }
-        self.values.supply = supply;
+        self.values.linear_constraint_forces = linear_constraint_forces;
     }
 }
 

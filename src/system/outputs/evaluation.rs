@@ -26,7 +26,7 @@ pub struct Evaluation<const D: usize = 2, N = f64> {
     /// Accelerations, m/s^2.
     pub acceleration: Vec<Node<D, N>>,
     /// Forces that linear constraints supply, N.
-    pub(in crate::system) supply: Vec<Node<D, N>>,
+    pub(in crate::system) linear_constraint_forces: Vec<Node<D, N>>,
     /// Multipliers of non-linear constraints.
     pub(in crate::system) lambda: Vec<N>,
     /// Angles that are counted, rad.
@@ -52,7 +52,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             x: nodes.clone(),
             v: nodes.clone(),
             acceleration: nodes.clone(),
-            supply: nodes,
+            linear_constraint_forces: nodes,
             lambda: vec![zero; system.constraints.len()],
             angles: vec![zero; system.angles.len()],
             travel: vec![zero; system.slides.len()],
@@ -120,12 +120,13 @@ impl<const D: usize> Evaluation<D> {
         let mut a = std::mem::take(&mut work.a);
         let mut model = Model::new(system, inputs, work, state).moving(slopes);
         model.accelerate(state.time, &state.coordinates, &state.rates, &mut a);
-        system.supply(&a, work);
+        system.linear_constraint_forces(&a, work);
         work.a = a;
         // An acceleration that is an input acts at once.
         self.drives.copy_from_slice(&work.drives);
         self.acceleration.copy_from_slice(&work.other);
-        self.supply.copy_from_slice(&work.supply);
+        self.linear_constraint_forces
+            .copy_from_slice(&work.linear_constraint_forces);
         self.lambda.copy_from_slice(&work.lambda);
         self.released.copy_from_slice(&work.released);
     }
@@ -232,7 +233,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let target = &system.linear[system.driven[place].row].target;
             target.derivatives(&self.drives)[1]
         };
-        system.power(at, &view, rate_of, (&self.supply, by_cables), multiplied)
+        system.power(
+            at,
+            &view,
+            rate_of,
+            (&self.linear_constraint_forces, by_cables),
+            multiplied,
+        )
     }
 
     /// Largest residual of non-linear constraints: of positions, relative to their size, and of
@@ -397,13 +404,17 @@ impl<const D: usize> System<D> {
     }
 
     /// Multiplier of a linear row from the forces that rows supply; zero for one that repeats others.
-    pub(super) fn row_multiplier<N: Number>(&self, row: usize, supply: &[Node<D, N>]) -> N {
+    pub(super) fn row_multiplier<N: Number>(
+        &self,
+        row: usize,
+        linear_constraint_forces: &[Node<D, N>],
+    ) -> N {
         match self.holds[row] {
             Some((cluster, k)) => {
                 let cluster = &self.elimination.assembly.clusters()[cluster];
                 let column = cluster.multipliers.row(k);
                 let nodes = cluster.nodes.iter();
-                let nodes = nodes.flat_map(|node| supply[*node].as_flattened());
+                let nodes = nodes.flat_map(|node| linear_constraint_forces[*node].as_flattened());
                 let terms = column.iter().zip(nodes);
                 terms.fold(N::of(0.0), |sum, (c, f)| sum + *f * N::of(*c))
             }

@@ -40,7 +40,11 @@ impl<const D: usize> Derivatives<D> {
         for winch in system.winches() {
             let more = winch.now(&values.drives).longer_by() - Jet::of(1.0);
             let chain = &system.chains()[winch.chain];
-            chain.add_inertia(more, &values.acceleration, &mut values.supply);
+            chain.add_inertia(
+                more,
+                &values.acceleration,
+                &mut values.linear_constraint_forces,
+            );
         }
     }
 }

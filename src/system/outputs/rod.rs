@@ -200,7 +200,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             if !joint.ends.iter().filter_map(End::marker).any(&is_on) {
                 continue;
             }
-            let lambda = system.row_multiplier(row, &self.supply);
+            let lambda = system.row_multiplier(row, &self.linear_constraint_forces);
             for (end, on) in joint.ends.iter().zip(&linear.on_ends) {
                 call(&end.lift(), on.map(|on| on.map(N::of) * lambda));
             }

@@ -256,7 +256,7 @@ impl<const D: usize> System<D> {
         for frame in self.frames.list() {
             let node = (frame.node, frame.node);
             let spin = frame.spin(&work.x, &work.v);
-            let turned = Frames::geometric(frame, &work.supply, &work.x);
+            let turned = Frames::geometric(frame, &work.linear_constraint_forces, &work.x);
             // At rest without the moment that speeds the body up, which is none in equilibrium.
             let turned = match spin == Vector3::zeros() {
                 true => (turned + turned.transpose()) * 0.5,

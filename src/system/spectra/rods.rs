@@ -38,9 +38,14 @@ impl<const D: usize> System<D> {
         let assembly = &self.elimination.assembly;
         let mut stiffness = Matrix::zeros(assembly.pattern());
         for frame in self.frames.carried() {
-            Frames::geometric_of_carried(frame, &work.supply, &work.x, |a, b, block| {
-                assembly.add(a, b, block, &mut stiffness);
-            });
+            Frames::geometric_of_carried(
+                frame,
+                &work.linear_constraint_forces,
+                &work.x,
+                |a, b, block| {
+                    assembly.add(a, b, block, &mut stiffness);
+                },
+            );
         }
         made.stiffness.add_symmetric(1.0, &stiffness);
     }

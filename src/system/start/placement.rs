@@ -210,7 +210,7 @@ impl<const D: usize> System<D> {
 
     /// Gaps of joints in a described configuration that are larger than a part of the largest body, or than this
     /// angle in rad.
-    pub fn misfits(
+    pub fn initial_gaps(
         &self,
         (time, inputs): (f64, &[f64]),
         nodes: &[Node<D>],
@@ -240,7 +240,7 @@ impl<const D: usize> System<D> {
         for chain in &self.rod_chains {
             chain.add_spin_inertia((&work.x, dx), &self.frames, &mut work.f);
         }
-        (self.frames).pull_all((&work.x, None), &mut work.f);
+        (self.frames).pull_back((&work.x, None), &mut work.f);
         self.elimination.reduce(&work.f, &mut work.y, q);
         self.to_rotations(work, q);
     }
@@ -256,7 +256,7 @@ impl<const D: usize> System<D> {
         // Before `coordinates_of`, which needs the same scratch.
         if !self.winches.is_empty() {
             self.add_passing(&work.drives, -1.0, &work.x, &mut work.other);
-            self.shorten(&work.drives, &mut work.other);
+            self.pull_back(&work.drives, &mut work.other);
             (self.elimination).reduce(&work.other, &mut work.y, &mut work.a);
             self.shorten_rates(work, v);
         }

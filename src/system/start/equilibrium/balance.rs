@@ -81,9 +81,9 @@ fn terms<const D: usize>(system: &System<D>, time: f64, work: &mut Workspace<D>)
     let mut terms = vec![no_node(); work.x.len()];
     for (n, term) in terms.iter_mut().enumerate() {
         let parts = [&work.f[n], &system.weight[n], &loads[n]].map(|part| part.as_flattened());
-        let supply = work.supply[n].as_flattened();
+        let linear_constraint_forces = work.linear_constraint_forces[n].as_flattened();
         for (i, term) in term.as_flattened_mut().iter_mut().enumerate() {
-            let multiplied = (parts[0][i] - supply[i]).abs();
+            let multiplied = (parts[0][i] - linear_constraint_forces[i]).abs();
             *term = parts.iter().map(|part| part[i].abs()).sum::<f64>() + multiplied;
         }
     }
@@ -124,7 +124,7 @@ fn rounded<const D: usize>(
     elimination.coordinates_of(&mut noise);
     work.tangent.apply_stiffness(elimination, &mut noise);
     let mut forces = sample(terms, of_terms);
-    system.frames.pull_all((&work.x, None), &mut forces);
+    system.frames.pull_back((&work.x, None), &mut forces);
     let mut summed = noise.clone();
     elimination.reduce(&forces, &mut work.y, &mut summed);
     (noise.iter_mut().zip(&summed)).for_each(|(noise, sum)| *noise += sum);

@@ -154,7 +154,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             }
             if shift > 0.0 && self.kept == 0.0 && self.is_conservative && !is_nudged {
                 is_nudged = true;
-                if self.nudge(state) {
+                if self.leave_saddle(state) {
                     continue;
                 }
             }
@@ -293,7 +293,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
 
     /// Leaves a place that symmetry keeps unstable before roundoff does, to a side that does not depend on it; false
     /// where something points away from it, or nothing is unstable.
-    fn nudge(&mut self, state: &mut State) -> bool {
+    fn leave_saddle(&mut self, state: &mut State) -> bool {
         let (x, size) = (self.x.clone(), self.model.system.scale());
         let lowest = self.lowest(state);
         let is_even = |value: f64, mode: &[f64], force: &[f64]| {

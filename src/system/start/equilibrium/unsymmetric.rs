@@ -186,7 +186,7 @@ fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
     }
     work.f = force;
     let mut out = vec![0.0; q.len()];
-    system.frames.pull_all((&work.x, None), &mut work.f);
+    system.frames.pull_back((&work.x, None), &mut work.f);
     system.elimination.reduce(&work.f, &mut work.y, &mut out);
     out
 }
