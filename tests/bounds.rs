@@ -108,7 +108,7 @@ fn a_linkage_at_the_end_of_its_reach_is_told() {
             {"name": "pin", "kind": "revolute", "markers": ["ground", "crank.a"]},
             {"name": "knee", "kind": "revolute", "markers": ["crank.b", "rod.a"]},
             {"name": "wrist", "kind": "revolute", "markers": ["rod.b", "block.c"]},
-            {"name": "rail", "kind": "slider", "markers": ["ground", "block.c"], "direction": [1, 0]}],
+            {"name": "rail", "kind": "point_on_line", "markers": ["ground", "block.c"], "direction": [1, 0]}],
         "motions": [{"name": "drive", "kind": "displacement", "joint": "rail", "value": "t"}],
         "outputs": [{"kind": "position", "marker": "block.c"}]
     });

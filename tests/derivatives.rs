@@ -88,7 +88,7 @@ impl Moving {
         let (mut scene, _) = plan(&scene, &budget, &mut |_, _, _| ()).expect("a plan");
         scene.accuracy.relative_tolerance = Some(1e-10);
         // Soft enough for differences over a time that rounding does not notice.
-        scene.initial = Initial::State(InitialState::AsShaped);
+        scene.initial = Initial::State(InitialState::Undeformed);
         for body in &mut scene.bodies {
             if let Body::Cable(cable) = body {
                 cable.material.youngs_modulus = Some(1e-4 * cable.material.young());

@@ -96,10 +96,10 @@ fn scene(integrator: &str, damping_time: f64, (joints, holder): (&str, &str)) ->
 const PIN: &str = r#"{ "name": "joint", "kind": "revolute", "markers": ["ground", "rod.root"] }"#;
 const CLAMP: &str = r#"{ "name": "joint", "kind": "weld", "markers": ["ground", "rod.root"] }"#;
 const SLIDERS: &str = r#"
-    { "name": "joint", "kind": "slider", "markers": ["ground", "rod.root"], "direction": [1.0, 0.5] },
-    { "name": "other", "kind": "slider", "markers": ["ground", "rod.middle"], "direction": [0.0, 1.0] },
+    { "name": "joint", "kind": "point_on_line", "markers": ["ground", "rod.root"], "direction": [1.0, 0.5] },
+    { "name": "other", "kind": "point_on_line", "markers": ["ground", "rod.middle"], "direction": [0.0, 1.0] },
     { "name": "third", "kind": "orientation", "markers": ["ground", "rod.root"] },
-    { "name": "fourth", "kind": "slider", "markers": ["ground", "rod.root"], "direction": [1.0, 0.5] }"#;
+    { "name": "fourth", "kind": "point_on_line", "markers": ["ground", "rod.root"], "direction": [1.0, 0.5] }"#;
 
 /// Many bodies: joints, motions and loads of every kind, linear and not, by number, expression, table and
 /// input; outputs of every kind that a single cable has not.
@@ -131,13 +131,13 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
           "joints": [
             { "name": "pivot", "kind": "revolute", "markers": ["ground", "crank.root"] },
             { "name": "clamp", "kind": "weld", "markers": ["crank.pin", "rope.root"] },
-            { "name": "slide", "kind": "along", "markers": ["rope", "ring.eye"] },
-            { "name": "elbow", "kind": "hinge", "markers": ["rope.tip", "bar.near"], "stiffness": 3.0,
+            { "name": "slide", "kind": "point_on_cable", "markers": ["rope", "ring.eye"] },
+            { "name": "elbow", "kind": "revolute", "markers": ["rope.tip", "bar.near"], "stiffness": 3.0,
                "damping": 0.1 },
             { "name": "fixed", "kind": "weld", "markers": ["bar.far", "arm.near"] },
             { "name": "again", "kind": "revolute", "markers": ["bar.far", "arm.near"] },
             { "name": "link", "kind": "distance", "markers": ["cart.eye", "bob.eye"] },
-            { "name": "rail", "kind": "slider", "markers": ["ground", "sledge.eye"],
+            { "name": "rail", "kind": "point_on_line", "markers": ["ground", "sledge.eye"],
                "direction": [1.0, 0.0] } ],
           "motions": [
             { "name": "drive", "kind": "angle", "joint": "pivot", "value": "0.3*abs(sin(2*t - 0.2))" },
@@ -150,14 +150,14 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
             { "name": "turn", "kind": "moment", "marker": "rope.middle",
                "value": { "table": [[0.0, 0.0], [0.15, 0.1]] } },
             { "name": "motor", "kind": "torque", "joint": "elbow", "value": 0.1 },
-            { "name": "wind", "kind": "distributed", "body": "rope", "value": [0.1, "0.2*sin(PI*s - t)"] },
+            { "name": "wind", "kind": "distributed_force", "body": "rope", "value": [0.1, "0.2*sin(PI*s - t)"] },
             { "name": "stream", "kind": "fluid", "body": "rope", "density": 900.0, "drag": 1.2, "tangential_drag": 0.02,
                "added_mass": 1.0, "current": [0.1, "0.2*s*sin(t)"] },
             { "name": "breeze", "kind": "fluid", "body": "arm", "density": 1.2, "drag": 1.2, "added_mass": 1.0 },
             { "name": "spring", "kind": "spring_damper", "markers": ["ground", "bob.eye"],
                "point": [1.0, 1.5], "stiffness": 20.0, "damping": 0.3 } ],
           "inputs": [ { "kind": "torque", "joint": "elbow" },
-                      { "kind": "distributed", "body": "rope" },
+                      { "kind": "distributed_force", "body": "rope" },
                       { "kind": "force", "marker": "arm.far", "follower": true },
                       { "kind": "rest_length", "load": "spring" },
                       { "kind": "current", "load": "breeze" } ],

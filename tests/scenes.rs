@@ -23,7 +23,7 @@ const BAD: [(&str, &str, &str); 28] = [
     (
         "/initial",
         "\"rest\"",
-        "initial: expected \"as_shaped\" or \"static_equilibrium\" or \"steady\", found \"rest\"",
+        "initial: expected \"undeformed\" or \"static_equilibrium\" or \"steady\", found \"rest\"",
     ),
     (
         "/initial",

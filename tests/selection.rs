@@ -179,8 +179,8 @@ const BAR: &str = r#"{
                 "section": {"area": 1.2506e-4, "second_moment": 1.30334e-9},
                 "shape": {"line": {"from": [0, 0], "to": [2.35, 0]}}, "markers": {"root": 0, "middle": 0.5, "tip": 1}}],
     "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "line.root"]},
-               {"name": "roller", "kind": "slider", "markers": ["ground", "line.tip"], "direction": [1, 0]}],
-    "loads": [{"name": "load", "kind": "distributed", "body": "line", "value": [0, "3.8e-6*sin(8.8*t)"]}],
+               {"name": "roller", "kind": "point_on_line", "markers": ["ground", "line.tip"], "direction": [1, 0]}],
+    "loads": [{"name": "load", "kind": "distributed_force", "body": "line", "value": [0, "3.8e-6*sin(8.8*t)"]}],
     "outputs": [{"kind": "position", "marker": "line.middle"}],
     "accuracy": {"relative_tolerance": 1e-11}
 }"#;

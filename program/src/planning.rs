@@ -57,10 +57,10 @@ pub struct Planning {
     /// JSON file for the plan: elements and fewest elements of bodies, tolerance, errors of outputs, runs.
     #[arg(long)]
     report: Option<PathBuf>,
-    /// CSV file for what inputs do by `accuracy.for`, which `simulate --input` reads; not written where none moves.
+    /// CSV file for what inputs do by `accuracy.input_profiles`, which `simulate --input` reads; not written where none moves.
     #[arg(long)]
     courses: Option<PathBuf>,
-    /// What inputs do in place of `accuracy.for`.
+    /// What inputs do in place of `accuracy.input_profiles`.
     #[command(flatten)]
     inputs: Inputs,
     /// Value of a parameter or input that is planned for, e.g. `rod.density=7800`; may be repeated.

@@ -27,7 +27,7 @@ pub struct View {
     /// Writes the page without opening it.
     #[arg(long)]
     no_open: bool,
-    /// What inputs do, as of `simulate`; what `accuracy.for` says of them if no table is given.
+    /// What inputs do, as of `simulate`; what `accuracy.input_profiles` says of them if no table is given.
     #[command(flatten)]
     inputs: Inputs,
     /// Folder for the surfaces of bodies in every frame as files of VTK, which ParaView opens (`motion.pvd`); no page is written unless it

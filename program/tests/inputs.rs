@@ -13,7 +13,7 @@ const SCENE: &str = r#"{
         "markers": {"a": 0.0, "middle": 0.5, "b": 1.0}}],
     "joints": [
         {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]},
-        {"name": "roller", "kind": "slider", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
+        {"name": "roller", "kind": "point_on_line", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
     "inputs": [{"kind": "force", "marker": "rod.middle"}],
     "outputs": [{"kind": "position", "marker": "rod.middle"}],
     "experiment": {"stop_time": 0.02, "step": 1e-3},

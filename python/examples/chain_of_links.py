@@ -15,7 +15,6 @@ from flexbody.scene import (
     Accuracy,
     EnergyOutput,
     Experiment,
-    Hinge,
     PositionOutput,
     Revolute,
     RigidBody,
@@ -68,7 +67,7 @@ def chain():
     )
     for number in range(1, LINKS):
         ends = [f"link{number}.last", f"link{number + 1}.first"]
-        scene.joints.append(Hinge(name=f"joint{number}", markers=ends, damping=DAMPING))
+        scene.joints.append(Revolute(name=f"joint{number}", markers=ends, damping=DAMPING))
         scene.outputs.append(PositionOutput(marker=ends[0]))
     scene.joints.append(Revolute(name="right", markers=["ground", f"link{LINKS}.last"], point=[SPAN, 0]))
     scene.outputs.append(EnergyOutput())

@@ -152,7 +152,7 @@ fn model(scene: &Scene) -> String {
         Integrator::Rkn64 => "Runge-Kutta-Nystrom of order 6, explicit",
     };
     let initial = match scene.initial.state() {
-        InitialState::AsShaped => {
+        InitialState::Undeformed => {
             "the bodies as described, moved and deformed as far as their joints ask for"
         }
         InitialState::StaticEquilibrium => {

@@ -314,7 +314,7 @@ fn spring_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String
                 format!("{k} {}, {c} {}{rest}", unit[0], unit[1]),
             )
         }
-        LoadKind::Stop { on, sizes, limits } => {
+        LoadKind::JointLimit { on, sizes, limits } => {
             let ([k, c], unit) = (sizes.map(number), units(on));
             let sides = [("below", limits[0]), ("above", limits[1])];
             let sides = sides.map(|(side, limit)| given(&format!(", {side}"), limit, unit[3]));

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::description::JointSpec;
+use super::description::{JointSpec, Symbol};
 use super::resolved::{
     Action, BodyReference, Cable, Ends, First, Form, Hold, Joint, JointCoordinate, LineId, Marker,
     MarkerId, MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
@@ -296,6 +296,14 @@ impl<'a> Joint<'a> {
     /// What is declared of its kind.
     pub fn declaration(&self) -> JointSpec {
         self.kind.declaration()
+    }
+
+    /// How it is drawn.
+    pub fn symbol(&self) -> Symbol {
+        match self.spring() {
+            Some(_) => Symbol::Spiral,
+            None => self.declaration().symbol,
+        }
     }
 
     /// Stiffness (N m/rad) and damping (N m s/rad) of its spring.

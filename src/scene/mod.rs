@@ -19,7 +19,7 @@ mod shape;
 mod timed;
 mod validate;
 
-use description::{Reader, Strict, check_keys};
+use description::{Reader, Strict, check_keys, check_names};
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
@@ -125,6 +125,7 @@ impl Scene {
         json.end()
             .map_err(|error| Error::new("scene", broken(error)))?;
         let value = without_schema(value.0)?;
+        check_names(&value)?;
         check_keys(&value)?;
         let mut scene = Self::deserialize(Reader(value)).map_err(|wrong| {
             let path = match wrong.path.as_str() {

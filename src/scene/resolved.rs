@@ -157,7 +157,7 @@ pub struct Ends<'a> {
     pub second: Marker<'a>,
 }
 
-/// A revolute joint or a hinge: a joint with an angle.
+/// A revolute joint: a joint with an angle.
 #[derive(Clone, Copy, Debug)]
 pub struct Pivot<'a> {
     /// Name of the joint.

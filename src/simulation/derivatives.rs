@@ -86,7 +86,7 @@ impl Simulation {
     /// Whether the initial state depends on one of these inputs: by static equilibrium, or by motions that
     /// inputs drive.
     pub fn start_follows(&self, mut inputs: impl Iterator<Item = usize>) -> bool {
-        let equilibrium = self.scene.initial.state() != InitialState::AsShaped;
+        let equilibrium = self.scene.initial.state() != InitialState::Undeformed;
         inputs.any(|index| {
             let variable = self.variables.get(index);
             variable.is_some_and(|input| equilibrium || !input.acts_at_once())

@@ -170,7 +170,7 @@ impl<const D: usize> Engine<D> {
             InitialState::Steady => Some(system.steady(&state, rates, &mut self.work)?),
             _ => None,
         };
-        if self.initial != InitialState::AsShaped {
+        if self.initial != InitialState::Undeformed {
             let found = equilibrium::find(
                 system,
                 values,

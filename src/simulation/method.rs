@@ -166,11 +166,12 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
     }
 }
 
-/// Rate of the whole mass on the stiffest spring or hinge; 0 without one.
+/// Rate of the whole mass on the stiffest spring; 0 without one.
 fn spring_rate(resolved: &Resolved<'_>, size: f64, mass: f64) -> f64 {
     // A stop or a surface is met now and then.
     let loads = resolved.loads.iter();
-    let is_met = |kind: &LoadKind<'_>| matches!(kind, LoadKind::Stop { .. } | LoadKind::Contact(_));
+    let is_met =
+        |kind: &LoadKind<'_>| matches!(kind, LoadKind::JointLimit { .. } | LoadKind::Contact(_));
     let loads = loads.filter(|load| !is_met(&load.kind));
     let of_springs = loads.map(|load| {
         let [against_ways, against_turns] = load.kind.stiffness();

@@ -104,7 +104,7 @@ impl<const D: usize> Engine<D> {
             }
             StepError::ElementOverDeformed(body, element) => self.overbent((body, element), ""),
             StepError::SliderLeftCable(joint) => {
-                format!("slider `{}` has left its cable", self.name(joint))
+                format!("`{}` has left its cable", self.name(joint))
             }
             StepError::WinchEmpty(drive) => {
                 let name = self.driven_name(drive);

@@ -170,7 +170,7 @@ fn another_instance_goes_on_bit_for_bit() {
           { "name": "bar", "element": "rigid", "mass": 1.0, "inertia": 0.1, "position": [0.3, -0.4],
             "markers": { "top": [-0.3, 0.4] } } ],
         "joints": [
-          { "name": "rail", "kind": "slider", "markers": ["ground", "cart.pin"],
+          { "name": "rail", "kind": "point_on_line", "markers": ["ground", "cart.pin"],
             "direction": [1.0, 0.0] },
           { "name": "pin", "kind": "revolute", "markers": ["cart.pin", "bar.top"] } ],
         "motions": [ { "name": "feed", "kind": "displacement", "joint": "rail",
@@ -270,13 +270,13 @@ fn a_ring_that_leaves_its_rope_stops_the_step() {
            "joints": [
              { "name": "left", "kind": "weld", "markers": ["ground", "rope.a"] },
              { "name": "right", "kind": "weld", "markers": ["ground", "rope.b"] },
-             { "name": "slide", "kind": "along", "markers": ["rope", "ring.eye"] } ],
+             { "name": "slide", "kind": "point_on_cable", "markers": ["rope", "ring.eye"] } ],
            "outputs": [ { "kind": "travel", "joint": "slide" } ]"#,
     );
     ring.step(0.25).expect("a step along the rope");
     assert!((get(&mut ring, "slide.travel") - 0.75).abs() < 1e-6);
     let failure = ring.step(1.0).expect_err("the rope ends");
-    assert!(failure.reason.contains("slider `slide` has left its cable"));
+    assert!(failure.reason.contains("`slide` has left its cable"));
     // It stands at its last sub-step on the rope.
     assert!(failure.time < 1.0);
 }

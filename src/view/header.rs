@@ -248,7 +248,7 @@ fn joint_of(coordinate: &JointCoordinate<'_>) -> usize {
 }
 
 fn of_stop(load: &Load<'_>) -> Option<String> {
-    let LoadKind::Stop { on, limits, .. } = &load.kind else {
+    let LoadKind::JointLimit { on, limits, .. } = &load.kind else {
         return None;
     };
     let [lower, upper] = limits.map(|limit| limit.map_or("null".into(), |at| format!("{at:?}")));
@@ -281,8 +281,7 @@ fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
 }
 
 fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {
-    let declared = joint.declaration();
-    let symbol = match declared.symbol {
+    let symbol = match joint.symbol() {
         Symbol::Pin => "pin",
         Symbol::Spiral => "spiral",
         Symbol::Weld => "weld",
@@ -304,7 +303,7 @@ fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {
     format!(
         "{{\"name\":{},\"kind\":\"{}\",\"symbol\":\"{symbol}\",\"ends\":{},\"direction\":{direction},\"is_local\":{}}}",
         quoted(joint.name),
-        declared.name,
+        joint.declaration().name,
         of_ends(recording, &joint.ends),
         recording.scene.dimension == 2
     )

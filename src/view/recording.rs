@@ -306,11 +306,11 @@ mod tests {
               "markers": { "eye": [0.0, 0.0] } } ],
           "joints": [ { "name": "wall", "kind": "weld", "markers": ["ground", "arm.root"] },
                       { "name": "pin", "kind": "revolute", "markers": ["ground", "vane.axle"] },
-                      { "name": "rail", "kind": "slider", "markers": ["ground", "bead.eye"], "direction": [0.0, 1.0] } ],
+                      { "name": "rail", "kind": "point_on_line", "markers": ["ground", "bead.eye"], "direction": [0.0, 1.0] } ],
           "loads": [ { "name": "rope", "kind": "spring_damper", "markers": ["ground", "bead.eye"], "point": [5.0, 0.0],
                        "stiffness": 30.0, "length": 1.5 },
                      { "name": "vane_spring", "kind": "joint_spring", "joint": "pin", "stiffness": 5.0, "rest": 0.2 },
-                     { "name": "buffer", "kind": "stop", "joint": "rail", "stiffness": 8.0, "lower": 0.25 } ],
+                     { "name": "buffer", "kind": "joint_limit", "joint": "rail", "stiffness": 8.0, "lower": 0.25 } ],
           "experiment": { "stop_time": 0.1, "step": 0.1 } }"#;
         let scene = Scene::from_json(text).expect("a valid scene");
         let run = Recording::new(&scene, None, &Limits::PAGE, &mut |_, _| ()).expect("a run");

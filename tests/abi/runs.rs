@@ -19,7 +19,7 @@ const RING: &str = r#"{
   ],
   "joints": [
     { "name": "clamp", "kind": "weld", "markers": ["ground", "beam.root"] },
-    { "name": "sliding", "kind": "along", "markers": ["beam", "ring.eye"] }
+    { "name": "sliding", "kind": "point_on_cable", "markers": ["beam", "ring.eye"] }
   ],
   "inputs": [{ "kind": "force", "marker": "ring.eye" }],
   "outputs": [{ "kind": "travel", "joint": "sliding" }, { "kind": "velocity", "marker": "ring.eye" }]

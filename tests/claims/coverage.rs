@@ -50,7 +50,7 @@ const OWN: [&str; 11] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
-    "accuracy.for.",
+    "accuracy.input_profiles.",
     "bodies{cable}.elements=auto",
     "bodies{cable}.model=",
     "bodies{rod}.elements",

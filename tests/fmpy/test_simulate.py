@@ -12,7 +12,7 @@ from project import xtask
 SCENE = """{"name": "sled", "dimension": 2, "gravity": [0.0, 0.0],
   "bodies": [{"name": "sled", "element": "rigid", "mass": 2.0, "inertia": 0.0, "position": [0.0, 0.0],
               "markers": {"hook": [0.0, 0.0]}}],
-  "joints": [{"name": "rail", "kind": "slider", "markers": ["ground", "sled.hook"], "direction": [1.0, 0.0]}],
+  "joints": [{"name": "rail", "kind": "point_on_line", "markers": ["ground", "sled.hook"], "direction": [1.0, 0.0]}],
   "inputs": [{"kind": "force", "marker": "sled.hook"}],
   "outputs": [{"kind": "position", "marker": "sled.hook"}, {"kind": "velocity", "marker": "sled.hook"}],
   "accuracy": {"relative_tolerance": 1e-8},

@@ -229,7 +229,7 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
     }
     for (body, kind) in made.bodies.iter().enumerate() {
         if matches!(kind, Body::Cable(_)) {
-            actions.push(Acting::Distributed {
+            actions.push(Acting::DistributedForce {
                 body,
                 size: [wave(made, 28), wave(made, 31)],
             });

@@ -3,7 +3,7 @@
 use flexbody::body::{Marker, Node};
 use flexbody::system::joints::{Joint, Primitive};
 use flexbody::system::loads::{
-    Distributed, Force, JointSpring, Line, LineLoad, Load, Moment, Spring,
+    DistributedForce, Force, JointSpring, Line, LineLoad, Load, Moment, Spring,
 };
 use flexbody::system::{
     Angle, BuildError, Coordinate, Drive, End, Evaluation, LineChain, LumpedMass, Model,
@@ -110,7 +110,7 @@ impl Mechanism {
                 ends: ends(e),
                 size: signal(size),
             }),
-            Acting::Distributed { body, size } => Load::Distributed(Distributed {
+            Acting::DistributedForce { body, size } => Load::DistributedForce(DistributedForce {
                 on: Line::Chain(self.chain(*body)),
                 density: LineLoad {
                     uniform: size.each_ref().map(signal),

@@ -39,7 +39,7 @@ fn led(element: &str) -> [[Vector3<f64>; 2]; 3] {
                    {"name": "hold", "kind": "weld", "markers": ["plate.hub", "line.tip"]}],
         "motions": [{"name": "place", "kind": "position", "marker": "plate.hub", "value": place},
                     {"name": "turn", "kind": "orientation", "marker": "plate.hub", "value": turn}],
-        "loads": [{"name": "pull", "kind": "distributed", "body": "line", "value": [0.0, 0.01, 0.02]}],
+        "loads": [{"name": "pull", "kind": "distributed_force", "body": "line", "value": [0.0, 0.01, 0.02]}],
         "outputs": [{"kind": "reaction", "joint": "wall"}, {"kind": "reaction_moment", "joint": "wall"}],
         "initial": "static_equilibrium", "method": {"integrator": "radau"},
         "accuracy": {"relative_tolerance": 1e-6}});

@@ -15,7 +15,7 @@ fn the_torque_of_a_rod_that_is_stretched_is_damped_by_the_mean_of_both_times() {
     let axial_time = 2.0 * length / (std::f64::consts::PI * speed);
     assert!(axial_time > 3.0 * twist_time);
     let scene = json!({"name": "pulled", "dimension": 3, "gravity": [0.0, 0.0, 0.0],
-        "bodies": [{"element": "rod", "name": "line", "elements": 4, "axial": "settled",
+        "bodies": [{"element": "rod", "name": "line", "elements": 4, "axial": "critically_damped",
             "material": {"youngs_modulus": young, "shear_modulus": 4e5, "density": density, "damping_time": twist_time},
             "section": {"area": area, "second_moments": [1e-9, 1e-9], "torsion_constant": 2e-8, "axial_coupling": [coupling, 0.0, 0.0]},
             "shape": {"line": {"from": [0.0, 0.0, 0.0], "to": [length, 0.0, 0.0]}}, "markers": {"root": 0.0, "tip": 1.0}}],

@@ -316,7 +316,7 @@ impl Mechanism {
                 self.add_moment(ends[1], size.value(t), x, f);
                 self.add_moment(ends[0], -size.value(t), x, f);
             }
-            Acting::Distributed { body, size } => {
+            Acting::DistributedForce { body, size } => {
                 let load = Vector2::from(size.map(|wave| wave.value(t)));
                 let count = self.bodies[*body].sizes()[1] / 8;
                 let elements: Vec<_> = self.elements().collect();

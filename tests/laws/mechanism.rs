@@ -106,7 +106,7 @@ pub enum Acting {
         ends: [Point; 2],
         size: Wave,
     },
-    Distributed {
+    DistributedForce {
         body: usize,
         size: [Wave; 2],
     },

@@ -65,11 +65,11 @@ fn open() -> Value {
             body("bob", [2.0, 0.5], 0.3, json!({"eye": [0.1, 0.2]}))],
         "joints": [
             {"name": "pin", "kind": "revolute", "markers": ["ground", "a.in"]},
-            {"name": "knee", "kind": "hinge", "markers": ["a.out", "b.in"], "stiffness": 3.0, "damping": 0.2, "angle": 0.15},
+            {"name": "knee", "kind": "revolute", "markers": ["a.out", "b.in"], "stiffness": 3.0, "damping": 0.2, "angle": 0.15},
             {"name": "rail", "kind": "prismatic", "markers": ["a.c", "sleeve.c"], "direction": [0.2, -0.05]},
             {"name": "weld", "kind": "weld", "markers": ["sleeve.side", "lamp.foot"]},
             {"name": "guide", "kind": "orientation", "markers": ["ground", "table.c"]},
-            {"name": "groove", "kind": "slider", "markers": ["a.c", "bead.c"], "direction": [-0.3, -0.5]},
+            {"name": "groove", "kind": "point_on_line", "markers": ["a.c", "bead.c"], "direction": [-0.3, -0.5]},
             {"name": "link", "kind": "distance", "markers": ["b.tip", "bob.eye"]}],
         "loads": [
             {"name": "motor", "kind": "torque", "joint": "knee", "value": "0.5*cos(3*t)"},
@@ -118,7 +118,7 @@ fn closed() -> Value {
             {"name": "p1", "kind": "revolute", "markers": ["ground", "crank.in"]},
             {"name": "p2", "kind": "revolute", "markers": ["crank.out", "coupler.in"]},
             {"name": "p3", "kind": "revolute", "markers": ["coupler.out", "rocker.out"]},
-            {"name": "p4", "kind": "hinge", "markers": ["ground", "rocker.in"], "stiffness": 2.0, "damping": 0.1},
+            {"name": "p4", "kind": "revolute", "markers": ["ground", "rocker.in"], "stiffness": 2.0, "damping": 0.1},
             {"name": "s1", "kind": "revolute", "markers": ["ground", "wheel.c"]},
             {"name": "s2", "kind": "revolute", "markers": ["wheel.out", "rod.in"]},
             {"name": "s3", "kind": "revolute", "markers": ["rod.out", "piston.c"]},
@@ -253,7 +253,7 @@ fn hanging(count: usize) -> Value {
             0 => "ground".into(),
             _ => format!("{}.low", name(k - 1)),
         };
-        json!({"name": format!("hinge{k}"), "kind": "hinge", "markers": [above, format!("{}.top", name(k))],
+        json!({"name": format!("hinge{k}"), "kind": "revolute", "markers": [above, format!("{}.top", name(k))],
                "stiffness": 2.0 + 0.1 * k as f64})
     });
     json!({"name": "hanging", "dimension": 2, "gravity": [0.0, -9.81], "bodies": bars.collect::<Vec<_>>(),

@@ -94,7 +94,7 @@ fn scene() -> Value {
             {"name": "post", "kind": "weld", "markers": ["ground", "hook.root"]}],
         "loads": [
             {"name": "twist", "kind": "moment", "marker": "arm.tip", "value": [0.01, 0.02, -0.015]},
-            {"name": "wind", "kind": "distributed", "body": "hook", "value": [0.05, 0.1, 0.02]},
+            {"name": "wind", "kind": "distributed_force", "body": "hook", "value": [0.05, 0.1, 0.02]},
             {"name": "pull", "kind": "force", "marker": "hook.tip", "value": [0.03, -0.02, 0.05]},
             {"name": "stay", "kind": "spring_damper", "markers": ["ground", "bob.edge"], "point": [1.5, 0.6, 0.2],
              "stiffness": 5.0, "damping": 0.02}],
@@ -373,7 +373,7 @@ pub fn flat() -> Value {
             {"name": "hold", "kind": "weld", "markers": ["swing.tip", "bob.eye"]}],
         "loads": [
             {"name": "pull", "kind": "force", "marker": "arm.mid", "value": [0.05, 0.1]},
-            {"name": "wind", "kind": "distributed", "body": "elbow", "value": [0.2, -0.1]},
+            {"name": "wind", "kind": "distributed_force", "body": "elbow", "value": [0.2, -0.1]},
             {"name": "turn", "kind": "moment", "marker": "swing.root", "value": "0.004"},
             {"name": "stay", "kind": "spring_damper", "markers": ["ground", "bob.edge"], "point": [1.5, 0.2],
              "stiffness": 5.0, "damping": 0.02}],

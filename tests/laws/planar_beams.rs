@@ -43,7 +43,7 @@ fn bends_alike((axis, distance): ([f64; 3], f64)) -> Outcome {
         axes: Rotation3::new(Vector3::from(axis)),
         distance,
     };
-    let (at_rest, moving) = (of_beams("static_equilibrium"), of_beams("as_shaped"));
+    let (at_rest, moving) = (of_beams("static_equilibrium"), of_beams("undeformed"));
     let mut both = [&at_rest, &moving].map(|scene| {
         [
             simulation(scene),

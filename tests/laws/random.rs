@@ -395,7 +395,7 @@ impl Builder {
         let ground = Point::Ground(self.dice.vector(2.0));
         let size = [self.dice.wave(3.0), self.dice.wave(3.0)];
         let load = match (self.dice.pick(6), &self.made.bodies[b]) {
-            (0 | 1, Body::Cable(_)) => Acting::Distributed { body: b, size },
+            (0 | 1, Body::Cable(_)) => Acting::DistributedForce { body: b, size },
             (2, body) if !matches!(body, Body::Particle { .. }) => Acting::Moment {
                 ends: [ground, Point::On(second)],
                 size: size[0],

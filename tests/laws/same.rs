@@ -192,7 +192,7 @@ fn a_position_that_is_driven_to_stay_is_a_pin() {
     for kind in bend.filter(|(element, ..)| *element != "auto") {
         let dimension = kind.1;
         let pin = ["revolute", "spherical"][dimension - 2];
-        for (axial, initial) in [("waves", "as_shaped"), ("settled", "as_shaped")] {
+        for (axial, initial) in [("waves", "undeformed"), ("settled", "undeformed")] {
             let mut body = made(*kind, round());
             body["axial"] = json!(axial);
             let mut place = vec![0.05; dimension];
@@ -309,7 +309,7 @@ fn a_rope_on_a_winch_may_be_drawn_from_either_end() {
                        "slip_velocity": 0.05, "surface": {"plane": {"point": [0.0, 0.02], "normal": [0.0, 1.0]}}},
                       {"name": "sea", "kind": "fluid", "body": "line", "density": 800.0, "drag": 1.2, "tangential_drag": 0.1,
                        "current": [0.3, 0.1]},
-                      {"name": "wind", "kind": "distributed", "body": "line", "value": [0.2, -0.1]}, pull(2)],
+                      {"name": "wind", "kind": "distributed_force", "body": "line", "value": [0.2, -0.1]}, pull(2)],
             "outputs": [{"kind": "reaction", "joint": "drum"}, {"kind": "axial_force", "marker": "line.inside"}]});
         let mut scene = with(scene(2, 9.81, body), more);
         scene["accuracy"]["relative_tolerance"] = json!(1e-7);

@@ -67,8 +67,8 @@ fn a_rod_or_beam_moves_alike_seen_from_a_frame_that_turns() {
         let vectors = (uniform3(-8.0..8.0_f64), uniform3(-8.0..8.0_f64));
         check(CASES, vectors, |(rotation, spin)| {
             let (rotation, spin) = (Vector3::from(rotation), Vector3::from(spin));
-            let mut space = simulation(&scene(element, Vector3::zeros(), spin, "as_shaped"));
-            let mut seen = simulation(&scene(element, rotation, spin, "as_shaped"));
+            let mut space = simulation(&scene(element, Vector3::zeros(), spin, "undeformed"));
+            let mut seen = simulation(&scene(element, rotation, spin, "undeformed"));
             space.start().expect("a start");
             seen.start().expect("a start");
             let energy = energy_of(&mut seen);

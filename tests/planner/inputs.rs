@@ -48,7 +48,7 @@ fn an_input_moves_in_the_experiment_that_is_planned_for() {
         pushed(|scene| {
             scene["gravity"] = json!([0.0, gravity]);
             if let Some(course) = course {
-                scene["accuracy"]["for"] = json!([{"input": "rod.middle.force[2]", "from": 0, "to": -100, "course": course}]);
+                scene["accuracy"]["input_profiles"] = json!([{"input": "rod.middle.force[2]", "from": 0, "to": -100, "course": course}]);
             }
         })
     };
@@ -80,7 +80,7 @@ fn the_course_of_inputs_makes_the_planned_experiment_again() {
         scene["experiment"] = json!({"stop_time": 0.02, "step": 1e-3});
         let course =
             json!({"input": "rod.middle.force[2]", "from": 0, "to": -100, "course": "step"});
-        scene["accuracy"] = json!({"error": 1e-2, "for": [course]});
+        scene["accuracy"] = json!({"error": 1e-2, "input_profiles": [course]});
     });
     let scene = scene.expect("a scene");
     let (chosen, plan) = planned(&scene);
@@ -113,7 +113,7 @@ fn the_course_of_inputs_makes_the_planned_experiment_again() {
 #[test]
 fn an_input_follows_a_course_of_its_own() {
     let course = |course: Value| {
-        let scene = pushed(|scene| scene["accuracy"]["for"] = json!([course]));
+        let scene = pushed(|scene| scene["accuracy"]["input_profiles"] = json!([course]));
         rows(&scene.expect("a scene")).1
     };
     let name = "rod.middle.force[2]";
@@ -152,7 +152,7 @@ fn rates_of_a_driven_motion_follow_from_its_course() {
         scene["joints"] = json!([scene["joints"][1]]);
         scene["inputs"] = json!([]);
         let course = json!({"input": "lift.position[2]", "value": "0.1*t^3"});
-        scene["accuracy"]["for"] = json!([course]);
+        scene["accuracy"]["input_profiles"] = json!([course]);
     });
     let (names, rows) = rows(&scene.expect("a scene"));
     assert_eq!(
@@ -226,30 +226,30 @@ fn what_cannot_be_given_is_refused_with_its_place() {
     for (course, expected) in [
         (
             json!({"input": input, "from": 0}),
-            "accuracy.for[0]: expected `value`, or `from` and `to`",
+            "accuracy.input_profiles[0]: expected `value`, or `from` and `to`",
         ),
         (
             json!({"input": input, "value": 1, "to": 2}),
-            "accuracy.for[0].value: expected no `from`, `to`",
+            "accuracy.input_profiles[0].value: expected no `from`, `to`",
         ),
         (
             json!({"input": input, "value": "sin(x)"}),
-            "accuracy.for[0].value: ",
+            "accuracy.input_profiles[0].value: ",
         ),
         (
             json!({"input": input, "from": 0, "to": 1, "duration": 0.1}),
-            "accuracy.for[0].duration: expected more than 0 and at most 0.05 s",
+            "accuracy.input_profiles[0].duration: expected more than 0 and at most 0.05 s",
         ),
         (
             json!({"input": input, "from": 0, "to": 1, "course": "sine", "duration": 0.01}),
-            "accuracy.for[0].duration: expected nothing, but of a ramp",
+            "accuracy.input_profiles[0].duration: expected nothing, but of a ramp",
         ),
         (
             json!({"input": input, "value": "sign(sin(1e9*t))"}),
-            "accuracy.for[0].value: expected at most 100000 kinks and jumps",
+            "accuracy.input_profiles[0].value: expected at most 100000 kinks and jumps",
         ),
     ] {
-        let scene = pushed(|scene| scene["accuracy"]["for"] = json!([course]));
+        let scene = pushed(|scene| scene["accuracy"]["input_profiles"] = json!([course]));
         let told = scene.and_then(|scene| courses(&scene).map_err(|error| error.to_string()));
         let told = told.expect_err(expected);
         assert!(told.starts_with(expected), "{told}");

@@ -18,7 +18,7 @@ const BEAM: &str = r#"{
     "markers": {"a": 0.0, "middle": 0.5, "b": 1.0}}],
   "joints": [
     {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]},
-    {"name": "roller", "kind": "slider", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
+    {"name": "roller", "kind": "point_on_line", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
   "outputs": [{"kind": "natural_frequency", "count": 3}],
   "experiment": {"stop_time": 1e-3, "step": 1e-3}
 }"#;
@@ -166,8 +166,8 @@ fn what_cannot_be_asked_for_is_refused_with_its_place() {
             "accuracy.of[0]: expected the name of an output, without an index, found \"rod.natural_freqency\"; did you mean `natural_frequency`?",
         ),
         (
-            json!({"for": [{"input": "wind", "from": 0, "to": 1}]}),
-            "accuracy.for[0].input: expected the name of an input, found \"wind\"",
+            json!({"input_profiles": [{"input": "wind", "from": 0, "to": 1}]}),
+            "accuracy.input_profiles[0].input: expected the name of an input, found \"wind\"",
         ),
     ];
     for (accuracy, expected) in refused {
@@ -337,7 +337,8 @@ fn a_rigid_cable_is_straight_in_the_plane_and_nothing_slides_along_it() {
         let ring = json!({"name": "ring", "element": "rigid", "mass": 1.0, "position": [0.5, 0.0],
                           "markers": {"c": [0.0, 0.0]}});
         scene["bodies"].as_array_mut().expect("bodies").push(ring);
-        let along = json!({"name": "along", "kind": "along", "markers": ["rod", "ring.c"]});
+        let along =
+            json!({"name": "along", "kind": "point_on_cable", "markers": ["rod", "ring.c"]});
         scene["joints"].as_array_mut().expect("joints").push(along);
     });
     let expected = "joints[1].markers[0]: expected the name of a cable that bends, found \"rod\", which is rigid \
@@ -430,8 +431,7 @@ fn nothing_that_rests_is_resolved_in_time() {
     let scene = edited(BEAM, |scene| {
         scene["joints"] =
             json!([{"name": "clamp", "kind": "weld", "markers": ["ground", "rod.a"]}]);
-        scene["loads"] =
-            json!([{"name": "snow", "kind": "distributed", "body": "rod", "value": [0, load]}]);
+        scene["loads"] = json!([{"name": "snow", "kind": "distributed_force", "body": "rod", "value": [0, load]}]);
         scene["outputs"] = json!([{"kind": "position", "marker": "rod.b"}]);
         scene["initial"] = json!("static_equilibrium");
         scene["accuracy"] = json!({"error": 1e-3});

@@ -32,7 +32,7 @@ def bent(random):
     if shape == "force":
         load = {"kind": "force", "marker": "line.tip", "value": components(rotation @ vector, space)}
     elif shape == "uniform":
-        load = {"kind": "distributed", "body": "line", "value": components(rotation @ vector / length, space)}
+        load = {"kind": "distributed_force", "body": "line", "value": components(rotation @ vector / length, space)}
     else:
         load = {"kind": "moment", "marker": "line.tip"}
         load["value"] = components(rotation @ [0, 0, moment], True) if space else moment

@@ -96,7 +96,7 @@ def loaded_line(random, at_rest=False):
         along = components(rotation @ [1, 0, 0], space)
         scene["joints"] = [
             {"name": "clamp", "kind": "revolute", "markers": ["ground", "line.root"]},
-            {"name": "roller", "kind": "slider", "markers": ["ground", "line.tip"], "direction": along},
+            {"name": "roller", "kind": "point_on_line", "markers": ["ground", "line.tip"], "direction": along},
         ]
     scene["loads"] = []
     if extra == "mass":
@@ -107,7 +107,7 @@ def loaded_line(random, at_rest=False):
         scene["loads"].append(spring | {"stiffness": stiffness, "point": components(across, space)})
     total = size * direction
     if shape == "uniform":
-        load, vector = {"kind": "distributed", "body": "line"}, components(rotation @ total / length, space)
+        load, vector = {"kind": "distributed_force", "body": "line"}, components(rotation @ total / length, space)
     elif shape == "moment":
         vector = components(rotation @ turning * size * length, space)
         load = {"kind": "moment", "marker": "line.load"}

@@ -35,7 +35,7 @@ def motor(random):
     angle = math.atan2(rotation[1, 0], rotation[0, 0])
     hub = {"name": "hub", "element": "rigid", "mass": 3 * arm / length**2, "inertia": inertia, "position": [0.0, 0.0]}
     scene["bodies"] = [hub | {"angle": angle, "markers": {"c": [0.0, 0.0]}}, own.written("arm", [0.0, 0.0], end)]
-    shaft = {"name": "shaft", "kind": "hinge", "markers": ["ground", "hub.c"], "stiffness": stiffness, "angle": angle}
+    shaft = {"name": "shaft", "kind": "revolute", "markers": ["ground", "hub.c"], "stiffness": stiffness, "angle": angle}
     scene["joints"] = [shaft, {"name": "flange", "kind": "weld", "markers": ["hub.c", "arm.root"]}]
     value = torque if name == "at once" else f"{torque!r}*{text}"
     scene["loads"] = [{"name": "motor", "kind": "torque", "joint": "shaft", "value": value}]

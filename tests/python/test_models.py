@@ -150,7 +150,7 @@ def test_a_validator_tells_what_is_wrong_within_the_kind(change, path, message):
 
 
 def test_names_are_those_of_the_field():
-    for name in ["Rod", "Beam", "AutoBody", "Hinge", "OrientationJoint", "ForceInput", "StopLoad", "MotionPort"]:
+    for name in ["Rod", "Beam", "AutoBody", "Revolute", "OrientationJoint", "ForceInput", "JointLimitLoad", "MotionPort"]:
         assert issubclass(getattr(models, name), models.Part), name
     numbered = [name for name in vars(models) if name[-1].isdigit()]
     assert numbered == []

@@ -58,7 +58,7 @@ fn slack() -> Value {
         "masses": [{"marker": "rope.tip", "mass": 1.0}],
         "joints": [
             {"name": "pin", "kind": "revolute", "markers": ["ground", "rope.root"]},
-            {"name": "guide", "kind": "slider", "markers": ["ground", "rope.tip"], "direction": [0.0, 1.0]}
+            {"name": "guide", "kind": "point_on_line", "markers": ["ground", "rope.tip"], "direction": [0.0, 1.0]}
         ],
         "outputs": [{"kind": "position", "marker": "rope.tip"}, {"kind": "energy"}, {"kind": "work"}]
     })

@@ -85,7 +85,7 @@ fn oscillator(load: Option<Vec<[f64; 2]>>) -> Value {
             "markers": {"centre": [0.0, 0.0]}
         }],
         "joints": [{
-            "name": "rail", "kind": "slider", "markers": ["ground", "box.centre"], "direction": [1.0, 0.0]
+            "name": "rail", "kind": "point_on_line", "markers": ["ground", "box.centre"], "direction": [1.0, 0.0]
         }],
         "loads": [spring],
         "outputs": [{"kind": "position", "marker": "box.centre"}],

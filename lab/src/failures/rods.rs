@@ -284,7 +284,7 @@ fn refused(element: &str, axis: usize, size: f64) -> String {
 fn all_are_refused(axis: usize, size: f64) {
     for element in ["rod", "beam"] {
         let grows = about(axis, json!(format!("{}*t", 2.0 * size)));
-        let mut product = Product::start(&alone(element, grows, "as_shaped")).expect("a start");
+        let mut product = Product::start(&alone(element, grows, "undeformed")).expect("a start");
         let on_the_way = product.step(1.0).expect_err("a step too far").to_string();
         for told in [refused(element, axis, size), on_the_way] {
             let is_named =

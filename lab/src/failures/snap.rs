@@ -14,7 +14,7 @@ const CABLE: &str = include_str!("../../../tests/cases/catenary/scene_3.json");
 /// What Newton's method makes of a scene under its whole load: the distance of a marker from where it
 /// should be.
 fn at_once(mut scene: Value, inputs: &[f64], marker: &str, wanted: [f64; 2]) -> Outcome<Figure> {
-    scene["initial"] = json!("as_shaped");
+    scene["initial"] = json!("undeformed");
     let start = start(&scene)?;
     let Ok(state) = equilibrium(&start, inputs, &start.state) else {
         return Ok(figure(f64::INFINITY, "no equilibrium in 100 iterations"));
@@ -182,7 +182,7 @@ pub fn under_load() -> Outcome<Row> {
 pub fn under_displacement() -> Outcome<Row> {
     let (most, _) = limit();
     let mut scene = truss(0.0);
-    scene["initial"] = json!("as_shaped");
+    scene["initial"] = json!("undeformed");
     let start = start(&scene)?;
     let mut reader = Reader::new(&start);
     let (mut state, mut lowest) = (start.state.clone(), TRUSS[1]);
@@ -283,7 +283,7 @@ fn a_step_load_snaps_a_damped_truss_to_its_other_equilibrium() {
     for (part, other) in [(0.6, false), (0.9, true)] {
         let force = part * limit().0;
         let mut scene = truss(force);
-        scene["initial"] = json!("as_shaped");
+        scene["initial"] = json!("undeformed");
         for body in 0..2 {
             scene["bodies"][body]["material"]["damping_time"] = json!(1e-3);
         }

@@ -182,7 +182,7 @@ Inertia about the centre of mass, kg m^2.
 """
 
 
-InitialState = TypeAliasType("InitialState", Literal["as_shaped", "static_equilibrium", "steady"])
+InitialState = TypeAliasType("InitialState", Literal["undeformed", "static_equilibrium", "steady"])
 """
 States by name.
 
@@ -3225,7 +3225,7 @@ class Scene(Part):
     """
     Gravitational acceleration, m/s^2; zero by default.
     """
-    initial: Annotated[Initial, Field(validate_default=True)] = "as_shaped"
+    initial: Annotated[Initial, Field(validate_default=True)] = "undeformed"
     """
     Where the simulation starts from.
     """

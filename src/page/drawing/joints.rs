@@ -25,7 +25,7 @@ impl Picture<'_> {
     fn joint(&mut self, joint: &Joint<'_>) {
         let (ends, place) = (&joint.ends, self.place(joint.ends.second));
         let (second, unit) = (place.point, self.unit);
-        match joint.declaration().symbol {
+        match joint.symbol() {
             Symbol::Pin => self.pin(ends),
             Symbol::Spiral => {
                 symbols::spiral(&mut self.canvas, second, unit);
@@ -97,7 +97,7 @@ impl Picture<'_> {
         for load in &self.resolved.loads {
             match &load.kind {
                 LoadKind::JointSpring { on, .. } => self.joint_spring(on),
-                LoadKind::Stop { on, limits, .. } => self.stop(on, limits),
+                LoadKind::JointLimit { on, limits, .. } => self.stop(on, limits),
                 kind => kind.between().iter().for_each(|ends| self.spring(ends)),
             }
         }

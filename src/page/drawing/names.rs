@@ -97,7 +97,7 @@ impl<'a> Picture<'a> {
     fn add_joints(&self, labels: &mut [Label<'a>]) {
         let resolved = self.resolved;
         let joints = resolved.joints.iter();
-        let joints = joints.filter(|joint| joint.declaration().symbol != Symbol::Link);
+        let joints = joints.filter(|joint| joint.symbol() != Symbol::Link);
         let joints = joints.map(|joint| (joint.ends.second, joint.name, FAINT));
         let motions = resolved.motions.iter();
         let motions = motions.map(|m| (m.kind.marker(), m.name, symbols::MOTION));
@@ -178,7 +178,7 @@ impl<'a> Picture<'a> {
             }
         }
         for joint in &self.resolved.joints {
-            if joint.declaration().symbol == Symbol::Link {
+            if joint.symbol() == Symbol::Link {
                 self.name_link(&joint.ends, joint.name, FAINT);
             }
         }

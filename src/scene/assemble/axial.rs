@@ -15,7 +15,7 @@ impl Resolved<'_> {
         let time = cable.body.material.damping_time;
         match cable.body.axial {
             Axial::Waves => time,
-            Axial::Settled => time.max(2.0 / self.first_axial_frequency(cable)),
+            Axial::CriticallyDamped => time.max(2.0 / self.first_axial_frequency(cable)),
         }
     }
 

@@ -4,7 +4,7 @@ use super::{Builder, unit};
 use crate::math::space::{Vector, axis, vector};
 use crate::scene::resolved::{self, First, Gear, JointCoordinate, Pivot, Slider, Turning};
 use crate::system::joints::{Coupler, Primitive};
-use crate::system::loads::{JointSpring, Load, SixBushing, Stop};
+use crate::system::loads::{JointLimit, JointSpring, Load, SixBushing};
 use crate::system::{Angle, Coordinate, Direction, End, Translation};
 
 impl<const D: usize> Builder<'_, D> {
@@ -68,7 +68,7 @@ impl<const D: usize> Builder<'_, D> {
         [stiffness, damping]: [f64; 2],
         [lower, upper]: [Option<f64>; 2],
     ) -> Load<D> {
-        Load::Stop(Stop {
+        Load::JointLimit(JointLimit {
             coordinate: Box::new(self.coordinate(on)),
             limits: [
                 lower.unwrap_or(f64::NEG_INFINITY),

@@ -21,7 +21,7 @@ impl<const D: usize> Builder<'_, D> {
                     let coordinate = self.coordinate(on);
                     self.joint_spring(coordinate, *sizes, *rest)
                 }
-                LoadKind::Stop { on, sizes, limits } => self.stop(on, *sizes, *limits),
+                LoadKind::JointLimit { on, sizes, limits } => self.stop(on, *sizes, *limits),
                 LoadKind::Bushing(bushing) => self.bushing(bushing),
                 LoadKind::Fluid(fluid) => self.fluid(fluid, &format!("loads[{index}]"))?,
                 LoadKind::Contact(contact) => self.contact(contact),
@@ -68,7 +68,7 @@ impl<const D: usize> Builder<'_, D> {
             On::Marker(marker) => moment(self.on_marker(marker)),
             On::Joint(pivot) => moment(self.ends(pivot.ends)),
             On::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
-            On::Cable(cable) => Load::Distributed(loads::Distributed {
+            On::Cable(cable) => Load::DistributedForce(loads::DistributedForce {
                 on: self.line(cable),
                 density: uniform(components),
             }),
@@ -102,7 +102,7 @@ impl<const D: usize> Builder<'_, D> {
         if let On::Cable(cable) = action.on {
             let (along, path) = (&action.along[..], format!("{path}.value"));
             match &mut load {
-                Load::Distributed(on) => {
+                Load::DistributedForce(on) => {
                     self.fill(cable, (along, &path), &mut on.density.along)?;
                 }
                 Load::DistributedMoment(on) => {

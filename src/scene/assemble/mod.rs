@@ -416,7 +416,7 @@ impl<const D: usize> Builder<'_, D> {
         })
     }
 
-    /// Appends the spring of a hinge to the loads; its place there.
+    /// Appends the spring of a revolute joint to the loads; its place there.
     fn spring_of(
         &mut self,
         hold: &Hold,

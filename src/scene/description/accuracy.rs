@@ -20,8 +20,8 @@ pub struct Accuracy {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub of: Vec<String>,
     /// What inputs do in the experiment that is planned for; those that are not named keep their start values.
-    #[serde(default, rename = "for", skip_serializing_if = "Vec::is_empty")]
-    pub courses: Vec<InputCourse>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub input_profiles: Vec<InputCourse>,
     /// Error in time that a step may make, relative to the length of the body (root mean square
     /// over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
     /// 0.1 % over a thousand swings or turns. Beside `error`, from which it follows, only where numbers of elements are

@@ -215,7 +215,7 @@ pub enum Axial {
     /// or `pi c / (2 L)` where joints or motions hold one end only; `c` the speed of sound. Bending is not touched, nor
     /// slow stretching; what is lost is counted in `energy.dissipated`. For forces that ring from loads or speeds that
     /// begin at once, where no one asked for the ringing.
-    Settled,
+    CriticallyDamped,
 }
 
 /// Unstressed shape of a cable.

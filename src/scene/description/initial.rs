@@ -36,7 +36,7 @@ pub struct Loaded {
 pub enum InitialState {
     /// The unstressed shapes.
     #[default]
-    AsShaped,
+    Undeformed,
     /// The equilibrium under gravity, loads and the start values of the inputs, motions held where they start. It is
     /// stable where loads have a potential: an unstable one, as that of a straight column above its buckling load, is
     /// left to where gravity pulls, else up or to the right. Follower forces have none; there it is where all forces balance.

@@ -13,16 +13,16 @@ pub struct Joint {
     pub name: String,
     /// What the joint holds.
     pub kind: JointKind,
-    /// What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    /// What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     /// then `body.marker`.
     pub markers: [String; 2],
     /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
     /// In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    /// its section there). `slider`, `cylindrical`, `screw`: direction
+    /// its section there). `point_on_line`, `cylindrical`, `screw`: direction
     /// of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    /// first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    /// first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     /// (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Vector>,
@@ -30,7 +30,8 @@ pub struct Joint {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_direction: Option<Vector>,
     /// `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    /// rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    /// rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
+    /// unloaded, rad, by default that at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
     /// `distance` only: length of the link, m; the distance at the start by default.
@@ -44,16 +45,16 @@ pub struct Joint {
     /// ones); everything else is held. Of two rotations the first turns about the axis of the first body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub free: Option<Vec<Freedom>>,
-    /// `hinge` only: stiffness against rotation, N m/rad.
+    /// `revolute` only: stiffness of a spring against rotation, N m/rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub stiffness: Option<f64>,
-    /// `hinge` only: damping of rotation, N m s/rad.
+    /// `revolute` only: damping of rotation, N m s/rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
-    /// Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    /// same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    /// Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    /// does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub release_time: Option<f64>,
@@ -63,7 +64,7 @@ pub struct Joint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
-    /// Holds the position; in space also an axis, which bodies turn about.
+    /// Holds the position, in space also an axis of rotation. A spring and a damper may act against the rotation.
     Revolute,
     /// Holds the position, in space: a ball in its socket.
     Spherical,
@@ -71,8 +72,8 @@ pub enum JointKind {
     Universal,
     /// Holds the position and the direction, in space how bodies stand to each other.
     Weld,
-    /// Holds the marker on a line of the first one, which may move, and lets it turn.
-    Slider,
+    /// Holds the marker on a line of the first one, which may move. The marker rotates freely.
+    PointOnLine,
     /// Holds the marker on a line of the first one, in space, and lets it turn about that line only.
     Cylindrical,
     /// Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
@@ -85,10 +86,8 @@ pub enum JointKind {
     Orientation,
     /// Holds the distance.
     Distance,
-    /// Holds the position; a spring and a damper act against rotation.
-    Hinge,
     /// Holds the marker on the line of a cable.
-    Along,
+    PointOnCable,
     /// Holds, in space, what `free` does not name.
     Generic,
 }
@@ -179,7 +178,7 @@ pub enum Condition {
     Distance,
     /// The position, on the curve of a cable, which stands in place of the first marker.
     Curve,
-    /// The direction, by a spring and a damper.
+    /// Nothing: a spring and a damper act against the rotation.
     Spring,
     /// In space the way along a line, in proportion to the angle about it.
     Screw,
@@ -225,26 +224,41 @@ impl JointKind {
     /// The one declaration of the kind.
     #[rustfmt::skip] // a table
     pub fn declaration(self) -> JointSpec {
-        use Condition::{Across, Axis, Curve, Direction, Distance, Line, Plane, Position, Rest, Screw, Spring};
+        use Condition::{Across, Axis, Curve, Direction, Distance, Line, Plane, Position, Rest, Screw};
         let (name, keys, holds, symbol): (_, &[Keys], &[Condition], _) = match self {
-            Self::Revolute => ("revolute", &[(&[], &["point", "direction"])], &[Position, Axis], Symbol::Pin),
+            Self::Revolute => {
+                ("revolute", &[(&[], &["point", "direction", "angle", "stiffness", "damping"])], &[Position, Axis], Symbol::Pin)
+            }
             Self::Spherical => ("spherical", &[(&[], &["point"])], &[Position], Symbol::Pin),
             Self::Universal => {
                 ("universal", &[(&["direction", "second_direction"], &["point"])], &[Position, Across], Symbol::Pin)
             }
             Self::Weld => ("weld", &[(&[], &["point", "angle"])], &[Position, Direction], Symbol::Weld),
-            Self::Slider => ("slider", &[(&["direction"], &["point"])], &[Line], Symbol::Slider),
+            Self::PointOnLine => ("point_on_line", &[(&["direction"], &["point"])], &[Line], Symbol::Slider),
             Self::Cylindrical => ("cylindrical", &[(&["direction"], &["point"])], &[Line, Axis], Symbol::Prismatic),
             Self::Screw => ("screw", &[(&["direction", "pitch"], &["point"])], &[Line, Axis, Screw], Symbol::Prismatic),
             Self::Planar => ("planar", &[(&["direction"], &["point"])], &[Plane, Axis], Symbol::Slider),
             Self::Prismatic => ("prismatic", &[(&[], &["point", "direction", "angle"])], &[Line, Direction], Symbol::Prismatic),
             Self::Orientation => ("orientation", &[(&[], &["angle"])], &[Direction], Symbol::Orientation),
             Self::Distance => ("distance", &[(&[], &["point", "length"])], &[Distance], Symbol::Link),
-            Self::Hinge => ("hinge", &[(&[], &["point", "direction", "angle", "stiffness", "damping"])], &[Position, Axis, Spring], Symbol::Spiral),
-            Self::Along => ("along", &[(&[], &[])], &[Curve], Symbol::Ring),
+            Self::PointOnCable => ("point_on_cable", &[(&[], &[])], &[Curve], Symbol::Ring),
             Self::Generic => ("generic", &[(&["free"], &["point"])], &[Rest], Symbol::Orientation),
         };
         JointSpec { name, keys, holds, symbol }
+    }
+}
+
+impl Joint {
+    /// Whether a spring or a damper acts against its rotation.
+    pub fn is_sprung(&self) -> bool {
+        self.stiffness.is_some() || self.damping.is_some()
+    }
+
+    /// Conditions that it is made of: those of its kind, and its spring.
+    pub fn holds(&self) -> Vec<Condition> {
+        let spring = self.is_sprung().then_some(Condition::Spring);
+        let own = self.kind.declaration().holds.iter().copied();
+        own.chain(spring).collect()
     }
 }
 
@@ -268,7 +282,7 @@ pub struct Motion {
     /// `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
+    /// `angle`: name of the driven revolute joint; `displacement`: of the joint along a line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
     /// Its course in time: m or rad; of `orientation` the four parts of a quaternion.
@@ -287,11 +301,11 @@ pub enum MotionKind {
     /// In space how a rigid body stands: the quaternion, scalar first, of the frame of a marker's body in global axes, of any
     /// length and either sign. As an input with rates: the angular velocity and the angular acceleration, in global axes.
     Orientation,
-    /// Way along the line of a slider, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
+    /// Displacement along the line of a point on a line, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
     /// that line belongs to a cable.
     Displacement,
     /// Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
-    /// cable changes with it. What is on the winch has no part in the scene; what acts between its ends acts all along it: `distributed`
+    /// cable changes with it. What is on the winch has no part in the scene; what acts between its ends acts all along it: `distributed_force`
     /// (where `s` is the share of the length now), `contact`, `fluid` without added mass.
     Winch,
 }

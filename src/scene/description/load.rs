@@ -16,13 +16,13 @@ pub struct Load {
     /// `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
+    /// `torque`: name of the revolute joint that it acts in; `joint_spring`, `joint_limit`: of a joint with a coordinate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
-    /// `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
+    /// `joint_spring`, `joint_limit`: which coordinate of the joint; the displacement, if it has one, by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coordinate: Option<CoordinateKind>,
-    /// `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    /// `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
     /// rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
@@ -37,18 +37,18 @@ pub struct Load {
     /// space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
-    /// `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    /// `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
     /// per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
     /// takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<LoadValue>,
-    /// `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    /// `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
     /// `contact`: N/m of a marker, N/m per reference length of a body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub stiffness: Option<f64>,
-    /// `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
-    /// where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    /// `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
+    /// where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
@@ -70,10 +70,10 @@ pub struct Load {
     /// `joint_spring`: coordinate at rest, m or rad; that at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rest: Option<f64>,
-    /// `stop`: the least coordinate without force, m or rad; no stop there by default.
+    /// `joint_limit`: the least coordinate without force, m or rad; no limit there by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lower: Option<f64>,
-    /// `stop`: the largest coordinate without force, m or rad; no stop there by default.
+    /// `joint_limit`: the largest coordinate without force, m or rad; no limit there by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
     /// `fluid`: density of the fluid, kg/m^3.
@@ -136,7 +136,7 @@ pub enum LoadKind {
     /// Moment on the second marker of a joint about its axis, opposite on its first, N m.
     Torque,
     /// Force in global axes per reference length of a cable, rod or beam, N/m.
-    Distributed,
+    DistributedForce,
     /// Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
     /// global axes where it does not follow, and its work then depends on the way that sections turn.
     DistributedMoment,
@@ -149,7 +149,7 @@ pub enum LoadKind {
     Bushing,
     /// One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
     /// force is continuous in time (Hunt and Crossley 1975).
-    Stop,
+    JointLimit,
     /// A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
     /// and others 1950). The added mass counts in all directions alike.
     Fluid,
@@ -167,10 +167,10 @@ pub struct Input {
     /// `force`, `moment`: where it acts, `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
+    /// `torque`: name of the revolute joint that it acts in; `release`: of the joint that lets go.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
-    /// `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    /// `distributed_force`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// `rest_length`: name of the spring-damper; `current`: of the fluid.
@@ -196,7 +196,7 @@ pub enum InputKind {
     /// Moment on the second marker of a joint, opposite on its first, N m.
     Torque,
     /// Force in global axes per reference length of a cable, rod or beam, N/m.
-    Distributed,
+    DistributedForce,
     /// Moment per reference length of a rod or beam, N m/m.
     DistributedMoment,
     /// Length at rest of a spring-damper, m.
@@ -215,7 +215,7 @@ impl Kind for LoadKind {
             Self::Force => &[(&["marker", "value"], &["follower"])],
             Self::Moment => &[(&["marker", "value"], &["follower"])],
             Self::Torque => &[(&["joint", "value"], &[])],
-            Self::Distributed => &[(&["body", "value"], &[])],
+            Self::DistributedForce => &[(&["body", "value"], &[])],
             Self::DistributedMoment => &[(&["body", "value"], &["follower"])],
             Self::JointSpring => &[(&["joint"], &["coordinate", "stiffness", "damping", "rest"])],
             Self::Bushing => &[(
@@ -227,7 +227,7 @@ impl Kind for LoadKind {
                     "rotational_damping",
                 ],
             )],
-            Self::Stop => &[(
+            Self::JointLimit => &[(
                 &["joint", "stiffness"],
                 &["coordinate", "damping", "lower", "upper"],
             )],
@@ -266,7 +266,7 @@ impl Kind for InputKind {
             Self::Force => &[(&["marker"], &["follower"])],
             Self::Moment => &[(&["marker"], &["follower"])],
             Self::Torque => &[(&["joint"], &[])],
-            Self::Distributed => &[(&["body"], &[])],
+            Self::DistributedForce => &[(&["body"], &[])],
             Self::DistributedMoment => &[(&["body"], &["follower"])],
             Self::RestLength | Self::Current => &[(&["load"], &[])],
             Self::Release => &[(&["joint"], &[])],
@@ -284,7 +284,7 @@ pub enum ActionKind {
     /// In a joint, N m.
     Torque,
     /// On a cable, N/m.
-    Distributed,
+    DistributedForce,
     /// On a rod or beam, N m/m.
     DistributedMoment,
 }
@@ -309,7 +309,7 @@ impl ActionKind {
             Self::Force => (ActsOn::Marker, true, ["force", "N"]),
             Self::Moment => (ActsOn::Marker, false, ["moment", "N m"]),
             Self::Torque => (ActsOn::Joint, false, ["torque", "N m"]),
-            Self::Distributed => (ActsOn::Cable, true, ["distributed force", "N/m"]),
+            Self::DistributedForce => (ActsOn::Cable, true, ["distributed force", "N/m"]),
             Self::DistributedMoment => (ActsOn::Sections, false, ["distributed moment", "N m/m"]),
         }
     }
@@ -339,7 +339,9 @@ impl ActionKind {
         match self {
             Self::Moment | Self::DistributedMoment if dimension == 2 => 1,
             Self::Torque => 1,
-            Self::Force | Self::Distributed | Self::Moment | Self::DistributedMoment => dimension,
+            Self::Force | Self::DistributedForce | Self::Moment | Self::DistributedMoment => {
+                dimension
+            }
         }
     }
 }
@@ -354,7 +356,7 @@ macro_rules! actions {
                     Self::Force => Some(ActionKind::Force),
                     Self::Moment => Some(ActionKind::Moment),
                     Self::Torque => Some(ActionKind::Torque),
-                    Self::Distributed => Some(ActionKind::Distributed),
+                    Self::DistributedForce => Some(ActionKind::DistributedForce),
                     Self::DistributedMoment => Some(ActionKind::DistributedMoment),
                     $(Self::$none)|* => None,
                 }
@@ -362,7 +364,7 @@ macro_rules! actions {
         }
     )*};
 }
-actions!(LoadKind but SpringDamper | JointSpring | Stop | Contact | Bushing | Fluid, InputKind but RestLength | Release | Current);
+actions!(LoadKind but SpringDamper | JointSpring | JointLimit | Contact | Bushing | Fluid, InputKind but RestLength | Release | Current);
 
 impl Input {
     /// Number of components.

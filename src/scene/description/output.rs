@@ -92,7 +92,7 @@ pub enum OutputKind {
     /// Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
     /// inertia.
     Direction,
-    /// Direction at a marker, or direction of the second marker of a revolute joint or hinge less
+    /// Direction at a marker, or direction of the second marker of a revolute joint less
     /// that of its first, rad, counted on over full turns.
     Angle,
     /// How a rigid body or the section of a rod in space stands: the matrix whose columns are the axes of its frame in global components, by rows.
@@ -133,7 +133,7 @@ pub enum OutputKind {
     TorsionStress,
     /// Force that the part of a cable before a marker exerts on the part after it, global axes, N.
     ConnectivityForce,
-    /// Where along the cable a joint of kind `along` stands: length from the first end, m.
+    /// Where along the cable a joint of kind `point_on_cable` stands: length from the first end, m.
     Travel,
     /// Force of a joint on its second marker, or of a motion, N (`axes`).
     Reaction,
@@ -143,10 +143,10 @@ pub enum OutputKind {
     GearForce,
     /// Torque of a gear on the angle of its second joint, N m; on the coordinate of the first acts minus the ratio times that.
     GearTorque,
-    /// Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `stop` on a displacement; of a
+    /// Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
     /// `contact` on its marker or on the whole body.
     LoadForce,
-    /// Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `stop` on an angle.
+    /// Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `joint_limit` on an angle.
     LoadMoment,
     /// Kinetic, strain and gravitational energy, and that of springs where there are any, J.
     Energy,
@@ -209,7 +209,7 @@ pub enum ReadAt {
     Turning,
     /// The same, its angle counted on over full turns.
     Angle,
-    /// A joint of kind `along`.
+    /// A joint of kind `point_on_cable`.
     Slide,
     /// A joint or a motion that transmits a force.
     Force,

@@ -39,7 +39,7 @@ pub enum LoadKind<'a> {
     /// Springs and dampers along and about three axes.
     Bushing(Bushing<'a>),
     /// Stops of a coordinate of a joint.
-    Stop {
+    JointLimit {
         /// What they limit.
         on: JointCoordinate<'a>,
         /// Stiffness (N/m or N m/rad) and damping (s/m or s/rad).
@@ -149,7 +149,7 @@ impl<'a> LoadKind<'a> {
             Self::Bushing(bushing) => Some(bushing.ends),
             Self::Action { .. }
             | Self::JointSpring { .. }
-            | Self::Stop { .. }
+            | Self::JointLimit { .. }
             | Self::Fluid(_)
             | Self::Contact(_) => None,
         }
@@ -161,7 +161,9 @@ impl<'a> LoadKind<'a> {
             Self::Action { .. } | Self::Fluid(_) => [false; 2],
             Self::Spring(_) | Self::Contact(_) => [true, false],
             Self::Bushing(_) => [true; 2],
-            Self::JointSpring { on, .. } | Self::Stop { on, .. } => [!on.is_angle(), on.is_angle()],
+            Self::JointSpring { on, .. } | Self::JointLimit { on, .. } => {
+                [!on.is_angle(), on.is_angle()]
+            }
         }
     }
 
@@ -171,7 +173,7 @@ impl<'a> LoadKind<'a> {
             Self::Action { .. } | Self::Fluid(_) => None,
             Self::Spring(_) | Self::Bushing(_) => self.between().map(|ends| ends.second),
             Self::Contact(contact) => contact.by.marker(),
-            Self::JointSpring { on, .. } | Self::Stop { on, .. } => Some(match on {
+            Self::JointSpring { on, .. } | Self::JointLimit { on, .. } => Some(match on {
                 JointCoordinate::Displacement(slider) => slider.ends.second,
                 JointCoordinate::Angle(pivot) => pivot.ends.second,
             }),
@@ -187,7 +189,7 @@ impl<'a> LoadKind<'a> {
             Self::Bushing(bushing) => bushing
                 .stiffness
                 .map(|axes| axes.into_iter().fold(0.0, f64::max)),
-            Self::JointSpring { on, sizes, .. } | Self::Stop { on, sizes, .. } => {
+            Self::JointSpring { on, sizes, .. } | Self::JointLimit { on, sizes, .. } => {
                 match on.is_angle() {
                     true => [0.0, sizes[0]],
                     false => [sizes[0], 0.0],

@@ -19,8 +19,8 @@ impl Scene {
             }
         };
         within("relative_tolerance", &TOLERANCE, self.relative_tolerance())?;
-        for (place, course) in self.accuracy.courses.iter().enumerate() {
-            self.validate_course(&format!("accuracy.for[{place}]"), course)?;
+        for (place, course) in self.accuracy.input_profiles.iter().enumerate() {
+            self.validate_course(&format!("accuracy.input_profiles[{place}]"), course)?;
         }
         let Some(error) = self.accuracy.error else {
             return Ok(());

@@ -66,7 +66,7 @@ impl Joint {
             return Err(expected(&format!("{path}.direction"), wanted, "nothing"));
         }
         if self.kind.is_spatial() {
-            let wanted = "revolute, weld, slider, prismatic, orientation, distance, hinge or along in the plane";
+            let wanted = "revolute, weld, point_on_line, prismatic, orientation, distance or point_on_cable in the plane";
             return Err(expected(&kind, wanted, name));
         }
         if holds.contains(&Condition::Axis) && self.direction.is_some() {
@@ -97,6 +97,10 @@ impl Joint {
         }
         if let Some(angle) = self.angle {
             finite(&at("angle"), angle)?;
+            if self.kind == JointKind::Revolute && !self.is_sprung() {
+                let wanted = "a stiffness or a damping beside the angle of a revolute joint";
+                return Err(expected(&at("angle"), wanted, "neither"));
+            }
         }
         if let Some(length) = self.length {
             positive(&at("length"), "m", length)?;
@@ -164,17 +168,20 @@ impl<'a> Resolved<'a> {
             joint.validate_dimension(&path, self.scene.dimension)?;
             let ends = self.joint_ends(&path, joint)?;
             joint.validate_numbers(&path, self.scene.dimension)?;
-            let holds = joint.kind.declaration().holds.iter();
+            let holds = joint.holds();
             let is_held = |condition: &&Condition| match condition {
                 Condition::Axis => self.scene.dimension == 3,
                 _ => true,
             };
-            let holds = holds.filter(is_held).map(|condition| match condition {
-                Condition::Rest => Ok(joint.rest(&ends)),
-                _ => self
-                    .resolve_condition(&path, joint, *condition, &ends)
-                    .map(|hold| vec![hold]),
-            });
+            let holds = holds
+                .iter()
+                .filter(is_held)
+                .map(|condition| match condition {
+                    Condition::Rest => Ok(joint.rest(&ends)),
+                    _ => self
+                        .resolve_condition(&path, joint, *condition, &ends)
+                        .map(|hold| vec![hold]),
+                });
             let holds = holds.collect::<Result<Vec<_>, _>>()?.concat();
             let holder = self.hold(&path, &joint.name);
             self.joints.push(resolved::Joint {
@@ -196,7 +203,7 @@ impl<'a> Resolved<'a> {
 
     /// What a joint joins.
     fn joint_ends(&self, path: &str, joint: &'a Joint) -> Result<Ends<'a>, Error> {
-        let holds = joint.kind.declaration().holds;
+        let holds = joint.holds();
         let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
         let [a, b] = &joint.markers;
         if holds.contains(&Condition::Curve) {
@@ -229,7 +236,7 @@ impl<'a> Resolved<'a> {
     /// In space: axes belong to the ground and to rigid bodies with inertia; a cable has a direction alone, which the ground
     /// or such a body can hold.
     fn require_axes(&self, path: &str, joint: &Joint, ends: &Ends<'a>) -> Result<(), Error> {
-        let holds = joint.kind.declaration().holds;
+        let holds = joint.holds();
         let is_cable = |marker: &Marker<'_>| {
             matches!(marker.place, Place::Along(..)) && !marker.place.is_framed()
         };
@@ -268,7 +275,7 @@ impl<'a> Resolved<'a> {
     /// In space: a thin rod has no inertia that could follow a joint which turns it about its own axis, and does not turn
     /// about it. So a joint holds that axis alone, or stands on the ground and turns the rod across it.
     fn require_moments(path: &str, joint: &Joint, ends: &Ends<'a>) -> Result<(), Error> {
-        let holds = joint.kind.declaration().holds;
+        let holds = joint.holds();
         let first = match ends.first {
             First::Marker(marker) => Some(marker),
             First::Ground(_) | First::Cable(_) => None,

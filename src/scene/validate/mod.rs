@@ -137,9 +137,9 @@ impl<'a> Resolved<'a> {
     fn resolve_initial(&mut self) -> Result<(), Error> {
         let scene = self.scene;
         let state = scene.initial.state();
-        if state == InitialState::AsShaped && !scene.initial.loads().is_empty() {
+        if state == InitialState::Undeformed && !scene.initial.loads().is_empty() {
             let wanted = "a state that loads act on, static_equilibrium or steady";
-            return Err(expected("initial.state", wanted, "as_shaped"));
+            return Err(expected("initial.state", wanted, "undeformed"));
         }
         if state == InitialState::Steady && scene.turns() {
             let wanted = "0 where the initial state is steady";

@@ -257,7 +257,7 @@ impl<'a> Resolved<'a> {
         let pivot = joint.pivot();
         let Some(pivot) = pivot.filter(|pivot| is_in_plane || pivot.axis.is_some()) else {
             let wanted = match self.scene.dimension {
-                2 => "a revolute joint or a hinge",
+                2 => "a revolute joint",
                 _ => "a revolute joint with a direction, or a cylindrical one",
             };
             return Err(expected(path, wanted, quoted(name)));

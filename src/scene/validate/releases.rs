@@ -62,7 +62,7 @@ impl Resolved<'_> {
         }
         for load in &self.loads {
             match &load.kind {
-                LoadKind::JointSpring { on, .. } | LoadKind::Stop { on, .. } => {
+                LoadKind::JointSpring { on, .. } | LoadKind::JointLimit { on, .. } => {
                     found.push((of(on), load.name));
                 }
                 LoadKind::Action { action, .. } => {

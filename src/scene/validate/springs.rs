@@ -14,7 +14,7 @@ impl<'a> Resolved<'a> {
     ) -> Result<LoadKind<'a>, Error> {
         match load.kind {
             Given::JointSpring => self.joint_spring(path, load),
-            Given::Stop => self.stop(path, load),
+            Given::JointLimit => self.stop(path, load),
             Given::Fluid => self.fluid(path, load).map(LoadKind::Fluid),
             Given::Contact => self.contact(path, load).map(LoadKind::Contact),
             Given::Bushing => self.bushing(path, load).map(LoadKind::Bushing),
@@ -67,7 +67,7 @@ impl<'a> Resolved<'a> {
                 let wanted = format!("a limit that is not below `lower`, {lower}");
                 Err(expected(&format!("{path}.upper"), &wanted, upper))
             }
-            _ => Ok(LoadKind::Stop {
+            _ => Ok(LoadKind::JointLimit {
                 on,
                 sizes: [stiffness, damping],
                 limits,
@@ -77,7 +77,7 @@ impl<'a> Resolved<'a> {
 
     fn bushing(&self, path: &str, load: &'a Load) -> Result<Bushing<'a>, Error> {
         if self.scene.dimension == 2 {
-            let wanted = "spring_damper or hinge in the plane";
+            let wanted = "spring_damper, or revolute with a stiffness in the plane";
             return Err(expected(&format!("{path}.kind"), wanted, "bushing"));
         }
         let markers = needed(path, "markers", "two names", load.markers.as_ref())?;

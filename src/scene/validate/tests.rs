@@ -40,10 +40,10 @@ fn scene() -> Value {
         "masses": [{"marker": "rod.mid", "mass": 2, "inertia": 0.1}, {"marker": "crank.b", "mass": 1}],
         "joints": [
             {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.root"], "point": [0, 0]},
-            {"name": "knee", "kind": "hinge", "markers": ["rod.tip", "crank.a"],
+            {"name": "knee", "kind": "revolute", "markers": ["rod.tip", "crank.a"],
                 "stiffness": 1, "damping": 0.1, "angle": 0},
-            {"name": "rail", "kind": "slider", "markers": ["ground", "cart.top"], "direction": [1, 0]},
-            {"name": "ring", "kind": "along", "markers": ["rope", "load.eye"]},
+            {"name": "rail", "kind": "point_on_line", "markers": ["ground", "cart.top"], "direction": [1, 0]},
+            {"name": "ring", "kind": "point_on_cable", "markers": ["rope", "load.eye"]},
             {"name": "link", "kind": "distance", "markers": ["crank.b", "load.eye"], "length": 1.5},
             {"name": "clamp", "kind": "weld", "markers": ["ground", "rope.root"], "angle": 0.1},
             {"name": "guide", "kind": "orientation", "markers": ["cart.top", "rope.tip"]}
@@ -59,7 +59,7 @@ fn scene() -> Value {
             {"name": "push", "kind": "force", "marker": "rod.tip", "follower": true, "value": ["t", 1]},
             {"name": "twist", "kind": "moment", "marker": "rod.mid", "value": {"table": [[0, 1], [2, 3]]}},
             {"name": "motor", "kind": "torque", "joint": "knee", "value": 0.1},
-            {"name": "wind", "kind": "distributed", "body": "rope", "value": [0, -1]},
+            {"name": "wind", "kind": "distributed_force", "body": "rope", "value": [0, -1]},
             {"name": "hoist", "kind": "spring_damper", "markers": ["rope.mid", "load.eye"],
                 "stiffness": 100, "damping": 1, "length": 0.3},
             {"name": "tie", "kind": "spring_damper", "markers": ["ground", "crank.b"], "point": [2, 1],
@@ -70,7 +70,7 @@ fn scene() -> Value {
             {"kind": "force", "marker": "rod.tip", "follower": true},
             {"kind": "moment", "marker": "crank.a"},
             {"kind": "torque", "joint": "knee"},
-            {"kind": "distributed", "body": "rod"},
+            {"kind": "distributed_force", "body": "rod"},
             {"kind": "rest_length", "load": "tie"}
         ],
         "outputs": [
@@ -195,8 +195,8 @@ fn values_out_of_range_are_refused() {
         /bodies/3/motion | {"spin": 1} | bodies[3].motion.spin: expected 0 in a body without inertia
         /bodies/2/markers/2x | [0, 0] | bodies[2].markers.2x: expected a letter or _
         /initial | 3 | initial: expected a state or {"state": ..., "loads": [...]}, found 3
-        /initial | "resting" | initial: expected "as_shaped" or "static_equilibrium" or "steady", found "resting"
-        /initial | {"state": "as_shaped", "loads": [{"name": "f", "kind": "force", "marker": "rod.tip", "value": [0, 1]}]} | initial.state: expected a state that loads act on
+        /initial | "resting" | initial: expected "undeformed" or "static_equilibrium" or "steady", found "resting"
+        /initial | {"state": "undeformed", "loads": [{"name": "f", "kind": "force", "marker": "rod.tip", "value": [0, 1]}]} | initial.state: expected a state that loads act on
         /bodies/2/motion | {"deformation": ["0", "s"]} | bodies[2].motion.deformation: expected none of a rigid body
         /masses/0/mass | -1 | masses[0].mass: expected zero or a positive number (kg)
         /masses/1/mass | 0 | masses[1].mass: expected a positive number (kg)
@@ -250,7 +250,16 @@ fn joints_take_what_is_theirs_and_no_more() {
         /joints/1/markers | ["rod.tip", "load.eye"] | joints[1].markers[1]: expected a marker that can turn
         /joints/6/markers | ["load.eye", "rope.tip"] | joints[6].markers[0]: expected a marker that can turn
         /joints/1/stiffness | -1 | joints[1].stiffness: expected zero or a positive number (N m/rad)
-        /joints/1 | {"name": "knee", "kind": "hinge", "markers": ["rod.tip", "crank.a"]} | joints[1]: expected a stiffness or a damping, found neither
+        /joints/1 | {"name": "knee", "kind": "revolute", "markers": ["rod.tip", "crank.a"]} | accepted
+        /joints/1 | {"name": "knee", "kind": "revolute", "markers": ["rod.tip", "crank.a"], "angle": 1} | joints[1].angle: expected a stiffness or a damping beside the angle of a revolute joint, found neither
+        /joints/1/kind | "hinge" | joints[1].kind: expected `revolute` with `stiffness` or `damping`, found "hinge", its former name
+        /joints/2/kind | "slider" | joints[2].kind: expected `point_on_line`, found "slider", its former name
+        /loads/0/kind | "stop" | loads[0].kind: expected `joint_limit`, found "stop", its former name
+        /inputs/0/kind | "distributed" | inputs[0].kind: expected `distributed_force`, found "distributed", its former name
+        /bodies/0/axial | "settled" | bodies[0].axial: expected `critically_damped`, found "settled", its former name
+        /initial | "as_shaped" | initial: expected `undeformed`, found "as_shaped", its former name
+        /initial | {"state": "as_shaped"} | initial.state: expected `undeformed`, found "as_shaped", its former name
+        /accuracy/for | [] | accuracy.for: expected the key `input_profiles`, found for, its former name
         /joints/3/markers | ["crank", "load.eye"] | joints[3].markers[0]: expected the name of a cable
         /joints/3/markers | ["rope.mid", "load.eye"] | joints[3].markers[0]: expected the name of a cable
         /joints/3/markers | ["rope", "rope.tip"] | joints[3].markers: expected markers of two bodies
@@ -261,7 +270,7 @@ fn joints_take_what_is_theirs_and_no_more() {
         /joints/4 | {"name": "link", "kind": "distance", "markers": ["rod.tip", "crank.a"]} | joints[4].length: expected a length, since
         /joints/4 | {"name": "link", "kind": "distance", "markers": ["ground", "rod.tip"], "point": [1, 1]} | accepted
         /joints/0/kind | "ball" | joints[0].kind: expected "revolute" or
-        /joints/0/kind | "spherical" | joints[0].kind: expected revolute, weld, slider, prismatic, orientation, distance, hinge or along in the plane, found spherical
+        /joints/0/kind | "spherical" | joints[0].kind: expected revolute, weld, point_on_line, prismatic, orientation, distance or point_on_cable in the plane, found spherical
         /joints/2/kind | "cylindrical" | joints[2].kind: expected revolute, weld
         /joints/2/kind | "planar" | joints[2].kind: expected revolute, weld
         /joints/0 | {"name": "cross", "kind": "universal", "markers": ["ground", "rod.root"], "direction": [1, 0], "second_direction": [0, 1]} | joints[0].kind: expected revolute, weld
@@ -275,7 +284,7 @@ fn motions_drive_what_can_be_driven_once() {
     check(
         scene,
         r#"
-        /motions/0/joint | "clamp" | motions[0].joint: expected a revolute joint or a hinge
+        /motions/0/joint | "clamp" | motions[0].joint: expected a revolute joint
         /motions/0/joint | "gone" | motions[0].joint: expected a joint of this scene
         /motions/0/marker | "rod.root" | motions[0]: expected either a marker or a joint, found both
         /motions/0/joint | null | motions[0]: expected either a marker or a joint, found neither
@@ -315,7 +324,7 @@ fn loads_take_what_is_theirs_and_no_more() {
         /loads/1/marker | "load.eye" | loads[1].marker: expected a marker that can turn
         /loads/1/value | [1, 2] | loads[1].value: expected one value, found 2
         /loads/1/value | "1 +" | loads[1].value: expected a number, t, a function
-        /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint or a hinge
+        /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint
         /loads/2/stiffness | 1 | loads[2].stiffness: expected a key of the kind
         /loads/3/body | "crank" | loads[3].body: expected the name of a cable of this scene
         /loads/4/value | 1 | loads[4].value: expected a key of the kind
@@ -340,7 +349,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /inputs/0/joint | "pin" | inputs[0].joint: expected a key of the kind
         /inputs/0/start | [1] | inputs[0].start: expected 2 component(s), found 1
         /inputs/2/marker | "load.eye" | inputs[2].marker: expected a marker that can turn
-        /inputs/3/joint | "link" | inputs[3].joint: expected a revolute joint or a hinge
+        /inputs/3/joint | "link" | inputs[3].joint: expected a revolute joint
         /inputs/4/body | "load" | inputs[4].body: expected the name of a cable
         /inputs/5/load | "wind" | inputs[5].load: expected a spring-damper of this scene
         /inputs/5/start | [-1] | inputs[5].start[0]: expected zero or a positive number (m)
@@ -353,7 +362,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "direction", "joint": "knee"} | outputs[0].joint: expected a key of the kind direction
         /outputs/0 | {"kind": "direction", "marker": "crank.a"} | accepted
         /outputs/0 | {"kind": "orientation", "marker": "crank.a"} | outputs[0].marker: expected nothing in the plane, where "angle" says how a body stands
-        /outputs/0 | {"kind": "angle", "joint": "clamp"} | outputs[0].joint: expected a revolute joint or a hinge
+        /outputs/0 | {"kind": "angle", "joint": "clamp"} | outputs[0].joint: expected a revolute joint
         /outputs/0 | {"kind": "angle", "joint": "pin", "marker": "rod.tip"} | outputs[0]: expected one name of what is read, found two
         /outputs/0 | {"kind": "travel", "joint": "rail"} | outputs[0].joint: expected a joint of kind along
         /outputs/0 | {"kind": "reaction", "joint": "guide"} | outputs[0].joint: expected a joint that transmits a force

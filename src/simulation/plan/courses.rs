@@ -1,4 +1,4 @@
-//! What inputs do in the experiment that is planned for (`accuracy.for`), as a table over time.
+//! What inputs do in the experiment that is planned for (`accuracy.input_profiles`), as a table over time.
 
 use std::f64::consts::PI;
 
@@ -66,7 +66,7 @@ fn columns(courses: &[InputCourse], variables: &[Variable]) -> Vec<Column> {
 /// # Errors
 /// A course of what is no input; one with too many kinks and jumps.
 pub fn courses(scene: &Scene) -> Result<Option<InputTable>, Error> {
-    let given = &scene.accuracy.courses;
+    let given = &scene.accuracy.input_profiles;
     if given.is_empty() {
         return Ok(None);
     }
@@ -102,7 +102,7 @@ pub fn courses(scene: &Scene) -> Result<Option<InputTable>, Error> {
     };
     match table.signals(&variables) {
         Ok(_) => Ok(Some(table)),
-        Err(error) => Err(Error::new("accuracy.for", error.to_string())),
+        Err(error) => Err(Error::new("accuracy.input_profiles", error.to_string())),
     }
 }
 
@@ -113,7 +113,10 @@ fn check_inputs(courses: &[InputCourse], variables: &[Variable]) -> Result<(), E
         if !inputs().any(|input| input.name == *found) {
             let meant = did_you_mean(found, inputs().map(|input| input.name.as_str()));
             let message = format!("expected the name of an input, found \"{found}\"{meant}");
-            return Err(Error::new(format!("accuracy.for[{place}].input"), message));
+            return Err(Error::new(
+                format!("accuracy.input_profiles[{place}].input"),
+                message,
+            ));
         }
     }
     Ok(())
@@ -131,8 +134,9 @@ struct Move<'a> {
 impl<'a> Move<'a> {
     fn new((place, course): (usize, &'a InputCourse), jumps: [f64; 2]) -> Result<Self, Error> {
         let function = course.value.as_ref().map(Value::function).transpose();
-        let function = function
-            .map_err(|message| Error::new(format!("accuracy.for[{place}].value"), message))?;
+        let function = function.map_err(|message| {
+            Error::new(format!("accuracy.input_profiles[{place}].value"), message)
+        })?;
         Ok(Self {
             course,
             function,
@@ -201,7 +205,7 @@ fn times(scene: &Scene, moves: &[Move]) -> Result<Vec<(f64, bool)>, Error> {
             let message = format!(
                 "expected at most {MOST_BREAKS} kinks and jumps in the experiment, found more"
             );
-            Error::new(format!("accuracy.for[{place}].value"), message)
+            Error::new(format!("accuracy.input_profiles[{place}].value"), message)
         })?;
         times.extend(breaks.into_iter().map(|time| (time, true)));
     }

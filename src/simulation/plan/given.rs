@@ -12,7 +12,7 @@ const TOLERANCE: &str = "relative_tolerance";
 pub struct Given {
     /// Values of parameters and inputs, by their names.
     pub set: Vec<(String, f64)>,
-    /// What inputs do, in place of `accuracy.for`.
+    /// What inputs do, in place of `accuracy.input_profiles`.
     pub inputs: Option<InputTable>,
 }
 
@@ -67,11 +67,11 @@ impl Given {
         Ok(())
     }
 
-    /// What inputs do in a scene: as given, or by `accuracy.for`; nothing where all keep their values.
+    /// What inputs do in a scene: as given, or by `accuracy.input_profiles`; nothing where all keep their values.
     pub(super) fn moved(&self, scene: &Scene) -> Result<Option<InputTable>, Error> {
         let (table, place) = match &self.inputs {
             Some(table) => (Some(table.clone()), "input"),
-            None => (courses(scene)?, "accuracy.for"),
+            None => (courses(scene)?, "accuracy.input_profiles"),
         };
         if let Some(table) = &table {
             let signals = table.signals(&variables(scene));

@@ -81,7 +81,7 @@ pub enum Settles {
     No,
 }
 
-/// What `"axial": "settled"` would do to forces that do not settle. It is proposed, never chosen: it changes the physics.
+/// What `"axial": "critically_damped"` would do to forces that do not settle. It is proposed, never chosen: it changes the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
     /// Names of the cables.
@@ -204,7 +204,7 @@ impl Settled {
             format!("{name} by {}{error}", in_words(*change))
         });
         format!(
-            "Forces ring with waves of stretching. \"axial\": \"settled\" of {} would change {}, at about {:.2} ms a second",
+            "Forces ring with waves of stretching. \"axial\": \"critically_damped\" of {} would change {}, at about {:.2} ms a second",
             self.bodies.join(", "),
             forces.collect::<Vec<_>>().join("; "),
             self.price.milliseconds()

@@ -191,7 +191,7 @@ impl<'a, 'p> Search<'a, 'p> {
             } else if let Some(cable) = scene.bodies[body].cable_mut() {
                 cable.elements = Some(*count);
                 if choice.is_settled {
-                    cable.axial = Axial::Settled;
+                    cable.axial = Axial::CriticallyDamped;
                 }
             }
         }

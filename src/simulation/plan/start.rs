@@ -67,7 +67,7 @@ fn tried(
     };
     let mut simulation = Simulation::new(scene);
     given.set(&mut simulation)?;
-    let refused = |error: String| Reason::Scene(Error::new("accuracy.for", error));
+    let refused = |error: String| Reason::Scene(Error::new("accuracy.input_profiles", error));
     if let Some(moved) = moved {
         let signals = moved.signals(simulation.variables());
         let signals = signals.map_err(|error| refused(error.to_string()))?;

@@ -166,7 +166,7 @@ fn words(
             let ways = &["on its second marker, opposite on its first"];
             ("torque", "Torque in", NEWTON_METRE, ways)
         }
-        (ActionKind::Distributed, _) => {
+        (ActionKind::DistributedForce, _) => {
             let what = "Force per reference length on";
             ("distributed_force", what, NEWTON_PER_METRE, &AXES)
         }

@@ -132,9 +132,9 @@ pub enum Parameter {
     ReleaseTime(usize),
     /// Mass lumped at a marker.
     LumpedMass(usize),
-    /// Stiffness of a hinge.
+    /// Stiffness of the spring of a revolute joint.
     HingeStiffness(usize),
-    /// Damping of a hinge.
+    /// Damping of the spring of a revolute joint.
     HingeDamping(usize),
     /// Stiffness of a spring-damper or of a contact of a marker.
     SpringStiffness(usize),

@@ -288,7 +288,7 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
                 true => (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)]),
                 false => (*sizes, along, [SpringStiffness(i), SpringDamping(i)]),
             },
-            LoadKind::Stop { on, sizes, .. } => match on.is_angle() {
+            LoadKind::JointLimit { on, sizes, .. } => match on.is_angle() {
                 true => {
                     let parameters = [TorsionStiffness(i), TorsionStopDamping(i)];
                     (*sizes, [about[0], SECOND_PER_RADIAN], parameters)

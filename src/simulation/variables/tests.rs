@@ -18,8 +18,8 @@ fn scene() -> Scene {
           "markers": { "root": 0.0, "tip": 1.0 } } ],
       "masses": [ { "marker": "rod.tip", "mass": 2.0 } ],
       "joints": [
-        { "name": "elbow", "kind": "hinge", "markers": ["rod.tip", "crank.a"], "damping": 0.1 },
-        { "name": "rail", "kind": "slider", "markers": ["ground", "cart.centre"],
+        { "name": "elbow", "kind": "revolute", "markers": ["rod.tip", "crank.a"], "damping": 0.1 },
+        { "name": "rail", "kind": "point_on_line", "markers": ["ground", "cart.centre"],
           "direction": [2.0, 0.0], "point": [1.0, 0.0] } ],
       "motions": [
         { "name": "turn", "kind": "angle", "joint": "elbow", "value": { "input": 2 } },
@@ -31,7 +31,7 @@ fn scene() -> Scene {
           "stiffness": 50.0 } ],
       "inputs": [
         { "kind": "force", "marker": "rod.tip", "follower": true, "start": [1.0, -1.0] },
-        { "kind": "distributed", "body": "rod" },
+        { "kind": "distributed_force", "body": "rod" },
         { "kind": "rest_length", "load": "hoist" } ],
       "outputs": [
         { "kind": "angle", "joint": "elbow" }, { "kind": "reaction_moment", "motion": "turn" },

@@ -84,7 +84,7 @@ pub struct Joint<const D: usize = 2> {
     pub holds: Vec<Primitive<D>>,
     /// What it joins.
     pub ends: [End<D>; 2],
-    /// Index of its spring among the loads: a hinge.
+    /// Index of its spring among the loads.
     pub spring: Option<usize>,
     /// In space the turn about its axis, where it has one.
     pub turn: Option<AxisTurn<D>>,

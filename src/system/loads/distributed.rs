@@ -23,7 +23,7 @@ pub enum Line {
 
 /// A distributed force.
 #[derive(Clone, Debug)]
-pub struct Distributed<const D: usize = 2> {
+pub struct DistributedForce<const D: usize = 2> {
     /// What it is distributed along. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
     pub on: Line,
     /// Components, N/m.
@@ -47,7 +47,7 @@ pub(in crate::system) fn on_coordinates<const D: usize, N: Number>(
     })
 }
 
-impl<const D: usize> Distributed<D> {
+impl<const D: usize> DistributedForce<D> {
     /// What is the same along the body, N/m.
     pub(in crate::system) fn uniform<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
         self.density.uniform(at) * self.longer_by(at)

@@ -1,4 +1,4 @@
-//! A linear spring with a damper on a coordinate of a joint: along a slider, about the axis of a hinge.
+//! A linear spring with a damper on a coordinate of a joint: along a line, about the axis of a revolute joint.
 
 use super::{Add, Instant};
 use crate::math::jet::Number;

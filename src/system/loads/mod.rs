@@ -9,30 +9,30 @@ mod distributed;
 mod distributed_moment;
 mod fluid;
 mod force;
+mod joint_limit;
 mod joint_spring;
 mod line_load;
 mod moment;
 mod orientation_bushing;
 mod six_bushing;
 mod spring;
-mod stop;
 
 pub use bushing::{Bushing, RotationalBushing};
 pub use contact::{Contact, Place, Surface};
 pub use convective_inertia::ConvectiveInertia;
 pub use couple::Couple;
 pub(in crate::system) use distributed::on_coordinates;
-pub use distributed::{Distributed, Line};
+pub use distributed::{DistributedForce, Line};
 pub use distributed_moment::DistributedMoment;
 pub use fluid::{Fluid, FluidSegment};
 pub use force::Force;
+pub use joint_limit::JointLimit;
 pub use joint_spring::JointSpring;
 pub use line_load::{LineLoad, Values};
 pub use moment::Moment;
 pub use orientation_bushing::OrientationBushing;
 pub use six_bushing::SixBushing;
 pub use spring::Spring;
-pub use stop::Stop;
 
 use super::end::{Add, End};
 use super::instant::Instant;
@@ -55,7 +55,7 @@ pub enum Load<const D: usize = 2> {
     /// The same in space.
     Couple(Couple<D>),
     /// A dead force per reference length of a cable or a rod.
-    Distributed(Distributed<D>),
+    DistributedForce(DistributedForce<D>),
     /// A moment per reference length of a rod or beam.
     DistributedMoment(Box<DistributedMoment>),
     /// A fluid that streams past a cable or a rod.
@@ -65,7 +65,7 @@ pub enum Load<const D: usize = 2> {
     /// A spring with a damper on a coordinate of a joint.
     JointSpring(JointSpring<D>),
     /// Stops of a coordinate of a joint.
-    Stop(Stop<D>),
+    JointLimit(JointLimit<D>),
     /// Contact of a marker or a body with a surface.
     Contact(Box<Contact<D>>),
     /// Springs with dampers along and about three axes.
@@ -84,7 +84,7 @@ impl<const D: usize> Load<D> {
     /// Adds its forces.
     pub fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         match self {
-            Self::Distributed(load) => load.add_force(at, f),
+            Self::DistributedForce(load) => load.add_force(at, f),
             Self::DistributedMoment(load) => load.add_force(at, f),
             Self::Fluid(load) => load.add_force(at, f),
             Self::Contact(load) => load.add_force(at, f),
@@ -106,13 +106,13 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.act(at, call),
             Self::Moment(load) => load.act(at, call),
             Self::Couple(load) => load.act(at, call),
-            Self::Distributed(_)
+            Self::DistributedForce(_)
             | Self::DistributedMoment(_)
             | Self::Fluid(_)
             | Self::ConvectiveInertia(_) => {}
             Self::Spring(load) => load.act(at, call),
             Self::JointSpring(load) => load.act(at, call),
-            Self::Stop(load) => load.act(at, call),
+            Self::JointLimit(load) => load.act(at, call),
             Self::Contact(load) => load.act(at, call),
             Self::SixBushing(load) => load.act(at, call),
             Self::Bushing(load) => load.act(at, call),
@@ -129,7 +129,7 @@ impl<const D: usize> Load<D> {
         (first, stretch): (usize, usize),
     ) -> Option<Values<D, N>> {
         match self {
-            Self::Distributed(load) => (load.density.changes()
+            Self::DistributedForce(load) => (load.density.changes()
                 && load.first_node(at.chains) == first)
                 .then(|| load.changing(at, stretch)),
             Self::Contact(load) => (load.is_distributed() && load.first_node() == first)
@@ -151,13 +151,13 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.add_stiffness(at, stiffness),
             Self::Moment(load) => load.add_stiffness(at, stiffness),
             // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
-            Self::Couple(_) | Self::Distributed(_) | Self::DistributedMoment(_) => {}
+            Self::Couple(_) | Self::DistributedForce(_) | Self::DistributedMoment(_) => {}
             // The same: rope is paid out slowly beside its waves.
             Self::ConvectiveInertia(_) => {}
             Self::Fluid(load) => load.add_damping(at, damping),
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::JointSpring(load) => load.add_tangent(at, stiffness, damping),
-            Self::Stop(load) => load.add_tangent(at, stiffness, damping),
+            Self::JointLimit(load) => load.add_tangent(at, stiffness, damping),
             Self::Contact(load) => load.add_tangent(at, stiffness, damping),
             Self::SixBushing(load) => load.add_tangent(at, stiffness, damping),
             Self::Bushing(load) => load.add_tangent(stiffness, damping),
@@ -173,12 +173,12 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => [load.power(at), none],
             Self::Moment(load) => [load.power(at), none],
             Self::Couple(load) => [load.power(at), none],
-            Self::Distributed(load) => [load.power(at), none],
+            Self::DistributedForce(load) => [load.power(at), none],
             Self::DistributedMoment(load) => [load.power(at), none],
             Self::Fluid(load) => load.power(at),
             Self::Spring(load) => load.power(at),
             Self::JointSpring(load) => [none, load.dissipation(at)],
-            Self::Stop(load) => [none, load.dissipation(at)],
+            Self::JointLimit(load) => [none, load.dissipation(at)],
             Self::Contact(load) => load.power(at),
             Self::SixBushing(load) => [none, load.dissipation(at)],
             Self::Bushing(load) => load.power(at),
@@ -193,7 +193,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Spring(load) => load.energy(at),
             Self::JointSpring(load) => load.energy(at),
-            Self::Stop(load) => load.energy(at),
+            Self::JointLimit(load) => load.energy(at),
             Self::Contact(load) => load.energy(at),
             Self::SixBushing(load) => load.energy(at),
             Self::Bushing(load) => load.energy(at),
@@ -210,7 +210,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.work(before, after),
             Self::Moment(load) => load.work(before, after),
             Self::Couple(load) => load.work(before, after),
-            Self::Distributed(load) => load.work(before, after),
+            Self::DistributedForce(load) => load.work(before, after),
             Self::DistributedMoment(load) => load.work(before, after),
             Self::Fluid(load) => load.work(before, after),
             Self::Bushing(load) => load.work(before, after),
@@ -220,7 +220,7 @@ impl<const D: usize> Load<D> {
             Self::ConvectiveInertia(_) => 0.0,
             Self::Spring(_)
             | Self::JointSpring(_)
-            | Self::Stop(_)
+            | Self::JointLimit(_)
             | Self::Contact(_)
             | Self::SixBushing(_) => self.energy(before) - self.energy(after),
         }
@@ -242,14 +242,14 @@ impl<const D: usize> Load<D> {
                     hold(std::slice::from_mut(size), fraction);
                 }
             }
-            Self::Distributed(load) => load.density.hold(at, fraction),
+            Self::DistributedForce(load) => load.density.hold(at, fraction),
             Self::DistributedMoment(load) => load.density.hold(at, fraction),
             Self::Fluid(load) => load.hold(at, fraction),
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
             // At rest there is none.
             Self::Contact(load) => load.friction = 0.0,
             Self::JointSpring(_)
-            | Self::Stop(_)
+            | Self::JointLimit(_)
             | Self::SixBushing(_)
             | Self::ConvectiveInertia(_) => {}
             Self::Bushing(load) => {
@@ -290,9 +290,9 @@ impl<const D: usize> Load<D> {
             | Self::RotationalBushing(_)
             | Self::OrientationBushing(_) => true,
             Self::JointSpring(load) => load.coordinate.is_angle(),
-            Self::Stop(load) => load.coordinate.is_angle(),
+            Self::JointLimit(load) => load.coordinate.is_angle(),
             Self::Force(_)
-            | Self::Distributed(_)
+            | Self::DistributedForce(_)
             | Self::Fluid(_)
             | Self::Spring(_)
             | Self::Contact(_)
@@ -303,7 +303,7 @@ impl<const D: usize> Load<D> {
 
     /// Whether its force has a kink at a time that the state decides.
     pub fn has_contact(&self) -> bool {
-        matches!(self, Self::Stop(_) | Self::Contact(_))
+        matches!(self, Self::JointLimit(_) | Self::Contact(_))
     }
 
     /// Whether it dissipates.
@@ -312,7 +312,7 @@ impl<const D: usize> Load<D> {
             Self::Fluid(load) => load.is_damped(),
             Self::Spring(load) => load.damping > 0.0,
             Self::JointSpring(load) => load.damping > 0.0,
-            Self::Stop(load) => load.damping > 0.0,
+            Self::JointLimit(load) => load.damping > 0.0,
             Self::Contact(load) => load.damping > 0.0 || load.friction > 0.0,
             Self::SixBushing(load) => load.is_damped(),
             Self::Bushing(load) => load.damping > 0.0,
@@ -327,14 +327,14 @@ impl<const D: usize> Load<D> {
         let one = std::slice::from_ref;
         let (first, second): (&[Signal], &[Signal]) = match self {
             Self::Force(load) => (&load.components, &[]),
-            Self::Distributed(load) => (&load.density.uniform, &[]),
+            Self::DistributedForce(load) => (&load.density.uniform, &[]),
             Self::DistributedMoment(load) => (&load.density.uniform, &[]),
             Self::Fluid(load) => (&load.current.uniform, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
             Self::Couple(_)
             | Self::JointSpring(_)
-            | Self::Stop(_)
+            | Self::JointLimit(_)
             | Self::Contact(_)
             | Self::SixBushing(_)
             | Self::ConvectiveInertia(_) => (&[], &[]),
@@ -347,7 +347,7 @@ impl<const D: usize> Load<D> {
             _ => &[],
         };
         let along: &[Vec<Signal>] = match self {
-            Self::Distributed(load) => &load.density.along,
+            Self::DistributedForce(load) => &load.density.along,
             Self::DistributedMoment(load) => &load.density.along,
             Self::Fluid(load) => &load.current.along,
             _ => &[],
@@ -389,11 +389,11 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => vec![End::Body(load.marker)],
             Self::Moment(load) => load.ends.to_vec(),
             Self::Couple(load) => load.ends.to_vec(),
-            Self::Distributed(_) | Self::Fluid(_) | Self::ConvectiveInertia(_) => vec![],
+            Self::DistributedForce(_) | Self::Fluid(_) | Self::ConvectiveInertia(_) => vec![],
             Self::DistributedMoment(load) => vec![End::Body(load.end)],
             Self::Spring(load) => load.ends.to_vec(),
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),
-            Self::Stop(load) => load.coordinate.ends().to_vec(),
+            Self::JointLimit(load) => load.coordinate.ends().to_vec(),
             // Elements couple their nodes already.
             Self::Contact(load) if load.is_distributed() => vec![],
             Self::Contact(load) => vec![End::Body(load.places[0].marker)],

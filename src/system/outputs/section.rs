@@ -176,7 +176,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let at = self.instant(system);
         let mut sum = Vector::zeros();
         for load in &system.loads {
-            if let Load::Distributed(load) = load
+            if let Load::DistributedForce(load) = load
                 && load.first_node(&system.chains) == first
             {
                 sum += load.uniform(at);

@@ -164,7 +164,7 @@ fn cantilever() -> Specimen {
         "name": "cantilever", "dimension": 2, "initial": "static_equilibrium",
         "bodies": [cable("beam", n, [1e6, 1000.0, 1e-3, 1e-6], [0.0, 0.0], [1.0, 0.0])],
         "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "beam.root"]}],
-        "loads": [{"name": "snow", "kind": "distributed", "body": "beam", "value": [0.0, -q]}],
+        "loads": [{"name": "snow", "kind": "distributed_force", "body": "beam", "value": [0.0, -q]}],
         "outputs": [{"kind": "position", "marker": "beam.tip"}, {"kind": "angle", "marker": "beam.tip"},
                     {"kind": "connectivity_force", "marker": "beam.middle"}, {"kind": "energy"},
                     {"kind": "reaction", "joint": "clamp"}, {"kind": "reaction_moment", "joint": "clamp"}]});
@@ -243,7 +243,7 @@ fn settled() -> Specimen {
     };
     let pin =
         |name: &str, at: &str| json!({"name": name, "kind": "revolute", "markers": ["ground", at]});
-    let guide = json!({"name": "guide", "kind": "slider", "markers": ["ground", "beam.tip"], "direction": [1.0, 0.0]});
+    let guide = json!({"name": "guide", "kind": "point_on_line", "markers": ["ground", "beam.tip"], "direction": [1.0, 0.0]});
     let outputs = ["held.tip", "free.root", "beam.middle", "rings.root"];
     let mut outputs = outputs
         .map(|at| json!({"kind": "position", "marker": at}))

@@ -294,7 +294,7 @@ fn sections_of_a_beam() -> Specimen {
         "accuracy": {"relative_tolerance": 1e-9},
         "bodies": [line(&json!({"section": {"area": 2e-3, "second_moment": 1e-2},
                                 "markers": {"a": 0.0, "m": 0.5, "q": 0.25}}))],
-        "joints": [{"name": "rail", "kind": "slider", "markers": ["ground", "rod.m"], "direction": [0.0, 1.0]}],
+        "joints": [{"name": "rail", "kind": "point_on_line", "markers": ["ground", "rod.m"], "direction": [0.0, 1.0]}],
         "loads": [{"name": "floor", "kind": "contact", "body": "rod", "stiffness": stiffness,
                    "surface": {"plane": {"point": [0.0, 0.0], "normal": [0.0, 1.0]}}},
                   {"name": "press", "kind": "force", "marker": "rod.m", "value": [0.0, -load]}],
@@ -322,7 +322,7 @@ fn at_rest() -> Specimen {
         "accuracy": {"relative_tolerance": 1e-9},
         "bodies": [{"element": "rigid", "name": "a", "mass": MASS, "inertia": INERTIA, "position": [0.0, -0.001],
                     "markers": {"c": [0.0, 0.0]}}],
-        "joints": [{"name": "rail", "kind": "slider", "markers": ["ground", "a.c"], "direction": [0.0, 1.0]},
+        "joints": [{"name": "rail", "kind": "point_on_line", "markers": ["ground", "a.c"], "direction": [0.0, 1.0]},
                    {"name": "upright", "kind": "orientation", "markers": ["ground", "a.c"]}],
         "loads": [contact("floor", "a.c", &json!({"plane": {"point": [0.0, 0.0], "normal": [0.0, 1.0]}}))],
         "outputs": [{"kind": "position", "marker": "a.c"}, {"kind": "natural_frequency", "count": 1}]});

@@ -131,7 +131,7 @@ fn stopped(is_read: bool) -> Specimen {
     let (bar, point) = on_axis(speed, rate);
     let ([upper, k, a], [lower, turning_k, turning_a]) = ([0.2, 50.0, 0.6], [0.25, 3.0, 0.5]);
     let stop = |name: &str, keys: Value| {
-        let mut stop = json!({"name": name, "kind": "stop", "joint": "guide"});
+        let mut stop = json!({"name": name, "kind": "joint_limit", "joint": "guide"});
         let given = keys.as_object().expect("keys").clone();
         stop.as_object_mut().expect("keys").extend(given);
         stop

@@ -75,7 +75,7 @@ fn supported() -> Specimen {
         json!({"area": AREA, "second_moment": 100.0 * MOMENT, "shear_factor": factor});
     let scene = json!({"name": "supported", "dimension": 2, "bodies": [body],
         "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]},
-                   {"name": "roller", "kind": "slider", "markers": ["ground", "rod.e"], "direction": [1.0, 0.0]}],
+                   {"name": "roller", "kind": "point_on_line", "markers": ["ground", "rod.e"], "direction": [1.0, 0.0]}],
         "outputs": read()});
     let frequency = |mode: f64| {
         let (k, r) = (mode * std::f64::consts::PI / LENGTH, 100.0 * MOMENT / AREA);
@@ -127,7 +127,7 @@ fn beside_a_spring() -> Specimen {
                           "markers": {"c": [0.0, 0.0]}}],
         "joints": [clamp("wall", "rod.a"),
                    {"name": "end", "kind": "revolute", "markers": ["rod.e", "block.c"]},
-                   {"name": "rail", "kind": "slider", "markers": ["ground", "block.c"], "direction": [1.0, 0.0]}],
+                   {"name": "rail", "kind": "point_on_line", "markers": ["ground", "block.c"], "direction": [1.0, 0.0]}],
         "loads": [{"name": "spring", "kind": "spring_damper", "markers": ["ground", "block.c"], "point": [2.0 * LENGTH, 0.0],
                    "stiffness": 0.5 * bar}],
         "outputs": [{"kind": "eigenvalue", "count": 1}]});

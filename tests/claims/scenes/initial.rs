@@ -45,7 +45,7 @@ fn levers() -> Specimen {
     let mut lever = |name: &str, y: f64| {
         bodies.push(json!({"element": "rigid", "name": name, "mass": 2.0, "inertia": INERTIA, "position": [0.0, y],
                            "angle": 0.2, "markers": {"c": [0.0, 0.0], "p": [0.5, -0.2]}}));
-        joints.push(json!({"name": format!("{name}_hinge"), "kind": "hinge", "markers": ["ground", format!("{name}.c")],
+        joints.push(json!({"name": format!("{name}_hinge"), "kind": "revolute", "markers": ["ground", format!("{name}.c")],
                            "stiffness": STIFFNESS, "angle": REST}));
         outputs.push(json!({"kind": "angle", "marker": format!("{name}.c")}));
         outputs.push(json!({"kind": "angular_acceleration", "marker": format!("{name}.c")}));
@@ -143,7 +143,7 @@ fn bars() -> Specimen {
         bodies.push(bar(&format!("b{n}"), from, along, 2));
         joints.push(json!({"name": format!("pin{n}"), "kind": "revolute", "markers": ["ground", format!("b{n}.root")]}));
         loads.push(
-            json!({"name": format!("wind{n}"), "kind": "distributed", "body": format!("b{n}"),
+            json!({"name": format!("wind{n}"), "kind": "distributed_force", "body": format!("b{n}"),
                           "value": [x[n].0, y[n].0]}),
         );
         outputs.push(json!({"kind": "position", "marker": format!("b{n}.tip")}));

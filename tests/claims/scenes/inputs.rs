@@ -44,7 +44,7 @@ fn scene(name: &str, starts: [Value; 5]) -> Value {
                    with(json!({"kind": "force", "marker": "b.p", "follower": true}), follower),
                    with(json!({"kind": "moment", "marker": "m.c"}), moment),
                    with(json!({"kind": "torque", "joint": "pin"}), torque),
-                   with(json!({"kind": "distributed", "body": "r"}), line)],
+                   with(json!({"kind": "distributed_force", "body": "r"}), line)],
         "outputs": accelerations.into_iter().chain(turns).collect::<Vec<_>>()})
 }
 

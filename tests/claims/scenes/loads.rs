@@ -129,7 +129,7 @@ fn distributed() -> Specimen {
                "section": {"area": 2e-3, "second_moment": 1e-7},
                "shape": {"line": {"from": [0.0, y], "to": [0.6, y + 0.8]}}, "markers": {"p": 0.3}})
     };
-    let load = |name: &str, of: &str, value: Value| json!({"name": name, "kind": "distributed", "body": of, "value": value});
+    let load = |name: &str, of: &str, value: Value| json!({"name": name, "kind": "distributed_force", "body": of, "value": value});
     let scene = json!({
         "name": "distributed", "dimension": 2,
         "bodies": [rod("a", 0.0), rod("b", 1.0), rod("c", 2.0)],
@@ -253,7 +253,7 @@ fn works() -> Specimen {
     let scene = json!({
         "name": "works", "dimension": 2, "accuracy": {"relative_tolerance": 1e-9},
         "bodies": [bead("a", [0.1, 0.2], speed), turning],
-        "joints": [{"name": "axle", "kind": "hinge", "markers": ["ground", "wheel.c"], "damping": d}],
+        "joints": [{"name": "axle", "kind": "revolute", "markers": ["ground", "wheel.c"], "damping": d}],
         "loads": [{"name": "pull", "kind": "force", "marker": "a.c", "value": force}],
         "outputs": [{"kind": "work"}, {"kind": "position", "marker": "a.c"}]});
     let t = 0.7;
@@ -284,7 +284,7 @@ fn works_of_what_moves() -> Specimen {
                     "section": {"area": 2e-3, "second_moment": 1e-6},
                     "shape": {"line": {"from": [0.0, 0.0], "to": [0.6, 0.8]}}}],
         "loads": [{"name": "twist", "kind": "moment", "marker": "wheel.c", "value": moment},
-                  {"name": "wind", "kind": "distributed", "body": "rod", "value": line}],
+                  {"name": "wind", "kind": "distributed_force", "body": "rod", "value": line}],
         "outputs": [{"kind": "work"}]});
     // The rod is 1 m long and weighs 2.5 kg.
     let work = 0.5 * t * t * (moment * moment / 0.4 + dot(line, line) / 2.5);

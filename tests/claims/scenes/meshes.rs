@@ -23,8 +23,8 @@ fn beam(name: &str, elements: u32, accuracy: Value) -> Value {
                     "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}},
                     "markers": {"root": 0.0, "third": 1.0 / 3.0, "tip": 1.0}}],
         "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "beam.root"]},
-                   {"name": "slide", "kind": "slider", "markers": ["ground", "beam.tip"], "direction": [1.0, 0.0]}],
-        "loads": [{"name": "snow", "kind": "distributed", "body": "beam", "value": [0.0, -LOAD]}],
+                   {"name": "slide", "kind": "point_on_line", "markers": ["ground", "beam.tip"], "direction": [1.0, 0.0]}],
+        "loads": [{"name": "snow", "kind": "distributed_force", "body": "beam", "value": [0.0, -LOAD]}],
         "outputs": [{"kind": "resolution"}]})
 }
 
@@ -48,7 +48,7 @@ fn two_elements() -> Specimen {
     let accuracy = json!({"error": error, "relative_tolerance": 1e-7});
     let mut scene = beam("two_elements", 2, accuracy);
     scene["joints"][0] = super::clamp("clamp", "beam.root");
-    let support = json!({"name": "support", "kind": "slider", "markers": ["ground", "beam.third"],
+    let support = json!({"name": "support", "kind": "point_on_line", "markers": ["ground", "beam.third"],
                          "direction": [1.0, 0.0]});
     scene["joints"]
         .as_array_mut()

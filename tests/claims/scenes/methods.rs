@@ -86,7 +86,7 @@ fn lever(initial: &str) -> Value {
         "name": "lever", "dimension": 2, "initial": initial,
         "bodies": [{"element": "rigid", "name": "arm", "mass": 2.0, "inertia": 0.5, "position": [0.0, 0.0],
                     "angle": 0.2, "markers": {"c": [0.0, 0.0]}}],
-        "joints": [{"name": "hinge", "kind": "hinge", "markers": ["ground", "arm.c"], "stiffness": 4.0, "angle": 0.1}],
+        "joints": [{"name": "hinge", "kind": "revolute", "markers": ["ground", "arm.c"], "stiffness": 4.0, "angle": 0.1}],
         "loads": [{"name": "twist", "kind": "moment", "marker": "arm.c", "value": 3.2}],
         "outputs": [{"kind": "angle", "marker": "arm.c"}]})
 }
@@ -101,7 +101,7 @@ fn settled() -> Specimen {
 }
 
 fn unsettled() -> Specimen {
-    Specimen::new("unsettled", lever("as_shaped")).claim("arm.c.angle", "rad", 0.2)
+    Specimen::new("unsettled", lever("undeformed")).claim("arm.c.angle", "rad", 0.2)
 }
 
 /// Two levers on springs of their own.
@@ -110,7 +110,7 @@ fn frequencies() -> Specimen {
         json!({"element": "rigid", "name": name, "mass": 2.0, "inertia": inertia, "position": [0.0, y],
                "markers": {"c": [0.0, 0.0]}})
     };
-    let hinge = |name: &str, of: &str, stiffness: f64| json!({"name": name, "kind": "hinge", "markers": ["ground", of], "stiffness": stiffness});
+    let hinge = |name: &str, of: &str, stiffness: f64| json!({"name": name, "kind": "revolute", "markers": ["ground", of], "stiffness": stiffness});
     let scene = json!({
         "name": "frequencies", "dimension": 2, "bodies": [arm("a", 0.0, 0.5), arm("b", 1.0, 0.2)],
         "joints": [hinge("stiff", "b.c", 20.0), hinge("soft", "a.c", 4.5)],
@@ -126,7 +126,7 @@ fn damped(name: &str, y: f64, [inertia, stiffness, damping]: [f64; 3]) -> [Value
     [
         json!({"element": "rigid", "name": name, "mass": 2.0, "inertia": inertia, "position": [0.0, y],
                "markers": {"c": [0.0, 0.0]}}),
-        json!({"name": format!("{name}_hinge"), "kind": "hinge", "markers": ["ground", format!("{name}.c")],
+        json!({"name": format!("{name}_hinge"), "kind": "revolute", "markers": ["ground", format!("{name}.c")],
                "stiffness": stiffness, "damping": damping}),
     ]
 }

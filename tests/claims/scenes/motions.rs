@@ -169,7 +169,7 @@ fn displacements() -> Specimen {
     let mut read = Vec::new();
     for (n, (value, _)) in values.iter().enumerate() {
         bodies.push(wheel(&format!("m{n}"), sum(point, times(0.4, along)), 0.0));
-        joints.push(json!({"name": format!("guide{n}"), "kind": "slider", "markers": ["ground", format!("m{n}.c")],
+        joints.push(json!({"name": format!("guide{n}"), "kind": "point_on_line", "markers": ["ground", format!("m{n}.c")],
                            "point": point, "direction": [3.0, 4.0]}));
         motions.push(json!({"name": format!("drive{n}"), "kind": "displacement", "joint": format!("guide{n}"),
                             "value": value}));
@@ -178,7 +178,7 @@ fn displacements() -> Specimen {
     }
     // A slider that nothing drives.
     bodies.push(wheel("free", [6.0, 0.0], 0.0));
-    joints.push(json!({"name": "loose", "kind": "slider", "markers": ["ground", "free.c"], "direction": [1.0, 0.0]}));
+    joints.push(json!({"name": "loose", "kind": "point_on_line", "markers": ["ground", "free.c"], "direction": [1.0, 0.0]}));
     let scene = json!({"name": "displacements", "dimension": 2, "gravity": g, "bodies": bodies, "joints": joints,
                        "motions": motions, "outputs": read});
     let mut specimen = Specimen::new("displacements", scene).from(T);
@@ -210,7 +210,7 @@ fn mastered_scene(name: &str) -> Value {
         bodies.push(wheel(&format!("v{n}"), [3.0, y], 0.6));
         bodies.push(wheel(&format!("s{n}"), [4.6, y + 0.8], 0.0));
         joints.push(json!({"name": format!("pin{n}"), "kind": "revolute", "markers": [format!("u{n}.c"), format!("v{n}.c")]}));
-        joints.push(json!({"name": format!("guide{n}"), "kind": "slider", "markers": ["ground", format!("s{n}.c")],
+        joints.push(json!({"name": format!("guide{n}"), "kind": "point_on_line", "markers": ["ground", format!("s{n}.c")],
                            "point": [4.0, y], "direction": [0.6, 0.8]}));
         let value = json!({"input": n});
         motions.push(json!({"name": format!("place{n}"), "kind": "position", "marker": format!("p{n}.c"), "value": value}));

@@ -280,7 +280,7 @@ fn vibrating() -> Specimen {
     made["section"] = json!({"area": area, "second_moment": second, "shear_factor": factor});
     let scene = json!({"name": "beam", "gravity": [0.0, 0.0], "dimension": 2, "bodies": [made],
         "joints": [{"name": "left", "kind": "revolute", "markers": ["ground", "beam.root"]},
-                   {"name": "right", "kind": "slider", "markers": ["ground", "beam.tip"],
+                   {"name": "right", "kind": "point_on_line", "markers": ["ground", "beam.tip"],
                     "direction": [1.0, 0.0]}],
         "outputs": [{"kind": "eigenvalue", "count": 2}, {"kind": "natural_frequency", "count": 1}]});
     let (b, shear) = (PI / LENGTH, factor * SHEAR * area);

@@ -136,7 +136,7 @@ fn hinged() -> Specimen {
     let scene = json!({
         "name": "hinged", "dimension": 2, "gravity": [0.0, -g], "bodies": [body],
         "masses": [{"marker": "rod.a", "mass": bob[0], "inertia": bob[1]}],
-        "joints": [{"name": "hinge", "kind": "hinge", "markers": ["ground", "rod.e"], "stiffness": k, "damping": d,
+        "joints": [{"name": "hinge", "kind": "revolute", "markers": ["ground", "rod.e"], "stiffness": k, "damping": d,
                     "angle": rest}],
         "outputs": outputs});
     // The direction of the rod is opposite to the way out.
@@ -198,7 +198,7 @@ fn carrying(title: &'static str, model: &str) -> Specimen {
     let (k, reach, length) = (20.0, [0.4, 1.1], 0.3);
     let (port, held) = (8.0, [1.2, -0.9]);
     let at = |s: f64| times(s * LENGTH, out);
-    let (mut beam, mut initial, mut within) = (rod("beam", [0.0, 0.0], out), "as_shaped", 1e-9);
+    let (mut beam, mut initial, mut within) = (rod("beam", [0.0, 0.0], out), "undeformed", 1e-9);
     if model == "flexible" {
         beam["model"] = json!(model);
         beam["elements"] = json!(4);
@@ -213,7 +213,7 @@ fn carrying(title: &'static str, model: &str) -> Specimen {
         "loads": [{"name": "dead", "kind": "force", "marker": "beam.e", "value": dead},
                   {"name": "turning", "kind": "force", "marker": "beam.d", "follower": true, "value": follower},
                   {"name": "twist", "kind": "moment", "marker": "beam.d", "value": moment},
-                  {"name": "wind", "kind": "distributed", "body": "beam", "value": line},
+                  {"name": "wind", "kind": "distributed_force", "body": "beam", "value": line},
                   {"name": "spring", "kind": "spring_damper", "markers": ["ground", "beam.c"], "point": reach,
                    "stiffness": k, "length": length}],
         "inputs": [{"kind": "moment", "marker": "beam.b", "start": [twist]}],

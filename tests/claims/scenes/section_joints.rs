@@ -64,7 +64,7 @@ fn motions() -> [Motion; 5] {
             along * 1.3,
         ),
         (
-            "slider",
+            "point_on_line",
             json!({"direction": array(given)}),
             along * -0.9,
             none,

@@ -39,7 +39,7 @@ fn drawn() -> Specimen {
         "bodies": [rod, bar("mast", [0.0, 1.0], ALONG, 2)],
         "joints": [clamp("a", "rod.root"), clamp("b", "mast.root")],
         "loads": [pull("first", "rod.middle", inside), pull("second", "rod.tip", end),
-                  {"name": "wind", "kind": "distributed", "body": "mast", "value": [line, 0.0]}],
+                  {"name": "wind", "kind": "distributed_force", "body": "mast", "value": [line, 0.0]}],
         "outputs": read});
     let mut specimen = Specimen::new("drawn", scene)
         .claim_within("rod.near.axial_force", "N", end, 1e-7)

@@ -29,9 +29,9 @@ fn line() -> Specimen {
     let scene = json!({
         "name": "line_slider", "dimension": 2, "gravity": g,
         "bodies": [bead_at("bead", m, [1.0, -0.28], [0.0, 0.0]), bead_at("other", 0.9, [0.0, 1.0], [0.0, 0.0]), extra()],
-        "joints": [{"name": "guide", "kind": "slider", "markers": ["ground", "bead.c"], "point": point,
+        "joints": [{"name": "guide", "kind": "point_on_line", "markers": ["ground", "bead.c"], "point": point,
                     "direction": [1.6, -1.2]},
-                   {"name": "as_is", "kind": "slider", "markers": ["ground", "other.c"], "direction": [0.0, 2.0]}],
+                   {"name": "as_is", "kind": "point_on_line", "markers": ["ground", "other.c"], "direction": [0.0, 2.0]}],
         "outputs": [{"kind": "position", "marker": "bead.c"}, {"kind": "acceleration", "marker": "bead.c"},
                     {"kind": "reaction", "joint": "guide"}, {"kind": "position", "marker": "other.c"},
                     {"kind": "acceleration", "marker": "other.c"}]});
@@ -88,8 +88,8 @@ fn along() -> Specimen {
                    bead_at("second", 0.9, [2.5, 0.0], [0.0, 0.0])],
         "joints": [clamp("a", "beam.root"), clamp("b", "beam.tip"), clamp("c", "other.root"),
                    clamp("d", "other.tip"),
-                   {"name": "ring", "kind": "along", "markers": ["beam", "bead.c"]},
-                   {"name": "ring2", "kind": "along", "markers": ["other", "second.c"]}],
+                   {"name": "ring", "kind": "point_on_cable", "markers": ["beam", "bead.c"]},
+                   {"name": "ring2", "kind": "point_on_cable", "markers": ["other", "second.c"]}],
         "loads": [keep("keep", "bead.c", -0.5), keep("keep2", "second.c", 1.5)],
         "outputs": [{"kind": "travel", "joint": "ring"}, {"kind": "travel", "joint": "ring2"},
                     {"kind": "reaction", "joint": "ring"}, {"kind": "reaction", "joint": "ring2"}]});
@@ -121,8 +121,8 @@ fn bead() -> Specimen {
         "bodies": [rod("first", 0.0), rod("second", 2.0), bead_at("a", 0.5, start(0.35, 0.0), [0.3, 0.4]), long],
         "joints": [{"name": "pin", "kind": "weld", "markers": ["ground", "first.root"]},
                    {"name": "pin2", "kind": "weld", "markers": ["ground", "second.root"]},
-                   {"name": "ring", "kind": "along", "markers": ["first", "a.c"]},
-                   {"name": "ring2", "kind": "along", "markers": ["second", "long.c"]}],
+                   {"name": "ring", "kind": "point_on_cable", "markers": ["first", "a.c"]},
+                   {"name": "ring2", "kind": "point_on_cable", "markers": ["second", "long.c"]}],
         "outputs": [{"kind": "travel", "joint": "ring2"}, {"kind": "velocity", "marker": "a.c"}]});
     Specimen::new("bead", scene)
         .claim("ring2.travel", "m", 0.6)
@@ -144,7 +144,7 @@ fn carried() -> Specimen {
                     "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}},
                     "motion": {"spin": rate}, "markers": {"root": 0.0, "tip": 1.0}},
                    bead_at("bead", mass, [at, 0.0], [speed, rate * at])],
-        "joints": [{"name": "ring", "kind": "along", "markers": ["arm", "bead.c"]}],
+        "joints": [{"name": "ring", "kind": "point_on_cable", "markers": ["arm", "bead.c"]}],
         "motions": [place("hold", "arm.root", json!([0.0, 0.0])), turn("first", "arm.root"),
                     place("swing", "arm.tip", json!([format!("cos({rate}*t)"), format!("sin({rate}*t)")])),
                     turn("second", "arm.tip")],
@@ -167,7 +167,7 @@ fn on_an_arc() -> Specimen {
                     "markers": {"first": 0.0, "last": 1.0}},
                    bead_at("bead", 1e-3, [0.0, half.cos() - 1.0], [speed, 0.0])],
         "joints": [clamp("a", "rail.first"), clamp("b", "rail.last"),
-                   {"name": "ring", "kind": "along", "markers": ["rail", "bead.c"]}],
+                   {"name": "ring", "kind": "point_on_cable", "markers": ["rail", "bead.c"]}],
         "outputs": [{"kind": "acceleration", "marker": "bead.c"}]});
     // The curvature is that of the elements.
     Specimen::new("on_an_arc", scene).vector_within(
@@ -190,7 +190,7 @@ fn put_on() -> Specimen {
                     "shape": {"line": {"from": [0.0, 0.0], "to": along}}, "markers": {"first": 0.0, "last": 1.0}},
                    bead_at("bead", 1e-3, beside, [0.0, 0.0])],
         "joints": [clamp("a", "rail.first"), clamp("b", "rail.last"),
-                   {"name": "ring", "kind": "along", "markers": ["rail", "bead.c"]}],
+                   {"name": "ring", "kind": "point_on_cable", "markers": ["rail", "bead.c"]}],
         "outputs": [{"kind": "position", "marker": "bead.c"}, {"kind": "travel", "joint": "ring"}]});
     Specimen::new("put_on", scene)
         .vector("bead.c.position", "m", times(way, along))

@@ -56,7 +56,7 @@ fn coupled() -> Specimen {
     let scene = json!({"name": "coupled", "dimension": 3, "gravity": array(gravity),
         "bodies": [particle("a"), particle("b"), particle("d"), particle("e"), rod],
         "motions": [{"name": "lift", "kind": "position", "marker": "e.c", "value": {"input": 2}}],
-        "inputs": [{"kind": "distributed", "body": "rod"}],
+        "inputs": [{"kind": "distributed_force", "body": "rod"}],
         "ports": [{"name": "hook", "marker": "a.c", "kind": "force"}, {"name": "grip", "marker": "b.c", "kind": "motion"},
                   {"name": "mount", "marker": "d.c", "kind": "motion", "stiffness": stiffness, "damping": damping}],
         "outputs": Value::from(outputs.concat())});

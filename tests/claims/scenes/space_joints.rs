@@ -277,7 +277,7 @@ fn pairs() -> Specimen {
     read.push(json!({"kind": "energy"}));
     let scene = json!({"name": "pairs", "dimension": 3, "bodies": bodies,
         "joints": [{"name": "pin", "kind": "revolute", "markers": ["u.c", "v.c"], "direction": direction},
-                   {"name": "spring", "kind": "hinge", "markers": ["w.c", "x.c"], "direction": direction,
+                   {"name": "spring", "kind": "revolute", "markers": ["w.c", "x.c"], "direction": direction,
                     "stiffness": stiffness, "damping": damping, "angle": rest}],
         "loads": [{"name": "motor", "kind": "torque", "joint": "pin", "value": torque}],
         "outputs": read});
@@ -314,7 +314,7 @@ fn twisting() -> Specimen {
     let (body, n, stiffness, rest) = (body("plate"), axis(), 12.0, -0.3);
     let point = body.place + Vector3::new(0.02, 0.05, -0.03);
     let scene = json!({"name": "twisting", "dimension": 3, "bodies": [body.described(Value::Null)],
-        "joints": [{"name": "wire", "kind": "hinge", "markers": ["ground", "plate.c"], "direction": AXIS,
+        "joints": [{"name": "wire", "kind": "revolute", "markers": ["ground", "plate.c"], "direction": AXIS,
                     "stiffness": stiffness, "angle": rest, "point": array(point)}],
         "outputs": joined([outputs(&["angle", "angular_acceleration", "reaction_moment"], "joint", "wire"),
                            outputs(&["position"], "marker", "plate.p")])});

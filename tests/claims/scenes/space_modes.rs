@@ -16,7 +16,7 @@ fn torsion() -> Specimen {
     let (body, n, stiffness) = (body("plate"), axis(), 12.0);
     let point = body.place + Vector3::new(0.02, 0.05, -0.03);
     let scene = json!({"name": "torsion", "dimension": 3, "bodies": [body.described(Value::Null)],
-        "joints": [{"name": "wire", "kind": "hinge", "markers": ["ground", "plate.c"], "direction": AXIS,
+        "joints": [{"name": "wire", "kind": "revolute", "markers": ["ground", "plate.c"], "direction": AXIS,
                     "stiffness": stiffness, "point": array(point)}],
         "outputs": [{"kind": "natural_frequency", "count": 1}]});
     let frequency = (stiffness / n.dot(&(body.tensor() * n))).sqrt();
@@ -46,7 +46,7 @@ fn swinging() -> Specimen {
 fn damped() -> Specimen {
     let (body, n, [stiffness, damping]) = (body("plate"), axis(), [12.0, 0.5]);
     let scene = json!({"name": "damped", "dimension": 3, "bodies": [body.described(Value::Null)],
-        "joints": [{"name": "wire", "kind": "hinge", "markers": ["ground", "plate.c"], "direction": AXIS,
+        "joints": [{"name": "wire", "kind": "revolute", "markers": ["ground", "plate.c"], "direction": AXIS,
                     "stiffness": stiffness, "damping": damping}],
         "outputs": [{"kind": "eigenvalue", "count": 1}]});
     let inertia = n.dot(&(body.tensor() * n));

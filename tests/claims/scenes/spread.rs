@@ -36,7 +36,7 @@ fn rigid(way: [f64; 2]) -> Value {
 fn pushed() -> Specimen {
     let (way, mass, time) = ([0.6, 0.8], 2.5, 0.4_f64);
     let scene = json!({"name": "pushed", "dimension": 2, "bodies": [rigid(way)],
-        "loads": [{"name": "wind", "kind": "distributed", "body": "rod",
+        "loads": [{"name": "wind", "kind": "distributed_force", "body": "rod",
                    "value": ["0.5*s^2+t", "3*s^3-1.2*sin(PI*s)*cos(t)"]}],
         "outputs": [{"kind": "acceleration", "marker": "rod.p"}]});
     let force = [0.5 / 3.0 + time, 0.75 - 2.4 / PI * time.cos()];
@@ -57,7 +57,7 @@ fn carried() -> Specimen {
     let way = [0.6, 0.8];
     let scene = json!({"name": "carried", "dimension": 2, "bodies": [rigid(way)],
         "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.a"]}],
-        "loads": [{"name": "wind", "kind": "distributed", "body": "rod", "value": ["2*s^3", "s-4*s^2"]}],
+        "loads": [{"name": "wind", "kind": "distributed_force", "body": "rod", "value": ["2*s^3", "s-4*s^2"]}],
         "outputs": [{"kind": "axial_force", "marker": "rod.p"}, {"kind": "bending_moment", "marker": "rod.p"}]});
     let s: f64 = 0.3;
     // Integrals from s to 1 of x^n and of x^n (x - s).
@@ -87,7 +87,7 @@ fn deflected() -> Specimen {
             "material": {"youngs_modulus": 1e9, "density": 1000.0}, "section": {"area": 1e-3, "second_moment": 1e-6},
             "shape": {"line": {"from": [0.0, 0.0], "to": [length, 0.0]}}, "markers": {"a": 0.0, "p": 0.3, "e": 1.0}}],
         "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.a"]}],
-        "loads": [{"name": "snow", "kind": "distributed", "body": "rod", "value": [0.0, format!("-{load}*s")]}],
+        "loads": [{"name": "snow", "kind": "distributed_force", "body": "rod", "value": [0.0, format!("-{load}*s")]}],
         "outputs": [{"kind": "position", "marker": "rod.e"}, {"kind": "bending_moment", "marker": "rod.p"}]});
     let s: f64 = 0.3;
     let moment = load * length * length * ((1.0 - s.powi(3)) / 3.0 - s * (1.0 - s * s) / 2.0);

@@ -67,7 +67,7 @@ fn forces() -> Specimen {
 fn ways() -> Specimen {
     let names = ["a", "b", "d"];
     let joint = |of: &&str| {
-        json!({"name": format!("guide_{of}"), "kind": "slider", "markers": ["ground", format!("{of}.c")],
+        json!({"name": format!("guide_{of}"), "kind": "point_on_line", "markers": ["ground", format!("{of}.c")],
                "point": [0.0, 0.0], "direction": [0.6, 0.8]})
     };
     let motions = names.iter().zip(tables()).map(|(of, table)| {

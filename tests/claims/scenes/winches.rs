@@ -229,7 +229,7 @@ fn loaded() -> Specimen {
     scene["name"] = json!("paid_out_loads");
     let ground = sum(place(2), times(DEPTH, ACROSS));
     scene["loads"] = json!([
-        {"name": "wind", "kind": "distributed", "body": "first", "value": PUSH},
+        {"name": "wind", "kind": "distributed_force", "body": "first", "value": PUSH},
         {"name": "sea", "kind": "fluid", "body": "last", "density": 1000.0, "area": LINE / 1000.0, "diameter": 0.03,
          "drag": 1.2, "tangential_drag": 0.1},
         {"name": "floor", "kind": "contact", "body": "taken", "stiffness": STIFFNESS, "damping": DAMPING, "friction": FRICTION,

@@ -214,7 +214,7 @@ impl<'a> Bench<'a> {
     pub fn plan(&self, scene: &Value) -> Result<Planned> {
         let [report, inputs] =
             ["plan.json", "inputs.csv"].map(|name| self.workspace.target("chart").join(name));
-        let has_inputs = scene["accuracy"]["for"]
+        let has_inputs = scene["accuracy"]["input_profiles"]
             .as_array()
             .is_some_and(|courses| !courses.is_empty());
         let mut command = Command::new(&self.program);

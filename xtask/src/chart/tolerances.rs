@@ -27,7 +27,7 @@ pub fn measure(bench: &Bench) -> Result<()> {
     for name in SCENES.split(' ') {
         let mut scene = bench.json(&format!("scenes/{name}.json"))?;
         if RESTING.contains(&name) {
-            scene["initial"] = json!("as_shaped");
+            scene["initial"] = json!("undeformed");
         }
         planned::settle(bench, &mut scene)?;
         let number = |key: &str| scene["experiment"][key].as_f64();

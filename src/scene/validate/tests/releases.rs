@@ -19,9 +19,9 @@ fn a_joint_lets_go_where_nothing_acts_on_its_coordinates() {
         /name | "free" | accepted
         /joints/0/release_time | null | accepted
         /joints/0/release_time | -1 | joints[0].release_time
-        /joints/0 | {"name": "pin", "kind": "hinge", "markers": ["ground", "bob.p"], "stiffness": 1} | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found a spring of its own
+        /joints/0 | {"name": "pin", "kind": "revolute", "markers": ["ground", "bob.p"], "stiffness": 1} | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found a spring of its own
         /loads | [{"name": "motor", "kind": "torque", "joint": "pin", "value": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "motor"
-        /loads | [{"name": "end", "kind": "stop", "joint": "pin", "stiffness": 1, "upper": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "end"
+        /loads | [{"name": "end", "kind": "joint_limit", "joint": "pin", "stiffness": 1, "upper": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "end"
         /motions | [{"name": "drive", "kind": "angle", "joint": "pin", "value": "t"}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "drive"
         /inputs | [{"kind": "torque", "joint": "pin"}, {"kind": "release", "joint": "pin"}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "torque"
         /inputs/0/joint | "pen" | inputs[0].joint: expected a joint of this scene (pin), found "pen"; did you mean `pin`?

@@ -49,13 +49,16 @@ fn the_schema_has_a_variant_for_every_kind() {
     let revolute = variant("Joint", "revolute");
     assert_eq!(revolute["properties"]["kind"]["const"], "revolute");
     assert_eq!(revolute["additionalProperties"], json!(false));
-    assert!(revolute["properties"].get("stiffness").is_none());
+    assert!(revolute["properties"].get("stiffness").is_some());
     assert!(revolute["properties"].get("point").is_some());
-    assert_eq!(variant("Joint", "slider")["required"][3], "direction");
+    assert_eq!(
+        variant("Joint", "point_on_line")["required"][3],
+        "direction"
+    );
     assert!(
-        variant("Joint", "hinge")["properties"]
+        variant("Joint", "weld")["properties"]
             .get("stiffness")
-            .is_some()
+            .is_none()
     );
     assert_eq!(
         variant("Load", "torque")["required"],

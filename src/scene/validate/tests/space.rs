@@ -25,8 +25,8 @@ fn scene() -> Value {
         "joints": [
             {"name": "clamp", "kind": "weld", "markers": ["ground", "rod.root"]},
             {"name": "knot", "kind": "spherical", "markers": ["rod.tip", "rope.root"]},
-            {"name": "rail", "kind": "slider", "markers": ["ground", "load.eye"], "direction": [1, 0, 0]},
-            {"name": "ring", "kind": "along", "markers": ["rope", "load.eye"]},
+            {"name": "rail", "kind": "point_on_line", "markers": ["ground", "load.eye"], "direction": [1, 0, 0]},
+            {"name": "ring", "kind": "point_on_cable", "markers": ["rope", "load.eye"]},
             {"name": "link", "kind": "distance", "markers": ["rod.mid", "load.eye"]}
         ],
         "motions": [{"name": "lift", "kind": "position", "marker": "rope.tip", "value": ["t", 0, 1]}],
@@ -35,7 +35,7 @@ fn scene() -> Value {
             {"name": "tie", "kind": "spring_damper", "markers": ["ground", "rod.tip"], "point": [2, 1, 0],
                 "stiffness": 1}
         ],
-        "inputs": [{"kind": "distributed", "body": "rod", "start": [1, 2, 3]}],
+        "inputs": [{"kind": "distributed_force", "body": "rod", "start": [1, 2, 3]}],
         "outputs": [{"kind": "bending_moment", "marker": "rod.mid"}, {"kind": "reaction", "joint": "clamp"}],
         "ports": [{"name": "plug", "marker": "rod.tip", "kind": "force"}]
     })
@@ -95,8 +95,8 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /joints/1 | {"name": "knot", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia or of a rod, which has axes
         /joints/2/kind | "cylindrical" | joints[2].markers[1]: expected a marker of a rigid body with inertia
         /joints/2/kind | "planar" | joints[2].markers[1]: expected a marker of a rigid body with inertia
-        /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected a direction [x, y, z], found nothing
-        /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1, "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia
+        /joints/1 | {"name": "h", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
+        /joints/1 | {"name": "h", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "stiffness": 1, "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia
         /motions/0 | {"name": "lift", "kind": "angle", "marker": "rope.tip", "value": 0} | motions[0].marker: expected nothing in space, where
         /motions/0 | {"name": "lift", "kind": "angle", "joint": "knot", "value": 0} | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one
         /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": [0, 0, 1]} | loads[0].marker: expected a marker of a rigid body with inertia or of a rod; a cable without torsion has a direction alone
@@ -230,7 +230,7 @@ fn mechanism() -> Value {
         ],
         "joints": [
             {"name": "pin", "kind": "revolute", "markers": ["ground", "a.in"], "direction": [0, 0, 1]},
-            {"name": "elbow", "kind": "hinge", "markers": ["a.out", "b.in"], "direction": [0, 1, 0], "stiffness": 1,
+            {"name": "elbow", "kind": "revolute", "markers": ["a.out", "b.in"], "direction": [0, 1, 0], "stiffness": 1,
                 "angle": 0.1},
             {"name": "cross", "kind": "universal", "markers": ["b.out", "c.in"], "direction": [1, 0, 0],
                 "second_direction": [0, 1, 0]},
@@ -239,7 +239,7 @@ fn mechanism() -> Value {
             {"name": "rail", "kind": "prismatic", "markers": ["a.in", "b.out"], "direction": [1, 0, 0]},
             {"name": "clamp", "kind": "weld", "markers": ["a.in", "rope.root"]},
             {"name": "ball", "kind": "spherical", "markers": ["b.in", "rope.tip"]},
-            {"name": "track", "kind": "slider", "markers": ["b.in", "rope.tip"], "direction": [1, 0, 0]},
+            {"name": "track", "kind": "point_on_line", "markers": ["b.in", "rope.tip"], "direction": [1, 0, 0]},
             {"name": "guide", "kind": "orientation", "markers": ["a.in", "c.in"]}
         ],
         "motions": [{"name": "turn", "kind": "angle", "joint": "pin", "value": "t"}],
@@ -407,9 +407,9 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /loads/0 | {"name": "l", "kind": "joint_spring", "joint": "rail", "coordinate": "angle", "stiffness": 1} | loads[0].joint: expected a revolute joint with a direction
         /loads/0 | {"name": "l", "kind": "joint_spring", "joint": "ball", "stiffness": 1} | loads[0].joint: expected a joint with an angle or along a line
         /loads/0 | {"name": "l", "kind": "joint_spring", "joint": "elbow", "stiffness": -1} | loads[0].stiffness: expected zero or a positive number (N m/rad), found -1
-        /loads/0 | {"name": "l", "kind": "stop", "joint": "rail", "stiffness": 5} | loads[0]: expected a lower or an upper limit, found neither
-        /loads/0 | {"name": "l", "kind": "stop", "joint": "rail", "stiffness": 0, "lower": 1} | loads[0].stiffness: expected a positive number (N/m), found 0
-        /loads/0 | {"name": "l", "kind": "stop", "joint": "rail", "stiffness": 5, "lower": 1, "upper": 0} | loads[0].upper: expected a limit that is not below `lower`, 1, found 0
+        /loads/0 | {"name": "l", "kind": "joint_limit", "joint": "rail", "stiffness": 5} | loads[0]: expected a lower or an upper limit, found neither
+        /loads/0 | {"name": "l", "kind": "joint_limit", "joint": "rail", "stiffness": 0, "lower": 1} | loads[0].stiffness: expected a positive number (N/m), found 0
+        /loads/0 | {"name": "l", "kind": "joint_limit", "joint": "rail", "stiffness": 5, "lower": 1, "upper": 0} | loads[0].upper: expected a limit that is not below `lower`, 1, found 0
         /loads/0 | {"name": "l", "kind": "bushing", "markers": ["a.in", "b.out"]} | loads[0]: expected stiffnesses or dampings, found none
         /loads/0 | {"name": "l", "kind": "bushing", "markers": ["ground", "rope.tip"], "rotational_stiffness": [1, 1, 1]} | loads[0].markers[1]: expected a marker of a rigid body with inertia
         /loads/0 | {"name": "l", "kind": "bushing", "markers": ["a.in", "b.out"], "rotational_damping": [1, 1, -1]} | loads[0].rotational_damping[2]: expected zero or a positive number (N m s/rad), found -1

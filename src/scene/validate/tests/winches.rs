@@ -49,11 +49,11 @@ fn what_acts_between_its_ends_acts_along_it() {
         /motions | [{"name": "one", "kind": "winch", "marker": "rope.drum", "value": "t"}, {"name": "two", "kind": "winch", "marker": "rope.hook", "value": "t"}] | motions[1]: expected one winch for a cable, found two
         /loads | [{"name": "pull", "kind": "force", "marker": "rope.hook", "value": [1, 0]}] | accepted
         /loads | [{"name": "pull", "kind": "force", "marker": "rope.inside", "value": [1, 0]}] | motions[0]: expected a cable at whose markers between its ends nothing acts, and without masses, since a winch pays it out, found
-        /loads | [{"name": "wind", "kind": "distributed", "body": "rope", "value": [1, 0]}] | accepted
+        /loads | [{"name": "wind", "kind": "distributed_force", "body": "rope", "value": [1, 0]}] | accepted
         /loads | [{"name": "sea", "kind": "fluid", "body": "rope", "density": 1000}] | accepted
         /loads | [{"name": "sea", "kind": "fluid", "body": "rope", "density": 1000, "added_mass": 1}] | loads[0].added_mass: expected 0 along a cable that a winch pays out, which slides past fluid that it does not take along, found 1
         /loads | [{"name": "bed", "kind": "contact", "body": "rope", "surface": {"plane": {"point": [0, -3], "normal": [0, 1]}}, "stiffness": 1e3}] | accepted
-        /inputs | [{"kind": "distributed", "body": "rope"}] | accepted
+        /inputs | [{"kind": "distributed_force", "body": "rope"}] | accepted
         /masses | [{"marker": "rope.hook", "mass": 1}] | motions[0]: expected a cable at whose markers between its ends nothing acts, and without masses, since a winch pays it out, found "rope.hook"
         "#,
     );

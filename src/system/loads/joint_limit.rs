@@ -13,7 +13,7 @@ use crate::system::end::End;
 
 /// Stops at the ends of the range of a coordinate.
 #[derive(Clone, Debug)]
-pub struct Stop<const D: usize = 2> {
+pub struct JointLimit<const D: usize = 2> {
     /// What they limit.
     pub coordinate: Box<Coordinate<D>>,
     /// Limits below and above, m or rad; infinite where there is none.
@@ -34,7 +34,7 @@ struct Contact<N> {
     side: f64,
 }
 
-impl<const D: usize> Stop<D> {
+impl<const D: usize> JointLimit<D> {
     /// None within the limits.
     fn contact<N: Number>(&self, at: Instant<'_, D, N>) -> Option<Contact<N>> {
         let value = self.coordinate.value(at.x, at.angles.1);
