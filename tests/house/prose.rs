@@ -1,8 +1,8 @@
-//! Prose of the pages that are read first: short sentences, short bullets, few lines.
+//! Prose of the pages that are read first: short sentences, short bullets, few lines, a whole index of decisions.
 
 use std::fs;
 
-use crate::source::{no_complaints, root};
+use crate::source::{files, name, no_complaints, root};
 
 /// Pages, each with the most lines that it may have.
 const PAGES: [(&str, usize); 2] = [("README.md", 150), ("ARCHITECTURE.md", 120)];
@@ -198,4 +198,21 @@ fn long_prose_is_found() {
     for (complaint, part) in found.iter().zip(about) {
         assert!(complaint.contains(part), "{complaint}");
     }
+}
+
+#[test]
+fn every_decision_is_in_the_index_once() {
+    let index = fs::read_to_string(root().join("docs/decisions/README.md")).expect("an index");
+    let mut found = Vec::new();
+    for path in files("docs/decisions") {
+        let path = name(&path);
+        let file = path.trim_start_matches("docs/decisions/");
+        let number = file.split('-').next().unwrap_or_default();
+        let row = format!("\n| [{}]({file}) |", number.trim_start_matches('0'));
+        let rows = index.matches(&row).count();
+        if file != "README.md" && rows != 1 {
+            found.push(format!("{path}: {rows} rows in the index"));
+        }
+    }
+    no_complaints(&found);
 }
