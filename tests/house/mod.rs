@@ -2,6 +2,7 @@
 
 mod generated;
 mod manifests;
+mod prose;
 mod rooms;
 mod sizes;
 mod source;

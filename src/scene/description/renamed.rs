@@ -18,7 +18,7 @@ const LOADS: &Renamed = &[
     ("distributed", "`distributed_force`"),
 ];
 const AXIAL: &Renamed = &[("settled", "`critically_damped`")];
-const STATES: &Renamed = &[("as_shaped", "`undeformed`")];
+const STATES: &Renamed = &[("undeformed", "`undeformed`")];
 
 /// Checks that nothing in a scene has a name of old.
 ///
@@ -34,7 +34,7 @@ pub fn check_names(scene: &Value) -> Result<(), Error> {
     named(initial, "initial", STATES)?;
     named(&initial["state"], "initial.state", STATES)?;
     match scene["accuracy"].get("for") {
-        Some(_) => Err(refused("accuracy.for", "the key `input_profiles`", "for")),
+        Some(_) => Err(refused("accuracy.input_profiles", "the key `input_profiles`", "for")),
         None => Ok(()),
     }
 }
