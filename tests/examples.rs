@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Budget, Simulation, plan};
+use flexbody::simulation::{Budget, Redundant, Simulation, plan};
 
 /// Seconds that planning one example may take.
 const SECONDS: f64 = 0.3;
@@ -90,6 +90,10 @@ fn run(path: &Path) -> Result<(), String> {
         let stepped = simulation.step(until);
         stepped.map_err(|failure| format!("{} s: {}", failure.time, failure.reason))?;
         check_finite(&mut simulation)?;
+    }
+    let redundant = simulation.redundant();
+    if redundant != Redundant::default() {
+        return Err(format!("holds what others hold already: {redundant:?}"));
     }
     let mut warnings = Vec::new();
     simulation.tell_warnings(|warning| warnings.push(warning.to_string()));

@@ -40,7 +40,7 @@ def test_the_reference_is_that_of_the_schema():
     assert committed == fresh, "not fresh: run python docs/book/reference.py"
 
 
-def test_no_example_is_without_a_kind():
+def test_every_example_is_on_a_page():
     assert module("reference").strays() == []
 
 
