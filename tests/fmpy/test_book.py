@@ -40,6 +40,16 @@ def test_the_reference_is_that_of_the_schema():
     assert committed == fresh, "not fresh: run python docs/book/reference.py"
 
 
+def test_every_example_is_on_a_page():
+    assert module("reference").strays() == []
+
+
+def test_scenes_that_pages_quote_are_those_of_the_examples():
+    reference = module("reference")
+    stale = [page.name for page in SOURCE.glob("*.md") if reference.quoted(read(page)) != read(page)]
+    assert stale == [], "not fresh: run python docs/book/reference.py"
+
+
 def test_every_page_is_in_the_summary_once():
     listed = LINK.findall(read(SOURCE / "SUMMARY.md"))
     pages = [path.relative_to(SOURCE).as_posix() for path in SOURCE.rglob("*.md")]
