@@ -15,9 +15,7 @@ const NAMES: [&str; 7] = ["body", "marker", "joint", "gear", "motion", "load", "
 
 /// A file or folder of the book.
 fn book(inside: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("docs/book")
-        .join(inside)
+    crate::root().join("docs/book").join(inside)
 }
 
 /// Files of all examples, sorted.

@@ -11,6 +11,7 @@ mod derivatives;
 mod driven_inputs;
 mod elements;
 mod equilibria;
+mod examples;
 mod hostile_scenes;
 mod house;
 mod order;
