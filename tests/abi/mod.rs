@@ -2,7 +2,7 @@
 
 mod corpus;
 mod guest;
-mod hostile;
+pub mod hostile;
 mod instantiation;
 mod lifecycle;
 mod logging;
@@ -11,9 +11,9 @@ mod random;
 mod resources;
 mod runs;
 #[path = "../../fuzz/inputs/saved.rs"]
-mod saved;
+pub mod saved;
 mod states;
 mod steps;
-mod support;
+pub mod support;
 mod tolerances;
 mod values;

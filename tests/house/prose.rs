@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::source::{files, name, no_complaints, root};
+use crate::house::source::{files, name, no_complaints, root};
 
 /// Pages, each with the most lines that it may have.
 const PAGES: [(&str, usize); 2] = [("README.md", 150), ("ARCHITECTURE.md", 120)];

@@ -6,9 +6,9 @@ use flexbody::elements::Element;
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
-    Bushing, Contact, JointSpring, Load, Place, RotationalBushing, Stop, Surface,
+    Bushing, Contact, JointLimit, JointSpring, Load, Place, RotationalBushing, Surface,
 };
-use flexbody::system::{Angle, Coordinate, Direction, End, Signal, Way};
+use flexbody::system::{Angle, Coordinate, Direction, End, Signal, Translation};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
 
@@ -101,7 +101,7 @@ fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
     let (made, angle) = (&frame.made, Angle { ends, turn: None });
     let [sin, cos] = [made.noise[23].sin(), made.noise[23].cos()];
     let along = |direction| {
-        Coordinate::Way(Way {
+        Coordinate::Translation(Translation {
             ends,
             direction,
             turn: [sin, cos],
@@ -127,7 +127,7 @@ fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
             [value - 9.0, value + 9.0],
         ];
         let stops = limits.map(|limits| {
-            Load::Stop(Stop {
+            Load::JointLimit(JointLimit {
                 coordinate: Box::new(coordinate.clone()),
                 limits,
                 stiffness: 5.0 + made.noise[24],
@@ -317,7 +317,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
             within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
         let conservative = match &acted.load {
-            Load::Spring(_) | Load::JointSpring(_) | Load::Stop(_) | Load::Contact(_) => true,
+            Load::Spring(_) | Load::JointSpring(_) | Load::JointLimit(_) | Load::Contact(_) => true,
             Load::Bushing(load) => load.damping == 0.0,
             Load::RotationalBushing(load) => load.damping == 0.0,
             _ => false,

@@ -1,6 +1,6 @@
 //! What is driven: courses of inputs, what a motion takes, motions that cannot be.
 
-use flexbody::integrators::{Radau, Stop, Tolerance, advance};
+use flexbody::integrators::{Radau, StepError, Tolerance, advance};
 use flexbody::system::{
     BuildError, Drive, Evaluation, Model, Parts, System, Trajectory, Workspace,
 };
@@ -179,7 +179,7 @@ fn a_motion_that_rigidity_contradicts_ends_the_step() {
     };
     let mut model = Model::new(&system, &[], &mut work, &state);
     let (_, result) = advance(&mut method, &mut model, &mut state, 1.0, &tolerance);
-    assert_eq!(result, Err(Stop::ConstraintsViolated));
+    assert_eq!(result, Err(StepError::ConstraintsViolated));
 }
 
 /// Motions of what others determine are refused, whoever comes first.

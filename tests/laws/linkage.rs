@@ -384,7 +384,7 @@ impl Mechanism {
         let across = |i: usize| {
             Primitive::Perpendicular(Perpendicular {
                 direction: self.direction(joint, 0, i),
-                across: Across::Way([self.end(joint, 0, i), ends[1]], 1.0),
+                across: Across::Translation([self.end(joint, 0, i), ends[1]], 1.0),
             })
         };
         let position = Primitive::Coincident;

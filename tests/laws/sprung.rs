@@ -4,8 +4,8 @@
 use flexbody::body::Marker;
 use flexbody::math::function::Function;
 use flexbody::system::joints::{Coupler, Joint, Primitive};
-use flexbody::system::loads::{JointSpring, Load, SixBushing, Stop};
-use flexbody::system::{Angle, AxisTurn, Coordinate, Direction, Drive, End, Parts, Way};
+use flexbody::system::loads::{JointLimit, JointSpring, Load, SixBushing};
+use flexbody::system::{Angle, AxisTurn, Coordinate, Direction, Drive, End, Parts, Translation};
 use nalgebra::{DVector, Matrix3, Rotation3};
 
 use crate::laws::chance::Chance;
@@ -17,7 +17,7 @@ pub enum Sprung {
     /// On the angle of a joint, or on its way: stiffness, damping, value at rest.
     Spring(Of, [f64; 3]),
     /// Stops of the same: stiffness, damping, limits.
-    Stop(Of, [f64; 2], [f64; 2]),
+    JointLimit(Of, [f64; 2], [f64; 2]),
     /// Between two bodies, the first of which may be the ground.
     Bushing(Box<Bushing>),
 }
@@ -73,7 +73,7 @@ impl Sprung {
     /// What it stretches.
     pub fn strains(&self, joints: &[Held], bodies: &[Body]) -> Vec<f64> {
         match self {
-            Self::Spring((joint, is_angle), _) | Self::Stop((joint, is_angle), ..) => {
+            Self::Spring((joint, is_angle), _) | Self::JointLimit((joint, is_angle), ..) => {
                 vec![joints[*joint].coordinate(bodies, *is_angle)]
             }
             Self::Bushing(bushing) => {
@@ -103,7 +103,7 @@ impl Sprung {
                     0.5 * k * stretch * stretch,
                 )
             }
-            Self::Stop(_, [k, a], [lower, upper]) => {
+            Self::JointLimit(_, [k, a], [lower, upper]) => {
                 let by = |depth: f64, rate: f64| k * depth * (1.0 + a * rate).max(0.0);
                 let (below, above) = (lower - strains[0], strains[0] - upper);
                 match (below > 0.0, above > 0.0) {
@@ -130,7 +130,7 @@ impl Sprung {
                 damping: *damping,
                 rest: *rest,
             }),
-            Self::Stop(of, [stiffness, damping], limits) => Load::Stop(Stop {
+            Self::JointLimit(of, [stiffness, damping], limits) => Load::JointLimit(JointLimit {
                 coordinate: Box::new(mechanism.coordinate(*of, parts)),
                 limits: *limits,
                 stiffness: *stiffness,
@@ -153,7 +153,7 @@ impl Sprung {
                     Err(_) => End::Ground(bushing.points[i]),
                 };
                 Load::SixBushing(Box::new(SixBushing {
-                    ways: std::array::from_fn(|k| Way {
+                    ways: std::array::from_fn(|k| Translation {
                         ends: [end(0, k), end(1, k)],
                         direction: direction(0, k),
                         turn: [0.0, 1.0],
@@ -174,7 +174,7 @@ impl Mechanism {
         let held = &self.joints[joint];
         let ends = [self.end(held, 0, 2), self.end(held, 1, 0)];
         if !is_angle {
-            return Coordinate::Way(Way {
+            return Coordinate::Translation(Translation {
                 ends,
                 direction: self.direction(held, 0, 2),
                 turn: [0.0, 1.0],
@@ -214,7 +214,8 @@ impl Mechanism {
                             _ => [value + 0.2, f64::INFINITY],
                         };
                         let damping = 0.05 * damping(chance);
-                        self.sprung.push(Sprung::Stop(of, [6.0, damping], limits));
+                        self.sprung
+                            .push(Sprung::JointLimit(of, [6.0, damping], limits));
                     }
                     _ => {}
                 }

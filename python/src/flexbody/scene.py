@@ -58,12 +58,12 @@ The word for a number that is left to the planner.
 """
 
 
-Axial = TypeAliasType("Axial", Literal["waves", "settled"])
+Axial = TypeAliasType("Axial", Literal["waves", "critically_damped"])
 """
 What becomes of waves of stretching that run along a cable.
 
 - `waves`: They ring as the material says: for ever where it has no damping.
-- `settled`: They settle: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
+- `critically_damped`: They settle: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
 (`damping_time` where that is longer), so that the first axial mode is damped critically. `omega_1` is `pi c / L`,
 or `pi c / (2 L)` where joints or motions hold one end only; `c` the speed of sound. Bending is not touched, nor
 slow stretching; what is lost is counted in `energy.dissipated`. For forces that ring from loads or speeds that
@@ -186,7 +186,7 @@ InitialState = TypeAliasType("InitialState", Literal["undeformed", "static_equil
 """
 States by name.
 
-- `as_shaped`: The unstressed shapes.
+- `undeformed`: The unstressed shapes.
 - `static_equilibrium`: The equilibrium under gravity, loads and the start values of the inputs, motions held where they start. It is
 stable where loads have a potential: an unstable one, as that of a straight column above its buckling load, is
 left to where gravity pulls, else up or to the right. Follower forces have none; there it is where all forces balance.
@@ -245,7 +245,7 @@ class TorqueInput(Part):
     kind: Literal["torque"] = "torque"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
+    `torque`: name of the revolute joint that it acts in; `release`: of the joint that lets go.
     """
     start: list[StrictFloat] = []
     """
@@ -254,15 +254,15 @@ class TorqueInput(Part):
     """
 
 
-class DistributedInput(Part):
+class DistributedForceInput(Part):
     """
     Force in global axes per reference length of a cable, rod or beam, N/m.
     """
 
-    kind: Literal["distributed"] = "distributed"
+    kind: Literal["distributed_force"] = "distributed_force"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed_force`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     """
     start: list[StrictFloat] = []
     """
@@ -279,7 +279,7 @@ class DistributedMomentInput(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed_force`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     """
     follower: StrictBool | None = None
     """
@@ -317,7 +317,7 @@ class ReleaseInput(Part):
     kind: Literal["release"] = "release"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
+    `torque`: name of the revolute joint that it acts in; `release`: of the joint that lets go.
     """
     start: list[StrictFloat] = []
     """
@@ -349,7 +349,7 @@ Input = TypeAliasType(
         ForceInput
         | MomentInput
         | TorqueInput
-        | DistributedInput
+        | DistributedForceInput
         | DistributedMomentInput
         | RestLengthInput
         | ReleaseInput
@@ -403,22 +403,23 @@ class OrientationJoint(Part):
     kind: Literal["orientation"] = "orientation"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     angle: StrictFloat | None = None
     """
     `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
+    unloaded, rad, by default that at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
-class AlongJoint(Part):
+class PointOnCable(Part):
     """
     Holds the marker on the line of a cable.
     """
@@ -427,16 +428,16 @@ class AlongJoint(Part):
     """
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
-    kind: Literal["along"] = "along"
+    kind: Literal["point_on_cable"] = "point_on_cable"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -452,16 +453,16 @@ class JointSpringLoad(Part):
     kind: Literal["joint_spring"] = "joint_spring"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
+    `torque`: name of the revolute joint that it acts in; `joint_spring`, `joint_limit`: of a joint with a coordinate.
     """
     coordinate: CoordinateKind | None = None
     """
-    `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
+    `joint_spring`, `joint_limit`: which coordinate of the joint; the displacement, if it has one, by default.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
-    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
+    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     rest: StrictFloat | None = None
     """
@@ -469,7 +470,7 @@ class JointSpringLoad(Part):
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
     `contact`: N/m of a marker, N/m per reference length of a body.
     """
 
@@ -507,7 +508,7 @@ class BushingLoad(Part):
     """
 
 
-class StopLoad(Part):
+class JointLimitLoad(Part):
     """
     One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
     force is continuous in time (Hunt and Crossley 1975).
@@ -517,32 +518,32 @@ class StopLoad(Part):
     """
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
-    kind: Literal["stop"] = "stop"
+    kind: Literal["joint_limit"] = "joint_limit"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
+    `torque`: name of the revolute joint that it acts in; `joint_spring`, `joint_limit`: of a joint with a coordinate.
     """
     stiffness: Annotated[StrictFloat, Field(ge=0.0)]
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
     `contact`: N/m of a marker, N/m per reference length of a body.
     """
     coordinate: CoordinateKind | None = None
     """
-    `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
+    `joint_spring`, `joint_limit`: which coordinate of the joint; the displacement, if it has one, by default.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
-    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
+    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     lower: StrictFloat | None = None
     """
-    `stop`: the least coordinate without force, m or rad; no stop there by default.
+    `joint_limit`: the least coordinate without force, m or rad; no limit there by default.
     """
     upper: StrictFloat | None = None
     """
-    `stop`: the largest coordinate without force, m or rad; no stop there by default.
+    `joint_limit`: the largest coordinate without force, m or rad; no limit there by default.
     """
 
 
@@ -818,7 +819,7 @@ class DirectionOutput(Part):
 
 class AngleOutput(Part):
     """
-    Direction at a marker, or direction of the second marker of a revolute joint or hinge less
+    Direction at a marker, or direction of the second marker of a revolute joint less
     that of its first, rad, counted on over full turns.
     """
 
@@ -1060,7 +1061,7 @@ class ConnectivityForceOutput(Part):
 
 class TravelOutput(Part):
     """
-    Where along the cable a joint of kind `along` stands: length from the first end, m.
+    Where along the cable a joint of kind `point_on_cable` stands: length from the first end, m.
     """
 
     kind: Literal["travel"] = "travel"
@@ -1154,7 +1155,7 @@ class GearTorqueOutput(Part):
 
 class LoadForceOutput(Part):
     """
-    Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `stop` on a displacement; of a
+    Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
     `contact` on its marker or on the whole body.
     """
 
@@ -1167,7 +1168,7 @@ class LoadForceOutput(Part):
 
 class LoadMomentOutput(Part):
     """
-    Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `stop` on an angle.
+    Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `joint_limit` on an angle.
     """
 
     kind: Literal["load_moment"] = "load_moment"
@@ -1185,12 +1186,12 @@ class EnergyOutput(Part):
     kind: Literal["energy"] = "energy"
 
 
-class WorkOutput(Part):
+class WorkspaceOutput(Part):
     """
     Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
     """
 
-    kind: Literal["work"] = "work"
+    kind: Literal["workspace"] = "workspace"
 
 
 class MomentumOutput(Part):
@@ -1302,7 +1303,7 @@ Output = TypeAliasType(
         | LoadForceOutput
         | LoadMomentOutput
         | EnergyOutput
-        | WorkOutput
+        | WorkspaceOutput
         | MomentumOutput
         | CenterOfMassOutput
         | ResolutionOutput
@@ -1781,7 +1782,7 @@ class InputCourse(Part):
 
 class Revolute(Part):
     """
-    Holds the position; in space also an axis, which bodies turn about.
+    Holds the position, in space also an axis of rotation. A spring and a damper may act against the rotation.
     """
 
     name: StrictStr
@@ -1791,15 +1792,25 @@ class Revolute(Part):
     kind: Literal["revolute"] = "revolute"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
+    """
+    angle: StrictFloat | None = None
+    """
+    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
+    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
+    unloaded, rad, by default that at the start.
+    """
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `revolute` only: damping of rotation, N m s/rad.
     """
     direction: Vector | None = None
     """
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
+    its section there). `point_on_line`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
@@ -1808,8 +1819,12 @@ class Revolute(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
+    """
+    stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `revolute` only: stiffness of a spring against rotation, N m/rad.
     """
 
 
@@ -1825,7 +1840,7 @@ class Spherical(Part):
     kind: Literal["spherical"] = "spherical"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     point: Vector | None = None
@@ -1834,8 +1849,8 @@ class Spherical(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -1851,15 +1866,15 @@ class Universal(Part):
     kind: Literal["universal"] = "universal"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     direction: Vector
     """
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
+    its section there). `point_on_line`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     second_direction: Vector
@@ -1872,8 +1887,8 @@ class Universal(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -1889,13 +1904,14 @@ class Weld(Part):
     kind: Literal["weld"] = "weld"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     angle: StrictFloat | None = None
     """
     `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
+    unloaded, rad, by default that at the start.
     """
     point: Vector | None = None
     """
@@ -1903,32 +1919,32 @@ class Weld(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
-class Slider(Part):
+class PointOnLine(Part):
     """
-    Holds the marker on a line of the first one, which may move, and lets it turn.
+    Holds the marker on a line of the first one, which may move. The marker rotates freely.
     """
 
     name: StrictStr
     """
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
-    kind: Literal["slider"] = "slider"
+    kind: Literal["point_on_line"] = "point_on_line"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     direction: Vector
     """
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
+    its section there). `point_on_line`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
@@ -1937,8 +1953,8 @@ class Slider(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -1954,15 +1970,15 @@ class Cylindrical(Part):
     kind: Literal["cylindrical"] = "cylindrical"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     direction: Vector
     """
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
+    its section there). `point_on_line`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
@@ -1971,8 +1987,8 @@ class Cylindrical(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -1988,15 +2004,15 @@ class Screw(Part):
     kind: Literal["screw"] = "screw"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     direction: Vector
     """
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
+    its section there). `point_on_line`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     pitch: StrictFloat
@@ -2009,8 +2025,8 @@ class Screw(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -2026,20 +2042,21 @@ class Prismatic(Part):
     kind: Literal["prismatic"] = "prismatic"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     angle: StrictFloat | None = None
     """
     `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
+    unloaded, rad, by default that at the start.
     """
     direction: Vector | None = None
     """
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
+    its section there). `point_on_line`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
@@ -2048,8 +2065,8 @@ class Prismatic(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -2065,15 +2082,15 @@ class Planar(Part):
     kind: Literal["planar"] = "planar"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     direction: Vector
     """
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
+    its section there). `point_on_line`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
     (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
@@ -2082,8 +2099,8 @@ class Planar(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -2099,7 +2116,7 @@ class Distance(Part):
     kind: Literal["distance"] = "distance"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     length: Annotated[StrictFloat | None, Field(gt=0.0)] = None
@@ -2112,55 +2129,8 @@ class Distance(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
-
-
-class Hinge(Part):
-    """
-    Holds the position; a spring and a damper act against rotation.
-    """
-
-    name: StrictStr
-    """
-    Name: a letter or `_`, then letters, digits and `_`; at most 100.
-    """
-    kind: Literal["hinge"] = "hinge"
-    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
-    """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
-    then `body.marker`.
-    """
-    angle: StrictFloat | None = None
-    """
-    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
-    """
-    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
-    """
-    `hinge` only: damping of rotation, N m s/rad.
-    """
-    direction: Vector | None = None
-    """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `slider`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
-    """
-    point: Vector | None = None
-    """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    """
-    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
-    stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
-    """
-    `hinge` only: stiffness against rotation, N m/rad.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -2176,7 +2146,7 @@ class Generic(Part):
     kind: Literal["generic"] = "generic"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
     then `body.marker`.
     """
     free: list[Freedom]
@@ -2190,8 +2160,8 @@ class Generic(Part):
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
     """
 
 
@@ -2202,15 +2172,14 @@ Joint = TypeAliasType(
         | Spherical
         | Universal
         | Weld
-        | Slider
+        | PointOnLine
         | Cylindrical
         | Screw
         | Prismatic
         | Planar
         | OrientationJoint
         | Distance
-        | Hinge
-        | AlongJoint
+        | PointOnCable
         | Generic,
         Field(discriminator="kind"),
     ],
@@ -2236,8 +2205,8 @@ class SpringDamperLoad(Part):
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
-    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
+    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     length: Value | None = None
     """
@@ -2250,7 +2219,7 @@ class SpringDamperLoad(Part):
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
     `contact`: N/m of a marker, N/m per reference length of a body.
     """
 
@@ -2268,7 +2237,7 @@ class FluidLoad(Part):
     kind: Literal["fluid"] = "fluid"
     body: StrictStr
     """
-    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
     rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     density: Annotated[StrictFloat, Field(gt=0.0)]
@@ -2515,7 +2484,7 @@ class Accuracy(Part):
     By default 1e-3 where numbers of elements are left to the planner. Where nothing is left to it, what warnings and the output
     `resolution` are measured by: ten times the tolerance where nothing is said.
     """
-    for_: Annotated[list[InputCourse], Field(validate_default=True)] = []
+    input_profiles: Annotated[list[InputCourse], Field(validate_default=True)] = []
     """
     What inputs do in the experiment that is planned for; those that are not named keep their start values.
     """
@@ -2850,7 +2819,7 @@ class ForceLoad(Part):
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
     per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
     takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     """
@@ -2878,7 +2847,7 @@ class MomentLoad(Part):
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
     per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
     takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     """
@@ -2901,17 +2870,17 @@ class TorqueLoad(Part):
     kind: Literal["torque"] = "torque"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
+    `torque`: name of the revolute joint that it acts in; `joint_spring`, `joint_limit`: of a joint with a coordinate.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
     per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
     takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     """
 
 
-class DistributedLoad(Part):
+class DistributedForceLoad(Part):
     """
     Force in global axes per reference length of a cable, rod or beam, N/m.
     """
@@ -2920,15 +2889,15 @@ class DistributedLoad(Part):
     """
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
-    kind: Literal["distributed"] = "distributed"
+    kind: Literal["distributed_force"] = "distributed_force"
     body: StrictStr
     """
-    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
     rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
     per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
     takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     """
@@ -2947,12 +2916,12 @@ class DistributedMomentLoad(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
     rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
     per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
     takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     """
@@ -2983,13 +2952,13 @@ class ContactLoad(Part):
     """
     stiffness: Annotated[StrictFloat, Field(ge=0.0)]
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
     `contact`: N/m of a marker, N/m per reference length of a body.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
-    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
+    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     friction: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -3006,7 +2975,7 @@ class ContactLoad(Part):
     """
     body: StrictStr | None = None
     """
-    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
     rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
 
@@ -3017,12 +2986,12 @@ Load = TypeAliasType(
         ForceLoad
         | MomentLoad
         | TorqueLoad
-        | DistributedLoad
+        | DistributedForceLoad
         | DistributedMomentLoad
         | SpringDamperLoad
         | JointSpringLoad
         | BushingLoad
-        | StopLoad
+        | JointLimitLoad
         | FluidLoad
         | ContactLoad,
         Field(discriminator="kind"),
@@ -3073,7 +3042,7 @@ class AngleMotion(Part):
     """
     joint: StrictStr | None = None
     """
-    `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
+    `angle`: name of the driven revolute joint; `displacement`: of the joint along a line.
     """
     marker: StrictStr | None = None
     """
@@ -3124,7 +3093,7 @@ class OrientationMotion(Part):
 
 class DisplacementMotion(Part):
     """
-    Way along the line of a slider, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
+    Displacement along the line of a point on a line, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
     that line belongs to a cable.
     """
 
@@ -3139,14 +3108,14 @@ class DisplacementMotion(Part):
     """
     joint: StrictStr
     """
-    `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
+    `angle`: name of the driven revolute joint; `displacement`: of the joint along a line.
     """
 
 
 class WinchMotion(Part):
     """
     Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
-    cable changes with it. What is on the winch has no part in the scene; what acts between its ends acts all along it: `distributed`
+    cable changes with it. What is on the winch has no part in the scene; what acts between its ends acts all along it: `distributed_force`
     (where `s` is the share of the length now), `contact`, `fluid` without added mass.
     """
 
