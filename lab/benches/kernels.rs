@@ -219,7 +219,7 @@ impl Rods {
     }
 }
 
-impl lanes::Workspace for &mut Rods {
+impl lanes::Vectorized for &mut Rods {
     #[inline(always)]
     fn run<S: lanes::Simd>(self, simd: S) {
         for _ in 0..self.packs {
@@ -304,7 +304,7 @@ impl Beams {
     }
 }
 
-impl lanes::Workspace for &mut Beams {
+impl lanes::Vectorized for &mut Beams {
     #[inline(always)]
     fn run<S: lanes::Simd>(self, simd: S) {
         for _ in 0..self.packs {

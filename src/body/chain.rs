@@ -8,7 +8,7 @@ use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::Node;
 use crate::elements::{BlockPack, Element, Nodal, NodalView, shape};
 use crate::math::jet::Number;
-use crate::math::lanes::{PACK, Simd, Workspace, vectorized};
+use crate::math::lanes::{PACK, Simd, Vectorized, vectorized};
 use crate::math::sparse::Matrix;
 
 /// A chain of elements in `D` dimensions; its nodes stand in a row in those of the system.
@@ -375,7 +375,7 @@ struct AddForce<'a, E: Element<D>, const D: usize> {
     power: &'a mut f64,
 }
 
-impl<E: Element<D>, const D: usize> Workspace for AddForce<'_, E, D> {
+impl<E: Element<D>, const D: usize> Vectorized for AddForce<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (chain, [by, growth]) = (self.chain, self.longer);
@@ -425,7 +425,7 @@ struct AddTangent<'a, E: Element<D>, const D: usize> {
     matrices: (&'a mut Matrix<f64>, &'a mut Matrix<f64>),
 }
 
-impl<E: Element<D>, const D: usize> Workspace for AddTangent<'_, E, D> {
+impl<E: Element<D>, const D: usize> Vectorized for AddTangent<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (chain, (stiffness, damping)) = (self.chain, self.matrices);

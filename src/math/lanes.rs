@@ -227,7 +227,7 @@ impl<S: Simd> Lanes<S> {
 
 /// Work in lanes. All that it spends its time in must be `#[inline(always)]`: what is called instead is
 /// compiled for the oldest processor.
-pub trait Workspace {
+pub trait Vectorized {
     /// Does it.
     fn run<S: Simd>(self, simd: S);
 }
@@ -235,7 +235,7 @@ pub trait Workspace {
 /// Does work with the vector instructions of this processor where there is enough of it: less than a call costs goes
 /// number by number.
 #[inline]
-pub fn vectorized_where(is_long: bool, work: impl Workspace) {
+pub fn vectorized_where(is_long: bool, work: impl Vectorized) {
     if is_long {
         vectorized(work);
     } else {
@@ -245,9 +245,9 @@ pub fn vectorized_where(is_long: bool, work: impl Workspace) {
 
 /// Does work with the vector instructions of this processor.
 #[inline]
-pub fn vectorized(work: impl Workspace) {
+pub fn vectorized(work: impl Vectorized) {
     struct Run<W>(W);
-    impl<W: Workspace> pulp::WithSimd for Run<W> {
+    impl<W: Vectorized> pulp::WithSimd for Run<W> {
         type Output = ();
         #[inline(always)]
         fn with_simd<S: Simd>(self, simd: S) {
@@ -264,7 +264,7 @@ mod tests {
     /// Angles of numbers, their sines and cosines.
     struct Turns<'a>(&'a [[f64; PACK]; 2], &'a mut [[f64; PACK]; 3]);
 
-    impl Workspace for Turns<'_> {
+    impl Vectorized for Turns<'_> {
         fn run<S: Simd>(self, simd: S) {
             for group in 0..PACK / S::F64_LANES {
                 let [x, size] = [0, 1].map(|k| Lanes::read(simd, &self.0[k], group));

@@ -1,6 +1,6 @@
 //! Weighted sums of long vectors, in lanes: what methods of integration make of their stages.
 
-use super::lanes::{Simd, Workspace, vectorized_where};
+use super::lanes::{Simd, Vectorized, vectorized_where};
 
 /// A weight and the vector that it belongs to.
 pub type Term<'a> = (f64, &'a [f64]);
@@ -63,7 +63,7 @@ struct Sum<'a, const ADDS: bool> {
     terms: &'a [Term<'a>],
 }
 
-impl<const ADDS: bool> Workspace for Sum<'_, ADDS> {
+impl<const ADDS: bool> Vectorized for Sum<'_, ADDS> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { out, terms } = self;

@@ -23,7 +23,7 @@ impl<const D: usize> Engine<D> {
                 Error::Equilibrium(format!("{error}, found that of `{}`", self.bodies[body]))
             }
             Failure::Correction(_) | Failure::Restless => Error::Equilibrium(error.to_string()),
-            Failure::Workspace => {
+            Failure::Work => {
                 let limit = self.most_work;
                 Error::Equilibrium(format!(
                     "{error}, work_limit = {limit:e} (evaluations times parts)"

@@ -1,7 +1,7 @@
 //! A transformation written out as one dense matrix; a scalar each for both directions of the plane.
 
 use flexbody::body::no_node;
-use flexbody::math::lanes::{Simd, Workspace, vectorized};
+use flexbody::math::lanes::{Simd, Vectorized, vectorized};
 
 use super::fronts::Fronts;
 use super::rod::Node;
@@ -76,7 +76,7 @@ struct Spread<'a> {
     u: &'a mut [Node],
 }
 
-impl Workspace for Spread<'_> {
+impl Vectorized for Spread<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         let dense = self.dense;
@@ -103,7 +103,7 @@ struct Gather<'a> {
     f: &'a [Node],
 }
 
-impl Workspace for Gather<'_> {
+impl Vectorized for Gather<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         let Dense {

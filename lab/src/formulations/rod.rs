@@ -3,7 +3,7 @@
 use flexbody::body::{Chain, no_node};
 use flexbody::elements::Element as _;
 use flexbody::elements::cable::{Cable, Parameters};
-use flexbody::math::lanes::{PACK, Simd, Workspace, vectorized};
+use flexbody::math::lanes::{PACK, Simd, Vectorized, vectorized};
 use nalgebra::{Matrix4, Vector2};
 
 /// The product's cable.
@@ -130,7 +130,7 @@ struct AddForce<'a> {
     f: &'a mut [Node],
 }
 
-impl Workspace for AddForce<'_> {
+impl Vectorized for AddForce<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         // Coordinates that any element can be evaluated at, for lanes without one.

@@ -1186,12 +1186,12 @@ class EnergyOutput(Part):
     kind: Literal["energy"] = "energy"
 
 
-class WorkspaceOutput(Part):
+class WorkOutput(Part):
     """
     Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
     """
 
-    kind: Literal["workspace"] = "workspace"
+    kind: Literal["work"] = "work"
 
 
 class MomentumOutput(Part):
@@ -1303,7 +1303,7 @@ Output = TypeAliasType(
         | LoadForceOutput
         | LoadMomentOutput
         | EnergyOutput
-        | WorkspaceOutput
+        | WorkOutput
         | MomentumOutput
         | CenterOfMassOutput
         | ResolutionOutput

@@ -11,7 +11,7 @@ use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::rod::{self, Rod, Tangent};
 use crate::elements::section::{Section, SectionPack, rod_at, rod_rates};
-use crate::math::lanes::{PACK, Simd, Workspace, vectorized};
+use crate::math::lanes::{PACK, Simd, Vectorized, vectorized};
 use crate::math::sparse::Matrix;
 
 /// Elements that are computed together, at most [`PACK`].
@@ -327,7 +327,7 @@ fn rod_force(kernel: &rod::Pack, motion: Motion<'_>, force: &mut Force<[f64; PAC
     power
 }
 
-impl Workspace for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
+impl Vectorized for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
@@ -339,7 +339,7 @@ impl Workspace for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
 /// The same of beams, in space or in the plane.
 fn beam_force<K>(kernel: &K, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64
 where
-    for<'a> InLanes<'a, K, Force<[f64; PACK]>>: Workspace,
+    for<'a> InLanes<'a, K, Force<[f64; PACK]>>: Vectorized,
 {
     let mut power = 0.0;
     vectorized(InLanes {
@@ -352,7 +352,7 @@ where
     power
 }
 
-impl Workspace for InLanes<'_, beam::Pack, Force<[f64; PACK]>> {
+impl Vectorized for InLanes<'_, beam::Pack, Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(NodePack::rates);
@@ -381,7 +381,7 @@ fn rod_tangent(
     }
 }
 
-impl Workspace for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
+impl Vectorized for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
@@ -397,7 +397,7 @@ fn beam_tangent<K>(
     kind: Tangent,
     out: &mut ElementMatrix<[f64; PACK]>,
 ) where
-    for<'a> InLanes<'a, K, ElementMatrix<[f64; PACK]>>: Workspace,
+    for<'a> InLanes<'a, K, ElementMatrix<[f64; PACK]>>: Vectorized,
 {
     vectorized(InLanes {
         kernel,
@@ -408,7 +408,7 @@ fn beam_tangent<K>(
     });
 }
 
-impl Workspace for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
+impl Vectorized for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(NodePack::rates);
@@ -417,7 +417,7 @@ impl Workspace for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
     }
 }
 
-impl Workspace for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
+impl Vectorized for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(NodePack::rates);
@@ -426,7 +426,7 @@ impl Workspace for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
     }
 }
 
-impl Workspace for InLanes<'_, planar::Pack, ElementMatrix<[f64; PACK]>> {
+impl Vectorized for InLanes<'_, planar::Pack, ElementMatrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(NodePack::rates);

@@ -330,7 +330,7 @@ fn side_by_side<const K: usize>(
     std::array::from_fn(|k| std::array::from_fn(|d| all.map(|one| one[k][d])))
 }
 
-impl crate::math::lanes::Workspace for Packed<'_> {
+impl crate::math::lanes::Vectorized for Packed<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Self(beams, at, rates, out) = self;
         let count = beams.len();

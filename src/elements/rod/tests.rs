@@ -346,7 +346,7 @@ fn damping_takes_out_what_its_force_does() {
 /// Forces of a pack, and the power that damping takes out.
 struct Packed<'a>(&'a [Rod], &'a [At<f64>], &'a [Rates<f64>], &'a mut Vec<f64>);
 
-impl crate::math::lanes::Workspace for Packed<'_> {
+impl crate::math::lanes::Vectorized for Packed<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Self(rods, at, rates, out) = self;
         let lanes = |of: &dyn Fn(usize) -> f64| -> [f64; PACK] {

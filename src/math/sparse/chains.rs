@@ -6,7 +6,7 @@
 
 use super::Number;
 use super::kernels::Pivots;
-use crate::math::lanes::{Simd, Workspace, vectorized_where};
+use crate::math::lanes::{Simd, Vectorized, vectorized_where};
 
 /// Numbers of stored blocks from which on a run is long: 16 columns of a cable in the plane, 7 in space.
 const LONG: usize = 512;
@@ -36,7 +36,7 @@ struct Factor<'a, T, P, const B: usize> {
     outcome: &'a mut Option<()>,
 }
 
-impl<T: Number, P: Pivots<T>, const B: usize> Workspace for Factor<'_, T, P, B> {
+impl<T: Number, P: Pivots<T>, const B: usize> Vectorized for Factor<'_, T, P, B> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         *self.outcome = factor_blocks::<T, B>(self.run, self.pivots);
@@ -94,7 +94,7 @@ struct Forward<'a, T, const B: usize> {
     x: &'a mut [T],
 }
 
-impl<T: Number, const B: usize> Workspace for Forward<'_, T, B> {
+impl<T: Number, const B: usize> Vectorized for Forward<'_, T, B> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         forward_blocks::<T, B>(self.values, self.x);
@@ -140,7 +140,7 @@ struct Backward<'a, T, const B: usize, const SCALE: bool> {
     x: &'a mut [T],
 }
 
-impl<T: Number, const B: usize, const SCALE: bool> Workspace for Backward<'_, T, B, SCALE> {
+impl<T: Number, const B: usize, const SCALE: bool> Vectorized for Backward<'_, T, B, SCALE> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
         backward_blocks::<T, B, SCALE>(self.values, self.x);

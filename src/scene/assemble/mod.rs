@@ -197,7 +197,7 @@ impl Resolved<'_> {
             angles: Vec::new(),
             gravity: vector(scene.gravity.full()),
             rotation: scene.rotation.full(),
-            tracks_work: self.outputs.iter().any(|o| o.kind == OutputKind::Workspace),
+            tracks_work: self.outputs.iter().any(|o| o.kind == OutputKind::Work),
         }
     }
 

@@ -151,7 +151,7 @@ pub enum OutputKind {
     /// Kinetic, strain and gravitational energy, and that of springs where there are any, J.
     Energy,
     /// Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
-    Workspace,
+    Work,
     /// Linear momentum, N s, and angular momentum about the origin, N m s.
     Momentum,
     /// Centre of mass of the scene, m.
@@ -244,7 +244,7 @@ impl OutputKind {
             Self::Reaction => ReadAt::Force,
             Self::ReactionMoment => ReadAt::Moment,
             Self::Energy
-            | Self::Workspace
+            | Self::Work
             | Self::Momentum
             | Self::CenterOfMass
             | Self::Resolution

@@ -98,7 +98,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::Reaction => vec![("reaction", "Force of {}", Some(NEWTON), Vector, Read::ConstraintOwner(Reaction))],
         Kind::ReactionMoment => vec![("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::ConstraintOwner(ReactionMoment))],
         Kind::Energy => energies(resolved),
-        Kind::Workspace => vec![
+        Kind::Work => vec![
             ("energy.input", "Work that loads, inputs and motions have done since the start", Some(JOULE), Scalar, Read::Scene(|_| Input)),
             ("energy.dissipated", "Energy lost in dampers and in damping since the start", Some(JOULE), Scalar, Read::Scene(|_| Dissipated)),
         ],

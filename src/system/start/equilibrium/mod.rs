@@ -81,7 +81,7 @@ pub enum Failure {
     Restless,
     /// The work was done that is allowed.
     #[error("the work limit is reached; expected an equilibrium within it")]
-    Workspace,
+    Work,
     /// It ended where forces do not balance.
     #[error(
         "expected forces that cancel to roundoff, found {:.1e} {} left, {:.1e} times that", .0.size, .0.unit(), .0.relative()
@@ -313,13 +313,13 @@ impl Path<'_> {
                     state.copy_from(&from);
                     why = left;
                     step /= 2.0;
-                    if step < SMALLEST || why == Failure::Workspace {
+                    if step < SMALLEST || why == Failure::Work {
                         break;
                     }
                 }
             }
         }
-        if self.swings && !self.predicts && why != Failure::Workspace {
+        if self.swings && !self.predicts && why != Failure::Work {
             let whole = way(1.0, work);
             match self.with_newton(&whole, work, state, |newton, state| newton.swing(state)) {
                 Ok(found) => return Ok(found),

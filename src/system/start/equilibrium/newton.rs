@@ -122,7 +122,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
 
     /// That the work is done that was allowed.
     pub(super) fn exhausted(&self) -> Option<Failure> {
-        (self.model.is_exhausted()).then_some(Failure::Workspace)
+        (self.model.is_exhausted()).then_some(Failure::Work)
     }
 
     /// An equilibrium; on failure the last correction.
