@@ -261,3 +261,24 @@ fn a_link_of_hardly_any_mass_is_held_by_its_joints() {
         assert!((height / fallen - 1.0).abs() < 1e-4, "{mass}: {height}");
     }
 }
+
+/// A joint in the plane that gives one body the direction of another makes nothing redundant that a person has said.
+#[test]
+fn joints_that_hold_directions_in_the_plane_hold_nothing_twice() {
+    let body = |name: &str, x: f64| json!({"name": name, "element": "rigid", "mass": 1, "inertia": 0.1, "position": [x, 0], "markers": {"c": [0, 0]}});
+    for (kind, direction) in [
+        ("weld", None),
+        ("orientation", None),
+        ("prismatic", Some([1, 0])),
+    ] {
+        let mut joint = json!({"name": "tie", "kind": kind, "markers": ["a.c", "b.c"]});
+        if let Some(direction) = direction {
+            joint["direction"] = json!(direction);
+        }
+        let mut simulation = started(&json!({
+            "name": "pair", "dimension": 2, "bodies": [body("a", 0.0), body("b", 0.4)], "joints": [joint]
+        }));
+        assert_eq!(simulation.redundant(), Redundant::default(), "{kind}");
+        assert_eq!(told(&mut simulation, 0.1), [], "{kind}");
+    }
+}

@@ -40,10 +40,12 @@ impl Scene {
         let ends = [course.from, course.to];
         let Some(value) = &course.value else {
             if ends.contains(&None) {
-                return Err(Error::new(
-                    path,
-                    "expected `value`, or `from` and `to`, found neither",
-                ));
+                let found = match ends {
+                    [Some(_), None] => "`from` alone",
+                    [None, Some(_)] => "`to` alone",
+                    _ => "neither",
+                };
+                return Err(expected(path, "`value`, or `from` and `to`", found));
             }
             let Some(duration) = course.duration else {
                 return Ok(());

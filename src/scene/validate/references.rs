@@ -102,6 +102,10 @@ impl<'a> Resolved<'a> {
         name: &'a str,
     ) -> Result<Marker<'a>, Error> {
         let marker = self.require_cable_marker(path, name)?;
+        if self.scene.dimension == 2 {
+            let wanted = "a marker of a rod or beam in space: nothing is twisted in the plane";
+            return Err(expected(path, wanted, quoted(name)));
+        }
         match marker.place.is_framed() {
             true => Ok(marker),
             false => Err(expected(path, "a marker of a rod", quoted(name))),

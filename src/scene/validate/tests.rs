@@ -359,6 +359,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "angle", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
         /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
         /outputs/0 | {"kind": "angular_velocity", "marker": "crank.a", "axes": "body"} | outputs[0].axes: expected nothing in the plane, found axes of a body
+        /outputs/0 | {"kind": "torque", "marker": "rod.tip"} | outputs[0].marker: expected a marker of a rod or beam in space: nothing is twisted in the plane
         /outputs/0 | {"kind": "direction", "joint": "knee"} | outputs[0].joint: expected a key of the kind direction
         /outputs/0 | {"kind": "direction", "marker": "crank.a"} | accepted
         /outputs/0 | {"kind": "orientation", "marker": "crank.a"} | outputs[0].marker: expected nothing in the plane, where "angle" says how a body stands

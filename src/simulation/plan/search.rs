@@ -143,6 +143,10 @@ impl<'a, 'p> Search<'a, 'p> {
             },
             false => in_space,
         };
+        let in_space = match self.is_cut {
+            true => self.measured(&choice, in_space),
+            false => in_space,
+        };
         let sheared = self.shear(&choice);
         let plan = self.report(&choice, &in_space, &in_time);
         let mut scene = self.planned(&choice);

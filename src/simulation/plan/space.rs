@@ -159,6 +159,25 @@ impl Search<'_, '_> {
         }
     }
 
+    /// What doubling changes of a mesh, where no work was left to double it with the tolerance that was chosen: at least what the doubling
+    /// before it has changed with that. What is foreseen, or was found with a looser tolerance, promises nothing.
+    pub(super) fn measured(
+        &mut self,
+        choice: &Choice,
+        foreseen: Vec<Difference>,
+    ) -> Vec<Difference> {
+        let mut closer = choice.clone();
+        let (half, is_more) = (self.half(choice), self.refine(&mut closer));
+        if !is_more || self.known(&closer).is_some() || half.elements == choice.elements {
+            return foreseen;
+        }
+        let Ok(before) = self.compare(&half, choice, self.error) else {
+            return self.unknown();
+        };
+        let pairs = foreseen.iter().zip(&before);
+        pairs.map(|(found, before)| found.worst(*before)).collect()
+    }
+
     /// A choice with half as many elements where that can be.
     pub fn half(&self, choice: &Choice) -> Choice {
         let halves = choice.elements.iter().zip(&self.fewest);

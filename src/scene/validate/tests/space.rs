@@ -356,8 +356,8 @@ fn joints_hold_axes_of_the_ground_and_of_rigid_bodies() {
         /joints/0/direction | null | joints[0].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
         /joints/0/kind | "spherical" | joints[0].direction: expected a key of the kind
         /joints/0/direction | [0, 0, 0] | joints[0].direction: expected a direction that is not zero
-        /joints/1/direction | null | joints[1].direction: expected a direction [x, y, z], found nothing
-        /joints/1/stiffness | null | joints[1]: expected a stiffness or a damping, found neither
+        /joints/1/direction | null | joints[1].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
+        /joints/1/stiffness | null | joints[1].angle: expected a stiffness or a damping beside the angle of a revolute joint, found neither
         /joints/2/second_direction | null | joints[2].second_direction: expected a direction [x, y, z], found nothing
         /joints/2/second_direction | [0, 0, 0] | joints[2].second_direction: expected a direction that is not zero
         /joints/2/second_direction | [0, 1] | joints[2].second_direction: expected 3 components [x, y, z], found 2
