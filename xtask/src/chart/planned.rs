@@ -59,6 +59,16 @@ impl Case {
         Ok(Self { name, of, scene })
     }
 
+    /// The same without the numbers of elements that the scene gives: what they leave is none of the planner's.
+    pub fn left_to_the_planner(mut self) -> Self {
+        for body in cables(&mut self.scene) {
+            if body["elements"].is_u64() {
+                body["elements"] = json!("auto");
+            }
+        }
+        self
+    }
+
     /// What the planner finds for an error.
     pub fn plan(&self, bench: &Bench, error: f64) -> Result<Planned> {
         let mut scene = self.scene.clone();
