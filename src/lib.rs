@@ -56,10 +56,3 @@ pub mod scene;
 pub mod simulation;
 pub mod system;
 pub mod view;
-
-// Laws use generic code throughout, which every test of its own would compile anew.
-#[cfg(test)]
-extern crate self as flexbody;
-#[cfg(test)]
-#[path = "../tests/laws/mod.rs"]
-mod laws;

@@ -14,6 +14,7 @@ mod equilibria;
 mod examples;
 mod hostile_scenes;
 mod house;
+mod laws;
 mod order;
 mod planner;
 mod scenes;

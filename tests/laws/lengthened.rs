@@ -1,9 +1,9 @@
 //! A chain that is longer than its reference length is one of that length, whose slopes are by it.
 
-use crate::body::{Assembly, Chain, Links, Node, map_node, no_node};
-use crate::elements::cable::{Cable, Inertia, LineOf, Parameters};
-use crate::elements::{Element, Strain};
-use crate::math::sparse::Matrix;
+use flexbody::body::{Assembly, Chain, Links, Node, map_node, no_node};
+use flexbody::elements::cable::{Cable, Inertia, LineOf, Parameters};
+use flexbody::elements::{Element, Strain};
+use flexbody::math::sparse::Matrix;
 
 /// Reference length over the length now, and the rate by which that grows, 1/s.
 const LONGER: [f64; 2] = [0.7, 0.4];

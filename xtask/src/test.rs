@@ -215,11 +215,18 @@ fn rust_tests(workspace: &Workspace) -> Result<Outcome> {
             workspace.library(PACKAGE, Platform::host()?)?;
             workspace.program(PACKAGE)
         });
-        let mut tests = workspace.cargo("test");
-        let tested = run(tests.args(["--workspace", "--exclude", "lab"]));
+        let tested = native_tests(workspace);
         let built = products.join().expect("a build that does not panic");
         tested.and(built.map(drop)).map(passed)
     })
+}
+
+/// The library is compiled well for tests that simulate, and quickly for those of its parts.
+fn native_tests(workspace: &Workspace) -> Result<()> {
+    let mut whole = workspace.cargo("test");
+    run(whole.args(["--workspace", "--exclude", "lab", "--exclude", "flexbody"]))?;
+    let mut parts = workspace.cargo("test");
+    run(parts.args(["--profile", "parts", "--package", "flexbody"]))
 }
 
 /// Native runs have checked every claim of every case: a dozen cases run through their FMUs, and of a release all of them.
