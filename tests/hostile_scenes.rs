@@ -80,7 +80,7 @@ fn joints(dimension: usize, way: f64) -> Vec<Value> {
         2 => vec![
             joint("revolute", json!({})),
             joint("weld", json!({})),
-            joint("slider", json!({"direction": [1, 0]})),
+            joint("point_on_line", json!({"direction": [1, 0]})),
             joint("prismatic", json!({"direction": [1, 0]})),
             joint("distance", json!({"point": [0.0, 0.0], "length": way})),
         ],
@@ -92,7 +92,7 @@ fn joints(dimension: usize, way: f64) -> Vec<Value> {
                 json!({"direction": [0, 1, 0], "second_direction": [1, 0, 0]}),
             ),
             joint("weld", json!({})),
-            joint("slider", json!({"direction": [1, 0, 0]})),
+            joint("point_on_line", json!({"direction": [1, 0, 0]})),
             joint("cylindrical", json!({"direction": [1, 0, 0]})),
             joint("planar", json!({"direction": [0, 0, 1]})),
             joint("prismatic", json!({"direction": [1, 0, 0]})),

@@ -176,7 +176,7 @@ class Model:
         if joint["kind"] == "revolute" and second in self.points:
             self.pin(first, second)
             return
-        slides = joint["kind"] == "slider" and joint["direction"] == [1.0, 0.0]
+        slides = joint["kind"] == "point_on_line" and joint["direction"] == [1.0, 0.0]
         if slides and first == "ground" and second in self.points:
             self.slide(second)
             return
@@ -220,7 +220,7 @@ class Model:
 
     def load(self, load):
         """A force or moment at a node."""
-        if load["kind"] == "distributed":
+        if load["kind"] == "distributed_force":
             return
         node = self.markers[load["marker"]]
         if load["kind"] == "force":

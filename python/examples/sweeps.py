@@ -41,7 +41,7 @@ def rope():
                 section=Section(shape=Circle(radius=RADIUS)),
                 shape=Line(from_=[0, 0], to=[0.6 * LENGTH, -0.8 * LENGTH]),
                 markers={"top": 0, "tip": 1},
-                axial="settled",
+                axial="critically_damped",
             )
         ],
         masses=[Mass(marker="rope.tip", mass=WEIGHT)],

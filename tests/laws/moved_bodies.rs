@@ -170,10 +170,7 @@ fn moved_body(plane: &Plane, flat: &Value) -> Value {
 fn moved_joint(plane: &Plane, flat: &Value) -> Value {
     let mut joint = flat.clone();
     let on_ground = flat["markers"][0] == "ground";
-    if ["revolute", "hinge"]
-        .iter()
-        .any(|kind| flat["kind"] == *kind)
-    {
+    if flat["kind"] == "revolute" {
         joint["direction"] = match on_ground {
             true => json!(plane.normal()),
             false => json!([0.0, 0.0, 1.0]),

@@ -125,7 +125,7 @@ fn added_mass_is_mass_without_weight() {
         let dimension = kind.1;
         let mut light = made(*kind, round());
         if settled {
-            light["axial"] = json!("settled");
+            light["axial"] = json!("critically_damped");
         }
         let mut heavy = light.clone();
         heavy["material"]["density"] = json!(1250.0 + 0.9 * 800.0);
@@ -169,7 +169,7 @@ fn stations_that_are_alike_are_one_section() {
             ("fluid", json!([sea, pull(dimension)])),
             ("contact", json!([floor, pull(dimension)])),
         ] {
-            for axial in ["waves", "settled"] {
+            for axial in ["waves", "critically_damped"] {
                 let pair = [&one, &many].map(|body| {
                     let mut body = body.clone();
                     body["axial"] = json!(axial);
@@ -192,7 +192,7 @@ fn a_position_that_is_driven_to_stay_is_a_pin() {
     for kind in bend.filter(|(element, ..)| *element != "auto") {
         let dimension = kind.1;
         let pin = ["revolute", "spherical"][dimension - 2];
-        for (axial, initial) in [("waves", "undeformed"), ("settled", "undeformed")] {
+        for (axial, initial) in [("waves", "undeformed"), ("critically_damped", "undeformed")] {
             let mut body = made(*kind, round());
             body["axial"] = json!(axial);
             let mut place = vec![0.05; dimension];
@@ -226,7 +226,7 @@ fn components_that_are_even_or_change_along_a_body_are_the_same_beside_each_othe
         let base = with(scene(3, 0.0, made(kind, round())), weld);
         let pairs = [
             (
-                "distributed",
+                "distributed_force",
                 json!([0.5, "2*s", -0.7]),
                 json!(["0.5+0*s", "2*s", "-0.7+0*s"]),
             ),
@@ -238,9 +238,9 @@ fn components_that_are_even_or_change_along_a_body_are_the_same_beside_each_othe
         ];
         for (name, some, all) in pairs
             .iter()
-            .filter(|(name, ..)| kind.0 != "cable" || *name == "distributed")
+            .filter(|(name, ..)| kind.0 != "cable" || *name == "distributed_force")
         {
-            let followers: &[bool] = if *name == "distributed" {
+            let followers: &[bool] = if *name == "distributed_force" {
                 &[false]
             } else {
                 &[false, true]

@@ -420,7 +420,7 @@ fn settled_waves_are_proposed_where_forces_ring_and_never_chosen() {
     assert!(*change > 0.5, "{settled:?}");
     assert!(error.is_some_and(|error| error < 1e-2), "{settled:?}");
     assert!(settled.in_words().contains("rod"));
-    let (_, plan) = planned(&pulled("settled").expect("a scene")).expect("a plan");
+    let (_, plan) = planned(&pulled("critically_damped").expect("a scene")).expect("a plan");
     assert_eq!(plan.expect("a plan").settled, None, "settled already");
 }
 

@@ -18,7 +18,7 @@ const LOADS: &Renamed = &[
     ("distributed", "`distributed_force`"),
 ];
 const AXIAL: &Renamed = &[("settled", "`critically_damped`")];
-const STATES: &Renamed = &[("undeformed", "`undeformed`")];
+const STATES: &Renamed = &[("as_shaped", "`undeformed`")];
 
 /// Checks that nothing in a scene has a name of old.
 ///

@@ -237,7 +237,11 @@ fn settled() -> Specimen {
     let bar = |name: &str, y: f64, deformation: [&str; 2]| {
         let of = [e, density, area, second_moment];
         let mut bar = cable(name, 8, of, [0.0, y], [1.0, y]);
-        bar["axial"] = json!(if name == "rings" { "waves" } else { "settled" });
+        bar["axial"] = json!(if name == "rings" {
+            "waves"
+        } else {
+            "critically_damped"
+        });
         bar["motion"] = json!({"deformation": deformation});
         bar
     };

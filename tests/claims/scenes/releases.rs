@@ -119,11 +119,14 @@ fn all_go() -> Specimen {
     let (g, moment, mass, inertia) = (9.81, 0.7, 1.4, 0.3);
     let kinds = [
         ("weld", json!({})),
-        ("slider", json!({"direction": [1.0, 0.0]})),
+        ("point_on_line", json!({"direction": [1.0, 0.0]})),
         ("prismatic", json!({"direction": [1.0, 0.0]})),
         ("orientation", json!({})),
         ("distance", json!({})),
-        ("along", json!({"markers": ["rope", "along_body.c"]})),
+        (
+            "point_on_cable",
+            json!({"markers": ["rope", "along_body.c"]}),
+        ),
     ];
     let mut bodies = vec![
         json!({"element": "cable", "name": "rope", "elements": 2, "material": {"youngs_modulus": 1e7, "density": 1000.0},
@@ -150,7 +153,7 @@ fn all_go() -> Specimen {
             at_once["point"] = json!([2.0 * k as f64, 1.0]);
         }
         put(kind, kind, &at_once, [2.0 * k as f64, 0.0]);
-        if *kind != "along" {
+        if *kind != "point_on_cable" {
             let mut keys = keys.clone();
             if *kind == "distance" {
                 keys["point"] = json!([2.0 * k as f64, 5.0]);
@@ -172,7 +175,7 @@ fn all_go() -> Specimen {
             );
     }
     specimen = specimen.at(0.5);
-    for (kind, _) in kinds.iter().filter(|(kind, _)| *kind != "along") {
+    for (kind, _) in kinds.iter().filter(|(kind, _)| *kind != "point_on_cable") {
         let of = format!("{kind}_stays_body.c");
         specimen = match *kind {
             "orientation" => specimen.claim_within(&format!("{of}.angle"), "rad", 0.0, 1e-8),

@@ -167,7 +167,7 @@ fn held_on_a_line() -> Specimen {
     let kinds = [
         ("cylindrical", "a", along, along),
         ("planar", "b", identity - along, along),
-        ("slider", "d", along, identity),
+        ("point_on_line", "d", along, identity),
         ("prismatic", "e", along, Matrix3::zeros()),
     ];
     let mut claims: Vec<(String, &str, Vector3<f64>)> = Vec::new();
@@ -186,7 +186,7 @@ fn held_on_a_line() -> Specimen {
         );
         loads.extend(pushed(name));
         let a = let_go * FORCE / body.mass;
-        let turning = if kind == "slider" {
+        let turning = if kind == "point_on_line" {
             body.turning(MOMENT)
         } else {
             // About the axis alone.
@@ -203,7 +203,7 @@ fn held_on_a_line() -> Specimen {
             &format!("{name}.c"),
         ));
         read.extend(outputs(&["reaction"], "joint", &joint));
-        if kind != "slider" {
+        if kind != "point_on_line" {
             claims.push((format!("{joint}.reaction_moment"), "N.m", moment));
             read.extend(outputs(&["reaction_moment"], "joint", &joint));
         }

@@ -16,7 +16,7 @@ pub fn all() -> Vec<Specimen> {
         named(),
         hanging(),
         settled("waves"),
-        settled("settled"),
+        settled("critically_damped"),
     ]
 }
 
