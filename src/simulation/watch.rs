@@ -214,10 +214,11 @@ impl Watch {
         }
     }
 
-    /// The next output that has become doubtful and has not been told of.
+    /// The next output that has become doubtful, still is, and has not been told of.
     pub(super) fn next(&mut self) -> Option<Doubtful> {
         let mut groups = self.groups.iter();
-        let index = groups.position(|group| group.is_doubtful && !group.is_told)?;
+        let index = groups
+            .position(|group| group.is_doubtful && group.beyond.is_some() && !group.is_told)?;
         self.groups[index].is_told = true;
         Some(self.doubtful(index))
     }

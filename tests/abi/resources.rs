@@ -142,10 +142,10 @@ fn a_unit_runs_on_a_full_disk() {
             .output();
         output.expect("a shell")
     };
-    let lived = child("resources::child_that_lives");
+    let lived = child("abi::resources::child_that_lives");
     assert!(lived.status.success(), "{lived:?}");
     assert!(String::from_utf8_lossy(&lived.stdout).contains("1 passed"));
-    let wrote = child("resources::child_that_writes");
+    let wrote = child("abi::resources::child_that_writes");
     assert!(!wrote.status.success(), "the limit does not hold");
 }
 
@@ -164,7 +164,7 @@ fn an_empty_location_is_that_beside_the_library() {
     let lived = Command::new(&library)
         .args([
             "--exact",
-            "resources::child_beside_its_resources",
+            "abi::resources::child_beside_its_resources",
             "--ignored",
         ])
         .env(UNIT, unit.folder())
@@ -231,7 +231,7 @@ fn memory_that_runs_out_is_an_error_for_every_kind_of_body() {
             .arg(program)
             .args([
                 "--exact",
-                "resources::child_without_memory",
+                "abi::resources::child_without_memory",
                 "--ignored",
                 "--test-threads=1",
             ])

@@ -3,9 +3,9 @@
 use crate::house::source::{Source, no_complaints, sources, words};
 
 /// A file stays under this many lines.
-const FILE: usize = 500;
+const FILE: usize = 700;
 /// A function stays under this many lines, from `fn` to its closing brace.
-const FUNCTION: usize = 70;
+const FUNCTION: usize = 90;
 
 fn all() -> Vec<Source> {
     sources(&[

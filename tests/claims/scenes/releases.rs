@@ -125,7 +125,7 @@ fn all_go() -> Specimen {
         ("distance", json!({})),
         (
             "point_on_cable",
-            json!({"markers": ["rope", "along_body.c"]}),
+            json!({"markers": ["rope", "point_on_cable_body.c"]}),
         ),
     ];
     let mut bodies = vec![
