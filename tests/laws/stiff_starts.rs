@@ -1,16 +1,12 @@
 //! Steps of scenes whose stiff directions hardly move, by tolerance.
 
-use std::path::Path;
-
 use flexbody::scene::Scene;
 use flexbody::simulation::Simulation;
 use serde_json::{Value, json};
 
 /// Steps and rejected ones that a case takes by the end, or what is told.
 fn steps(case: &str, until: f64, tolerance: f64) -> Result<u64, String> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/cases")
-        .join(case);
+    let path = crate::root().join("tests/cases").join(case);
     let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
     let mut scene: Value = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     scene["accuracy"] = json!({"relative_tolerance": tolerance});
