@@ -125,7 +125,12 @@ impl<const D: usize> Stages<D> {
     }
 
     /// Turns the forces on a stage back to where the tangent was made; their sum stays.
-    pub(super) fn to_corotated(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
+    pub(super) fn rotate_to_tangent(
+        &mut self,
+        assembly: &Assembly<D>,
+        stage: usize,
+        y: &mut [f64],
+    ) {
         for f in &mut self.floating {
             f.remember(|f| &f.translation, y);
         }
@@ -135,7 +140,7 @@ impl<const D: usize> Stages<D> {
         assembly.prolong(y, &mut self.nodes);
         self.weigh(assembly, stage);
         turn_all(&mut self.nodes, (&self.turned[stage], &self.base));
-        self.sections.to_corotated(stage, &mut self.nodes);
+        self.sections.rotate_to_tangent(stage, &mut self.nodes);
         assembly.restrict(&self.nodes, y);
         for f in &self.floating {
             f.restore((&f.translation, &f.momentum), y);
@@ -143,13 +148,13 @@ impl<const D: usize> Stages<D> {
     }
 
     /// Turns displacements forth to a stage; their mean translation stays.
-    pub(super) fn from_corotated(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
+    pub(super) fn rotate_to_stage(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
         for f in &mut self.floating {
             f.remember(|f| &f.momentum, y);
         }
         assembly.prolong(y, &mut self.nodes);
         turn_all(&mut self.nodes, (&self.base, &self.turned[stage]));
-        self.sections.from_corotated(stage, &mut self.nodes);
+        self.sections.rotate_to_stage(stage, &mut self.nodes);
         self.weigh(assembly, stage);
         assembly.restrict(&self.nodes, y);
         for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
@@ -347,7 +352,7 @@ impl<const D: usize> Tangent<D> {
         let assembly = &elimination.assembly;
         for (i, q) in q.iter_mut().enumerate() {
             elimination.forces(q);
-            self.stages.to_corotated(assembly, i, q);
+            self.stages.rotate_to_tangent(assembly, i, q);
             if assembly.constraints() > 0 {
                 self.y.copy_from_slice(q);
                 elimination.project_in_place(&mut self.y);
@@ -360,7 +365,7 @@ impl<const D: usize> Tangent<D> {
             _ => self.solve_together::<3>(assembly, [forward, back], q),
         }
         for (i, q) in q.iter_mut().enumerate() {
-            self.stages.from_corotated(assembly, i, q);
+            self.stages.rotate_to_stage(assembly, i, q);
             elimination.coordinates_of(q);
         }
     }

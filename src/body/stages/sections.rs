@@ -46,13 +46,13 @@ impl Sections {
         place(&self.nodes, x, &mut self.turned[stage]);
     }
 
-    /// Turns the vectors of the lines back to where the tangent was made.
-    pub fn to_corotated<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
+    /// Rotates the vectors of the lines back to where the tangent was made.
+    pub fn rotate_to_tangent<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
         self.turn([&self.turned[stage], &self.base], nodes);
     }
 
-    /// Turns them forth to a stage.
-    pub fn from_corotated<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
+    /// Rotates the vectors of the lines to a stage.
+    pub fn rotate_to_stage<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
         self.turn([&self.base, &self.turned[stage]], nodes);
     }
 
