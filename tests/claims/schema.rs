@@ -19,7 +19,7 @@ pub enum Sort {
 /// A place in a scene.
 #[derive(Clone, Debug)]
 pub struct Place {
-    /// Its key, the same for all scenes: `joints{hinge}.stiffness`, `loads{force}.value[0]#number`.
+    /// Its key, the same for all scenes: `joints{revolute}.stiffness`, `loads{force}.value[0]#number`.
     pub key: String,
     /// JSON pointer: of the value or, where nothing stands, of the optional key that holds the place.
     pub pointer: String,
