@@ -91,7 +91,7 @@ class Pages:
             for body in scene["bodies"]:
                 if body["element"] != "rigid":
                     body.setdefault("elements", ELEMENTS)
-            scene["accuracy"] = {"relative_tolerance": 1e-4} | {key: value for key, value in scene.get("accuracy", {}).items() if key == "for"}
+            scene["accuracy"] = {"relative_tolerance": 1e-4} | {key: value for key, value in scene.get("accuracy", {}).items() if key == "input_profiles"}
             path.write_text(json.dumps(scene), encoding="utf-8")
         return path
 
