@@ -34,11 +34,7 @@ pub fn check_names(scene: &Value) -> Result<(), Error> {
     named(initial, "initial", STATES)?;
     named(&initial["state"], "initial.state", STATES)?;
     match scene["accuracy"].get("for") {
-        Some(_) => Err(refused(
-            "accuracy.input_profiles",
-            "the key `input_profiles`",
-            "for",
-        )),
+        Some(_) => Err(refused("accuracy.for", "the key `input_profiles`", "`for`")),
         None => Ok(()),
     }
 }

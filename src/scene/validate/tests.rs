@@ -259,7 +259,7 @@ fn joints_take_what_is_theirs_and_no_more() {
         /bodies/0/axial | "settled" | bodies[0].axial: expected `critically_damped`, found "settled", its former name
         /initial | "as_shaped" | initial: expected `undeformed`, found "as_shaped", its former name
         /initial | {"state": "as_shaped"} | initial.state: expected `undeformed`, found "as_shaped", its former name
-        /accuracy/input_profiles | [] | accuracy.input_profiles: expected the key `input_profiles`, found for, its former name
+        /accuracy/for | [] | accuracy.for: expected the key `input_profiles`, found `for`, its former name
         /joints/3/markers | ["crank", "load.eye"] | joints[3].markers[0]: expected the name of a cable
         /joints/3/markers | ["rope.mid", "load.eye"] | joints[3].markers[0]: expected the name of a cable
         /joints/3/markers | ["rope", "rope.tip"] | joints[3].markers: expected markers of two bodies

@@ -112,7 +112,7 @@ impl Experiment {
         }
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| failed(error.to_string()))?;
-        let mut run = Run::paid_out_at_start(self, &mut simulation, responses);
+        let mut run = Run::begun(self, &mut simulation, responses);
         let variables = simulation.variables().iter().enumerate();
         let computed = variables.filter(|(_, variable)| variable.is_computed());
         let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
@@ -182,7 +182,7 @@ impl Experiment {
 
 impl Run {
     /// At the start of a simulation that has been initialized.
-    fn paid_out_at_start(
+    fn begun(
         experiment: &Experiment,
         simulation: &mut Simulation,
         responses: Option<Responses>,

@@ -6,8 +6,8 @@ use super::multipliers::RANK;
 use crate::body::{Jacobian, no_node};
 use crate::math::sparse::{graph, parts};
 use crate::math::vector::dot;
-use crate::system::joints::{Constraint, ConstraintKind, Joint, Primitive};
-use crate::system::{End, State, System, Workspace};
+use crate::system::joints::{Constraint, ConstraintKind, Primitive};
+use crate::system::{State, System, Workspace};
 
 /// Part of a row of the Jacobian below which others give it exactly, but for the residuals of the state.
 const EXACT: f64 = 1e-6;
@@ -278,21 +278,25 @@ impl<const D: usize> System<D> {
         exactly.holders.sort_unstable();
         exactly.holders.dedup();
         exactly.holders.retain(|h| !nearly.holders.contains(h));
-        let is_free = |body: &usize| !nearly.bodies.contains(body) && !self.takes_direction(*body);
-        exactly.bodies.retain(is_free);
+        let aligned = self.aligned();
+        exactly.bodies.retain(|body| {
+            let is_aligned = self.bodies[*body].clone().any(|node| aligned[node]);
+            !is_aligned && !nearly.bodies.contains(body)
+        });
         Redundant { exactly, nearly }
     }
 
-    /// Whether a joint gives a rigid body the direction of another: then the other's length of its direction is that of both, as it
-    /// should be.
-    fn takes_direction(&self, body: usize) -> bool {
-        let is_of = |end: &End<D>| end.nodes().any(|node| self.bodies[body].contains(&node));
-        let gives = |joint: &Joint<D>| {
-            let holds = joint.holds.iter();
-            let mut directions = holds.filter(|held| matches!(held, Primitive::Direction(_)));
-            directions.next().is_some() && joint.ends.iter().any(is_of)
-        };
-        self.joints.iter().any(gives)
+    /// By nodes, whether a joint in the plane gives one body the direction of another there: the unit length of one is then that of
+    /// both, and nothing that a person has said is redundant.
+    fn aligned(&self) -> Vec<bool> {
+        let mut aligned = vec![false; self.reference.len()];
+        let aligns = |held: &Primitive<D>| matches!(held, Primitive::Direction(_));
+        let joints = self.joints.iter();
+        let joints = joints.filter(|joint| joint.holds.iter().any(aligns));
+        let ends = joints.flat_map(|joint| &joint.ends);
+        ends.flat_map(|end| end.nodes())
+            .for_each(|node| aligned[node] = true);
+        aligned
     }
 
     /// What is held by others at a state but for less than a part, relative, and not everywhere.
