@@ -16,12 +16,7 @@ const NEAR: f64 = 2e-5;
 
 /// Every ready scene, and those of the tests with every kind of input and output.
 fn scenes() -> Vec<PathBuf> {
-    let root = crate::root();
-    let listed = std::fs::read_dir(root.join("scenes")).expect("the ready scenes");
-    let mut found: Vec<PathBuf> = listed
-        .map(|entry| entry.expect("a file").path())
-        .filter(|path| !path.to_string_lossy().contains("schema"))
-        .collect();
+    let mut found = crate::ready_scenes();
     let others = [
         "src/scene/example.json",
         "tests/cases/coupled_mass/driven.json",
@@ -34,7 +29,7 @@ fn scenes() -> Vec<PathBuf> {
         "tests/masters/scenes/inner.json",
         "tests/masters/scenes/outer.json",
     ];
-    found.extend(others.map(|name| root.join(name)));
+    found.extend(others.map(|name| crate::root().join(name)));
     found.sort();
     assert!(found.len() > 10, "{found:?}");
     found

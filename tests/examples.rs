@@ -4,10 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Budget, Redundant, Simulation, plan};
+use flexbody::simulation::{Redundant, Simulation};
 
-/// Seconds that planning one example may take.
-const SECONDS: f64 = 0.3;
 /// Communication steps of one example at most: examples are short.
 const STEPS: u32 = 400;
 /// Parts of the names in the book's table that stand for a name of a scene.
@@ -40,18 +38,7 @@ fn examples() -> Vec<PathBuf> {
 /// An example, with what it leaves to the planner.
 fn planned(path: &Path) -> Result<Scene, String> {
     let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
-    let scene = Scene::from_json(&text).map_err(|error| error.to_string())?;
-    if !scene.is_to_be_planned() {
-        return Ok(scene);
-    }
-    let budget = Budget {
-        seconds: SECONDS,
-        ..Budget::default()
-    };
-    let planned = plan(&scene, &budget, &mut |_, _, _| ());
-    planned
-        .map(|(scene, _)| scene)
-        .map_err(|error| error.to_string())
+    crate::planned(&text)
 }
 
 /// Complains of real variables without a finite value.

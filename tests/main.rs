@@ -21,10 +21,37 @@ mod scenes;
 mod selection;
 mod steps;
 
+use std::path::{Path, PathBuf};
+
+use flexbody::scene::Scene;
+use flexbody::simulation::{Budget, plan};
+
 /// The folder of the project.
-fn root() -> &'static std::path::Path {
-    let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+fn root() -> &'static Path {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     own.parent().expect("a folder above the tests")
+}
+
+/// The ready scenes, sorted.
+fn ready_scenes() -> Vec<PathBuf> {
+    let listed = std::fs::read_dir(root().join("scenes")).expect("the ready scenes");
+    let mut files: Vec<PathBuf> = listed.map(|entry| entry.expect("a file").path()).collect();
+    files.retain(|path| !path.to_string_lossy().ends_with(".schema.json"));
+    files.sort();
+    files
+}
+
+/// A scene with numbers for those that it leaves to the planner: the best that little time finds.
+fn planned(text: &str) -> Result<Scene, String> {
+    let scene = Scene::from_json(text).map_err(|error| error.to_string())?;
+    let budget = Budget {
+        seconds: 0.3,
+        ..Budget::default()
+    };
+    let planned = plan(&scene, &budget, &mut |_, _, _| ());
+    planned
+        .map(|(scene, _)| scene)
+        .map_err(|error| error.to_string())
 }
 
 // Files that fuzzing shares find these at the root.

@@ -1,7 +1,7 @@
 //! What a scene may not say, and how it is told: the place, what was expected, what was found.
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Budget, Redundant, Simulation, courses, plan};
+use flexbody::simulation::{Redundant, Simulation, courses};
 use serde_json::{Value, json};
 
 const SCENE: &str = include_str!("../scenes/cantilever.json");
@@ -157,19 +157,6 @@ fn told(pointer: &str, value: Value) -> String {
     }
 }
 
-/// A scene with numbers for those that it leaves to the planner: the best that little time finds.
-fn planned(text: &str) -> Result<Scene, String> {
-    let scene = Scene::from_json(text).map_err(|error| error.to_string())?;
-    let budget = Budget {
-        seconds: 0.3,
-        ..Budget::default()
-    };
-    let planned = plan(&scene, &budget, &mut |_, _, _| ());
-    planned
-        .map(|(scene, _)| scene)
-        .map_err(|error| error.to_string())
-}
-
 #[test]
 fn every_bad_value_is_named_with_its_place() {
     for (pointer, value, expected) in BAD {
@@ -208,7 +195,7 @@ fn what_is_held_twice_is_reported_and_held_once() {
     let mut scene: Value = serde_json::from_str(SCENE).expect("a shipped scene");
     let again = json!({"name": "again", "kind": "revolute", "markers": ["ground", "beam.root"]});
     scene["joints"].as_array_mut().expect("joints").push(again);
-    let mut simulation = Simulation::new(planned(&scene.to_string()).expect("a scene"));
+    let mut simulation = Simulation::new(crate::planned(&scene.to_string()).expect("a scene"));
     simulation.initialize(0.0).expect("an equilibrium");
     let told = simulation.redundant();
     assert_eq!((told.exactly, told.nearly), (vec!["again".into()], vec![]));
@@ -218,7 +205,7 @@ fn what_is_held_twice_is_reported_and_held_once() {
 fn started(change: impl Fn(&mut Value)) -> Result<Vec<String>, String> {
     let mut scene: Value = serde_json::from_str(FOUR_BAR).expect("a shipped scene");
     change(&mut scene);
-    let mut simulation = Simulation::new(planned(&scene.to_string())?);
+    let mut simulation = Simulation::new(crate::planned(&scene.to_string())?);
     let told = simulation
         .initialize(0.0)
         .map_err(|error| error.to_string());
@@ -289,7 +276,7 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
     let proposed = |key: &str| value["experiment"][key].as_f64().expect("a proposal");
     let (stop, step) = (proposed("stop_time"), proposed("step"));
     let courses = courses(&Scene::from_json(&text).expect("a scene")).expect("courses of inputs");
-    let mut simulation = Simulation::new(planned(&text).expect("a scene"));
+    let mut simulation = Simulation::new(crate::planned(&text).expect("a scene"));
     let signals = courses.map(|table| table.signals(simulation.variables()));
     let signals = signals.transpose().expect("signals");
     if let Some(signals) = &signals {
@@ -324,14 +311,9 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
 
 #[test]
 fn shipped_scenes_run_without_a_struggle() {
-    let folder = crate::root().join("scenes");
-    let mut count = 0;
-    for entry in std::fs::read_dir(folder).expect("scenes") {
-        let path = entry.expect("a file").path();
-        if path.to_string_lossy().ends_with(".schema.json") {
-            continue;
-        }
-        count += 1;
+    let scenes = crate::ready_scenes();
+    assert!(scenes.len() >= 11, "{scenes:?}");
+    for path in scenes {
         let (accepted, rejected) = experiment(&path);
         let place = path.display();
         assert!(
@@ -340,7 +322,6 @@ fn shipped_scenes_run_without_a_struggle() {
         );
         assert!(accepted < 100_000, "{place}: {accepted} steps");
     }
-    assert!(count >= 11, "expected the shipped scenes, found {count}");
 }
 
 /// A rope on its own with a winch at one end.

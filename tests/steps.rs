@@ -2,7 +2,6 @@
 //! nothing, on every ready scene.
 
 use std::fs;
-use std::path::PathBuf;
 
 use flexbody::scene::Scene;
 use flexbody::simulation::{Simulation, Variable};
@@ -25,12 +24,7 @@ type Row = Vec<Vec<f64>>;
 
 /// The ready scenes, with a mesh that costs little and a tolerance, as if they were planned for their step.
 fn scenes(tolerance: f64) -> Vec<Scene> {
-    let folder = crate::root().join("scenes");
-    let files = fs::read_dir(folder).expect("ready scenes");
-    let mut files: Vec<PathBuf> = files.map(|entry| entry.expect("a file").path()).collect();
-    files.retain(|path| !path.to_string_lossy().ends_with(".schema.json"));
-    files.sort();
-    let scenes = files.into_iter().map(|path| {
+    let scenes = crate::ready_scenes().into_iter().map(|path| {
         let text = fs::read_to_string(&path).expect("a text");
         let mut scene = Scene::from_json(&text).expect("a scene");
         let cables = scene.bodies.iter_mut().filter_map(|body| body.cable_mut());

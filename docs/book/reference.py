@@ -22,8 +22,6 @@ GROUPS = {
     "Port": "ports",
     "Output": "outputs",
 }
-# Files of examples that pages of the reference show, found while these are written.
-SHOWN_FILES = set()
 # A scene that a page quotes: the comment names its file, the block below it is written by this script.
 QUOTE = re.compile(r"(<!-- example: (\S+) -->\n+)(?:```json\n.*?^```\n)?", re.DOTALL | re.MULTILINE)
 # Pages in order: file, title, definitions. What is on none of them goes on the last.
@@ -140,7 +138,6 @@ def example(name, kind):
     for path in (scene, words):
         if not path.is_file():
             raise SystemExit(f"{path}: expected an example of the kind `{kind}` of {name}, found no file")
-        SHOWN_FILES.add(path)
     return [words.read_text(encoding="utf-8").strip(), block(scene)]
 
 
@@ -150,10 +147,8 @@ def block(scene):
 
 def strays():
     """Files of examples that no page shows."""
-    written()
-    pages = "".join(path.read_text(encoding="utf-8") for path in SOURCE.glob("*.md"))
-    quoted_files = {EXAMPLES / file for _, file in QUOTE.findall(pages)}
-    return sorted(set(EXAMPLES.rglob("*.*")) - SHOWN_FILES - quoted_files)
+    pages = "".join(path.read_text(encoding="utf-8") for path in SOURCE.rglob("*.md"))
+    return sorted(path for path in EXAMPLES.rglob("*.*") if path.read_text(encoding="utf-8").strip() not in pages)
 
 
 def quoted(text):

@@ -44,7 +44,6 @@ impl Case {
         scene["experiment"] =
             json!({ "stop_time": setting["stop_time"], "step": setting["every"] });
         for body in cables(&mut scene) {
-            body["elements"] = json!("auto");
             let name = text(&body["name"])?.to_owned();
             for (key, value) in setting["set"].as_object().into_iter().flatten() {
                 if let Some(key) = key.strip_prefix(&format!("{name}.")) {
@@ -56,7 +55,7 @@ impl Case {
             scene.remove("method");
         }
         let (name, of) = (name.to_owned(), "peers");
-        Ok(Self { name, of, scene })
+        Ok(Self { name, of, scene }.left_to_the_planner())
     }
 
     /// The same without the numbers of elements that the scene gives: what they leave is none of the planner's.
