@@ -471,3 +471,60 @@ fn one_long_step_ends_with_the_budget() {
     let plan = planned.expect("a plan").1.numbers.expect("a plan");
     assert!(plan.is_cut);
 }
+
+/// Reaction of the only joint at the points of the experiment, N.
+fn reactions(scene: Scene) -> Vec<[f64; 2]> {
+    let experiment = scene.experiment.clone();
+    let mut simulation = Simulation::new(scene);
+    simulation.initialize(0.0).expect("a start");
+    let places = ["pin.reaction[1]", "pin.reaction[2]"].map(|name| {
+        let mut names = simulation.variables().iter().map(|v| &v.name);
+        names.position(|known| known == name).expect(name)
+    });
+    let points = 1..=(experiment.stop_time / experiment.step).round() as u32;
+    let rows = points.map(|point| {
+        let until = f64::from(point) * experiment.step;
+        simulation.step(until).expect("a step");
+        places.map(|place| simulation.real(place).expect("a number"))
+    });
+    rows.collect()
+}
+
+/// A clamped beam that falls under its weight rings: its plan says no less than a fine run shows, also where its budget ends before
+/// the mesh has been doubled with the tolerance that was chosen.
+#[test]
+fn a_budget_that_ends_promises_no_doubling_that_was_not_made() {
+    let scene = edited(BEAM, |scene| {
+        scene["gravity"] = json!([0, -9.81]);
+        scene["joints"] = json!([{"name": "pin", "kind": "weld", "markers": ["ground", "rod.a"]}]);
+        scene["outputs"] =
+            json!([{"kind": "position", "marker": "rod.b"}, {"kind": "reaction", "joint": "pin"}]);
+        scene["experiment"] = json!({"stop_time": 0.2, "step": 0.01});
+        scene["accuracy"] = json!({"error": 1e-2});
+    });
+    let scene = scene.expect("a scene");
+    let budget = Budget {
+        seconds: 0.5,
+        ..Budget::default()
+    };
+    let (chosen, planned) = plan(&scene, &budget, &mut |_, _, _| ()).expect("a plan");
+    let plan = planned.numbers.expect("a plan");
+    assert!(plan.is_cut);
+    let mut fine = chosen.clone();
+    fine.accuracy.relative_tolerance = Some(1e-9);
+    if let Some(cable) = fine.bodies[0].cable_mut() {
+        cable.elements = Some(4 * elements(&chosen));
+    }
+    let [found, right] = [chosen, fine].map(reactions);
+    let size = |[x, y]: &[f64; 2]| x.hypot(*y);
+    let pairs = found.iter().zip(&right);
+    let off = pairs.map(|(a, b)| size(&[a[0] - b[0], a[1] - b[1]]));
+    let largest = right.iter().map(size).fold(0.0, f64::max);
+    let error = off.fold(0.0, f64::max) / largest;
+    let said = plan
+        .outputs
+        .iter()
+        .find(|output| output.name == "pin.reaction");
+    let said = said.expect("the reaction").error;
+    assert!(said >= error, "{said:e} said, {error:e} found");
+}
