@@ -1,6 +1,6 @@
 //! Every claim of every case in `tests/cases`, natively. The same claims run through the packaged
 //! FMU under fmpy (`tests/fmpy/claims.py`), read and evaluated there anew: the FMU is seen from outside Rust alone, and what one
-//! of the two gets wrong the other does not believe. The lab checks its own cases with what stands here (`lab/src/cases.rs`).
+//! of the two gets wrong the other does not believe. The studies checks its own cases with what stands here (`crates/studies/src/cases.rs`).
 //!
 //! `FLEXBODY_CASE=name` checks only the cases whose folder has `name` in its name.
 

@@ -4,7 +4,6 @@ mod abi;
 mod bounds;
 mod cases;
 mod cases_runner;
-mod checkers;
 mod claims;
 mod dense;
 mod derivatives;
@@ -13,13 +12,13 @@ mod elements;
 mod equilibria;
 mod examples;
 mod hostile_scenes;
-mod house;
 mod laws;
 mod order;
 mod planner;
 mod scenes;
 mod selection;
 mod steps;
+mod tidy;
 
 use std::path::{Path, PathBuf};
 

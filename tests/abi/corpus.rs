@@ -1,15 +1,15 @@
 //! What fuzzing has kept, put through the same checks without sanitizers.
 
-#[path = "../../fuzz/inputs/calls.rs"]
+#[path = "../../crates/fuzz/inputs/calls.rs"]
 mod calls;
-#[path = "../../fuzz/inputs/scene.rs"]
+#[path = "../../crates/fuzz/inputs/scene.rs"]
 mod scene;
-#[path = "../../fuzz/inputs/state.rs"]
+#[path = "../../crates/fuzz/inputs/state.rs"]
 mod state;
 
 /// Puts every stored input of a kind through, in the order of their names.
 fn replayed(kind: &str, put_through: fn(&[u8])) {
-    let folder = crate::root().join("fuzz/corpus").join(kind);
+    let folder = crate::root().join("crates/fuzz/corpus").join(kind);
     let entries = std::fs::read_dir(folder).expect("a folder of inputs");
     let mut files: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
     files.sort();

@@ -10,7 +10,7 @@ mod parallelogram;
 mod random;
 mod resources;
 mod runs;
-#[path = "../../fuzz/inputs/saved.rs"]
+#[path = "../../crates/fuzz/inputs/saved.rs"]
 pub mod saved;
 mod states;
 mod steps;

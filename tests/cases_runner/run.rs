@@ -1,6 +1,6 @@
 //! A scene in simulation, driven the way the tests of the packaged FMU drive theirs.
 //!
-//! What takes the steps is given: the product, or a method of the lab whose states the product reads.
+//! What takes the steps is given: the product, or a method of the studies whose states the product reads.
 
 use std::fs;
 use std::path::Path;

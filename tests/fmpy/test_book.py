@@ -162,7 +162,7 @@ def units(tmp_path_factory):
     shutil.copytree(TUTORIAL / "files", folder, dirs_exist_ok=True)
     for name in ("pendulum", "crane"):
         package(folder / f"{name}.json", folder / f"{name}.fmu")
-    xtask("partners", "--output", folder / "partners")
+    xtask("example-fmus", "--output", folder / "partners")
     return folder
 
 

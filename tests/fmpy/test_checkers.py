@@ -1,6 +1,6 @@
 """Every checker on the FMU of every scene, and on planted faults: a checker that notices nothing proves nothing.
 
-The XSDs, fmpy and our own rules here; fmi-rs on the same scenes and faults in `tests/checkers/`.
+The XSDs, fmpy and our own rules here; fmi-rs on the same scenes and faults in `crates/fmi-rs-checker/`.
 """
 
 import json

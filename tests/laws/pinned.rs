@@ -1,5 +1,5 @@
 //! A pinned beam falls as one piece: connectivity and identity inertia hold to roundoff. What the report's
-//! Eqs. 23-34 do as printed is tested in the lab.
+//! Eqs. 23-34 do as printed is tested in the studies.
 
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};

@@ -22,7 +22,7 @@ class Systems:
     def __init__(self, folder):
         self.folder = folder
         self.partners = folder / "partners"
-        xtask("partners", "--output", self.partners)
+        xtask("example-fmus", "--output", self.partners)
         self.fmus = {}
         self.ends = {}
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use packing::shown;
+use fmu_package::shown;
 
 use crate::cargo::rustc;
 use crate::process::stdout;

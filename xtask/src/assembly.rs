@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use packing::shown;
+use fmu_package::shown;
 
 /// Functions that are a single instruction each, by their place in the standard library.
 const INSTRUCTIONS: &str = "core_arch";

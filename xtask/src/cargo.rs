@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use packing::{Platform, Stage};
+use fmu_package::{Platform, Stage};
 use serde_json::Value;
 
 use crate::anonymous;
@@ -13,7 +13,7 @@ use crate::package::PACKAGE;
 use crate::process;
 
 /// The package of the program `flexbody`.
-pub const PROGRAM: &str = "flexbody-program";
+pub const PROGRAM: &str = "flexbody-cli";
 /// The package that links the library of FMUs.
 const LIBRARY: &str = "flexbody-fmu";
 

@@ -3,7 +3,7 @@
 use std::process::Stdio;
 
 use anyhow::{Result, bail};
-use packing::{prepared, shown};
+use fmu_package::{prepared, shown};
 
 use crate::cargo::Workspace;
 use crate::process::run;

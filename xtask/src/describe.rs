@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use packing::{content, prepared, shown, write_whole};
+use fmu_package::{content, prepared, shown, write_whole};
 
 use crate::cargo::Workspace;
 use crate::package::PACKAGE;

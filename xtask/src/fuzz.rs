@@ -1,4 +1,4 @@
-//! Fuzzing in `cargo xtask test`: a short run of every target in `fuzz/`, and a thousand instances under
+//! Fuzzing in `cargo xtask test`: a short run of every target in `crates/fuzz/`, and a thousand instances under
 //! AddressSanitizer.
 
 use std::collections::BTreeSet;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 use anyhow::{Context, Result, bail};
-use packing::{prepared, shown};
+use fmu_package::{prepared, shown};
 use serde_json::Value;
 
 use crate::cargo::{Workspace, executables};
@@ -72,7 +72,7 @@ pub fn test(workspace: &Workspace) -> Result<bool> {
     Ok(true)
 }
 
-/// Builds all programs of `fuzz/` with sanitizers.
+/// Builds all programs of `crates/fuzz/` with sanitizers.
 fn build(workspace: &Workspace) -> Result<Vec<PathBuf>> {
     let host = process::stdout(Command::new("rustc").arg("-vV"))?;
     let host = host.lines().find_map(|line| line.strip_prefix("host: "));
@@ -84,7 +84,7 @@ fn build(workspace: &Workspace) -> Result<Vec<PathBuf>> {
             host.context("rustc names no host")?,
         ])
         .arg("--manifest-path")
-        .arg(workspace.path("fuzz/Cargo.toml"))
+        .arg(workspace.path("crates/fuzz/Cargo.toml"))
         .arg("--target-dir")
         .arg(workspace.target("fuzz"))
         .env("RUSTFLAGS", FLAGS.join(" "))
@@ -113,7 +113,7 @@ fn start(
     std::fs::create_dir_all(&found)
         .with_context(|| format!("cannot create the folder {}", shown(&found)))?;
     program.arg(found);
-    program.arg(workspace.path(&format!("fuzz/corpus/{target}")));
+    program.arg(workspace.path(&format!("crates/fuzz/corpus/{target}")));
     if target == "state" {
         program.arg(workspace.target(STATES));
     }

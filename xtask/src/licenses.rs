@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
-use packing::{Content, LICENSES, Platform, prepared, shown, write_whole};
+use fmu_package::{Content, LICENSES, Platform, prepared, shown, write_whole};
 use serde_json::Value;
 
 use crate::cargo::{Workspace, release, rustc};

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use packing::{Platform, prepared, shown, write_whole};
+use fmu_package::{Platform, prepared, shown, write_whole};
 
 use crate::cargo::{Workspace, rustc};
 use crate::exports;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use packing::Platform;
+use fmu_package::Platform;
 
 mod anonymous;
 mod assembly;
@@ -13,12 +13,12 @@ mod cargo;
 mod chart;
 mod demo;
 mod describe;
+mod example_fmus;
 mod exports;
 mod fuzz;
 mod licenses;
 mod linker;
 mod package;
-mod partners;
 mod passed;
 mod process;
 mod product;
@@ -96,8 +96,8 @@ enum Command {
         draw: bool,
     },
     /// Makes the FMUs that others are coupled with in tests: mass, spring, controller, cylinder
-    Partners {
-        /// Where to write [default: target/fmu/partners]
+    ExampleFmus {
+        /// Where to write [default: target/fmu/examples]
         #[arg(long, value_name = "FOLDER")]
         output: Option<PathBuf>,
     },
@@ -155,7 +155,9 @@ fn main() -> ExitCode {
         Command::Describe => describe::regenerate(&workspace),
         Command::ViewBundle => view_bundle::regenerate(&workspace),
         Command::Chart { charts, draw } => chart::chart(&workspace, &charts, !draw),
-        Command::Partners { output } => partners::partners(&workspace, output.as_deref()),
+        Command::ExampleFmus { output } => {
+            example_fmus::example_fmus(&workspace, output.as_deref())
+        }
         Command::Test { words, all } => test::test(&workspace, &words, all),
     });
     match result {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use packing::{BINARIES, Platform, prepared, shown};
+use fmu_package::{BINARIES, Platform, prepared, shown};
 
 use crate::cargo::Workspace;
 use crate::process::run;

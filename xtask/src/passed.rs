@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use packing::shown;
+use fmu_package::shown;
 use sha2::{Digest, Sha256};
 
 use crate::cargo::Workspace;

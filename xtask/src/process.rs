@@ -5,7 +5,7 @@ use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
-use packing::shown;
+use fmu_package::shown;
 
 /// Runs a command whose output the user sees.
 pub fn run(command: &mut Command) -> Result<()> {

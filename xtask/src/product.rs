@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result};
-use packing::{PARTS, Platform, Stage, prepared, shown, write_whole};
+use fmu_package::{PARTS, Platform, Stage, prepared, shown, write_whole};
 
 use crate::cargo::Workspace;
 use crate::licenses;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use packing::{announced, shown};
+use fmu_package::{announced, shown};
 
 use crate::cargo::Workspace;
 use crate::process::run_quietly;
@@ -14,7 +14,7 @@ use crate::process::run_quietly;
 /// The pinned packages of tests and pictures, and their folder among the products.
 const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");
 /// The same of the programs that charts compare the product with; apart, so that no check needs them.
-const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
+const PEERS: (&str, &str) = ("crates/studies/exudyn/requirements.txt", "python-peers");
 /// The same of the masters that tests couple FMUs in; apart, so that a picture needs none of them.
 const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
 /// What the Python package needs, and what makes its models; apart, so that no picture needs a cluster.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
-use packing::{SCENE, prepared, shown};
+use fmu_package::{SCENE, prepared, shown};
 
 use crate::cargo::Workspace;
 use crate::package::{PACKAGE, check_readable};
@@ -125,7 +125,7 @@ fn simulated(command: &mut Command, file: &Path) -> Result<()> {
 /// scene that it holds. False where it holds none.
 fn draws_scene(workspace: &Workspace, arguments: &Arguments, shapes: &Path) -> Result<bool> {
     let fmu = &arguments.file;
-    if !packing::read(fmu)?.contains_key(SCENE) {
+    if !fmu_package::read(fmu)?.contains_key(SCENE) {
         return Ok(false);
     }
     let mut command = native(workspace, fmu, Some(shapes))?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-use packing::shown;
+use fmu_package::shown;
 
 /// A table of numbers with named columns.
 pub struct Table {

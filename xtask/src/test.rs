@@ -4,7 +4,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
-use packing::{Platform, shown};
+use fmu_package::{Platform, shown};
 
 use crate::cargo::{Workspace, release};
 use crate::package::PACKAGE;
@@ -67,21 +67,21 @@ const CHECKS: [Check; 13] = [
         folders: &[
             "src/fmi",
             "src/fmi2",
-            "fmu",
-            "partners",
+            "crates/fmu",
+            "crates/example-fmus",
             "examples",
             "tests/masters",
         ],
         run: master_tests,
     },
     Check {
-        name: "studies of the lab",
-        folders: &["lab"],
+        name: "studies",
+        folders: &["crates/studies"],
         run: |workspace, _| studies(workspace),
     },
     Check {
         name: "fuzzing",
-        folders: &["src/fmi", "src/fmi2", "src/scene", "fuzz"],
+        folders: &["src/fmi", "src/fmi2", "src/scene", "crates/fuzz"],
         run: |workspace, _| fuzzing(workspace),
     },
 ];
@@ -224,7 +224,13 @@ fn rust_tests(workspace: &Workspace) -> Result<Outcome> {
 /// The library is compiled well for tests that simulate, and quickly for those of its parts.
 fn native_tests(workspace: &Workspace) -> Result<()> {
     let mut whole = workspace.cargo("test");
-    run(whole.args(["--workspace", "--exclude", "lab", "--exclude", "flexbody"]))?;
+    run(whole.args([
+        "--workspace",
+        "--exclude",
+        "studies",
+        "--exclude",
+        "flexbody",
+    ]))?;
     let mut parts = workspace.cargo("test");
     run(parts.args(["--profile", "parts", "--package", "flexbody"]))
 }
@@ -262,7 +268,7 @@ fn browser_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
 }
 
 fn studies(workspace: &Workspace) -> Result<Outcome> {
-    run(workspace.cargo("test").args(["--package", "lab"])).map(passed)
+    run(workspace.cargo("test").args(["--package", "studies"])).map(passed)
 }
 
 fn fuzzing(workspace: &Workspace) -> Result<Outcome> {

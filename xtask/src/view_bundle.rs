@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use packing::{announced, prepared, shown};
+use fmu_package::{announced, prepared, shown};
 
 use crate::cargo::Workspace;
 use crate::process::{run, run_quietly};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use packing::{Platform, shown};
+use fmu_package::{Platform, shown};
 
 use crate::cargo::{PROGRAM, Workspace};
 use crate::licenses;

@@ -1,4 +1,4 @@
-"""Writes chain.csv and arm.csv by Pinocchio 4.1.0, and prints how far MuJoCo 4.0.0 is from them (needs what lab/exudyn/requirements.txt
+"""Writes chain.csv and arm.csv by Pinocchio 4.1.0, and prints how far MuJoCo 4.0.0 is from them (needs what crates/studies/exudyn/requirements.txt
 lists, and g++): both in joint angles, one by articulated bodies, the other by a factored inertia matrix, with Runge-Kutta steps of 1/16000 s.
 """
 
@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).parent
-sys.path.insert(0, str(HERE.parents[2] / "lab" / "trees"))
+sys.path.insert(0, str(HERE.parents[2] / "crates" / "studies" / "trees"))
 
 import run  # noqa: E402
 

@@ -58,12 +58,12 @@ fn marked(mut scene: Value) -> Value {
     scene
 }
 
-/// The report's equations in the lab.
+/// The report's equations in the studies.
 fn as_printed(bench: &Bench, scene: &Value, elements: u32) -> Result<Moved> {
     let options = format!(
         "swing --formulation as_printed --consistent --elements {elements} --stop-time {STOP_TIME} --every {STEP}"
     );
-    let report = bench.lab(&options.split(' ').collect::<Vec<_>>(), Some(scene))?;
+    let report = bench.studies(&options.split(' ').collect::<Vec<_>>(), Some(scene))?;
     Ok(Moved {
         gap: numbers(&report["middle"])?,
         pin: numbers(&report["pins"])?,

@@ -1,4 +1,4 @@
-//! Runs of the `flexbody` program and of the lab: what to simulate, its outputs, what it took.
+//! Runs of the `flexbody` program and of the studies: what to simulate, its outputs, what it took.
 
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
@@ -6,8 +6,8 @@ use std::process::Command;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
+use fmu_package::{bar, prepared, shown};
 use indicatif::ProgressBar;
-use packing::{bar, prepared, shown};
 use serde_json::{Value, json};
 
 use crate::cargo::Workspace;
@@ -25,7 +25,7 @@ pub struct Bench<'a> {
     workspace: &'a Workspace,
     program: PathBuf,
     /// Built where a chart asks for it: it takes as long as the product.
-    lab: OnceCell<PathBuf>,
+    studies: OnceCell<PathBuf>,
 }
 
 /// One simulation.
@@ -62,8 +62,8 @@ pub struct Planned {
 #[derive(Clone)]
 enum By {
     Product,
-    Lab,
-    /// A program that understands the options of `lab integrate`.
+    Studies,
+    /// A program that understands the options of `studies integrate`.
     Other(PathBuf),
 }
 
@@ -118,9 +118,9 @@ impl Run {
         self
     }
 
-    /// By the lab with these options, or by another program that understands them.
+    /// By the program of the studies with these options, or by another program that understands them.
     pub fn by_lab(mut self, options: &[(&str, String)], other: Option<&Path>) -> Self {
-        self.by = other.map_or(By::Lab, |program| By::Other(program.to_owned()));
+        self.by = other.map_or(By::Studies, |program| By::Other(program.to_owned()));
         let add = |run: Self, (name, value): &(&str, String)| run.option(name, value.clone());
         options.iter().fold(self, add)
     }
@@ -158,18 +158,18 @@ impl<'a> Bench<'a> {
     pub fn new(workspace: &'a Workspace) -> Result<Self> {
         Ok(Self {
             program: workspace.program(PACKAGE)?,
-            lab: OnceCell::new(),
+            studies: OnceCell::new(),
             workspace,
         })
     }
 
-    /// The lab.
-    fn lab_program(&self) -> Result<&PathBuf> {
-        if let Some(built) = self.lab.get() {
+    /// The program of the studies.
+    fn studies_program(&self) -> Result<&PathBuf> {
+        if let Some(built) = self.studies.get() {
             return Ok(built);
         }
-        let built = self.workspace.program("lab")?;
-        Ok(self.lab.get_or_init(|| built))
+        let built = self.workspace.program("studies")?;
+        Ok(self.studies.get_or_init(|| built))
     }
 
     /// The program, built for release.
@@ -273,20 +273,20 @@ impl<'a> Bench<'a> {
         Ok(outcomes)
     }
 
-    /// Runs a measurement of the lab, its name followed by options, on a scene if it has none of its own, and returns its report.
-    pub fn lab(&self, measurement: &[&str], scene: Option<&Value>) -> Result<Value> {
+    /// Runs a measurement of the studies, its name followed by options, on a scene if it has none of its own, and returns its report.
+    pub fn studies(&self, measurement: &[&str], scene: Option<&Value>) -> Result<Value> {
         let file = scene.map(|scene| self.write(scene)).transpose()?;
         let report = stdout(
-            Command::new(self.lab_program()?)
+            Command::new(self.studies_program()?)
                 .args(measurement)
                 .args(file),
         )?;
-        serde_json::from_str(&report).context("the report of the lab is no JSON")
+        serde_json::from_str(&report).context("the report of the studies is no JSON")
     }
 
-    /// Runs a measurement of the lab that prints CSV, the file of the chart of the same name.
+    /// Runs a measurement of the studies that prints CSV, the file of the chart of the same name.
     pub fn lab_table(&self, chart: &str) -> Result<()> {
-        let table = stdout(Command::new(self.lab_program()?).arg(chart))?;
+        let table = stdout(Command::new(self.studies_program()?).arg(chart))?;
         let path = prepared(&self.output(&format!("{chart}.csv")))?;
         std::fs::write(&path, table).with_context(|| format!("cannot write {}", shown(&path)))
     }
@@ -296,7 +296,7 @@ impl<'a> Bench<'a> {
         let (scene, outputs, report) = (self.write(&run.scene)?, file("run.csv"), file("run.json"));
         let (program, command, every) = match &run.by {
             By::Product => (&self.program, Some("simulate"), "--step"),
-            By::Lab => (self.lab_program()?, Some("integrate"), "--every"),
+            By::Studies => (self.studies_program()?, Some("integrate"), "--every"),
             By::Other(program) => (program, None, "--every"),
         };
         let mut call = Command::new(program);

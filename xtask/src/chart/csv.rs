@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use packing::{prepared, shown};
+use fmu_package::{prepared, shown};
 
 use super::bench::Bench;
 

@@ -6,9 +6,9 @@ use super::bench::Bench;
 use super::csv::Csv;
 use super::numbers::text;
 
-/// Measures, by the lab.
+/// Measures, by the studies.
 pub fn measure(bench: &Bench) -> Result<()> {
-    let report = bench.lab(&["failures"], None)?;
+    let report = bench.studies(&["failures"], None)?;
     let mut csv = Csv::new(bench, "failures", "place,method,failing,product,test");
     for row in report.as_array().context("expected a list of rows")? {
         let [place, method, failing, product, test] =

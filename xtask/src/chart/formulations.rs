@@ -7,7 +7,7 @@ use super::bench::{Bench, progress_bar};
 use super::csv::Csv;
 use super::numbers::{largest_distance, medians, path};
 
-/// Names of the lab.
+/// Names of the studies.
 const KINDS: &str = "as_printed qr_dense qr_applied cholesky product assembled augmented";
 const COUNTS: [u32; 8] = [5, 10, 20, 50, 100, 200, 500, 1000];
 const MESHES: [u32; 5] = [5, 10, 20, 40, 80];
@@ -69,7 +69,7 @@ fn reports(
             for (kind, reports) in &mut reports {
                 let count = count.to_string();
                 let own = [measurement, "--formulation", kind, "--elements", &count];
-                reports[at].push(bench.lab(&[&own, options].concat(), Some(&scene))?);
+                reports[at].push(bench.studies(&[&own, options].concat(), Some(&scene))?);
                 bar.inc(1);
             }
         }

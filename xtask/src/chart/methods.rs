@@ -1,4 +1,4 @@
-//! Integrators: error in time alone against CPU time, those of the product and those of the lab.
+//! Integrators: error in time alone against CPU time, those of the product and those of the studies.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::csv::Csv;
 use super::numbers::{largest_distance, number, text};
 
 /// Scenes, references, and steps and tolerances of all points.
-const SETTINGS: &str = "lab/methods.json";
+const SETTINGS: &str = "crates/studies/methods.json";
 /// Rounds of timed runs; runs that take longer than `LONG` s run once.
 const ROUNDS: usize = 3;
 const LONG: f64 = 0.4;
@@ -34,7 +34,7 @@ pub fn measure(bench: &Bench) -> Result<()> {
     let settings = bench.json(SETTINGS)?;
     let with_diffsol = settings.to_string().contains("\"diffsol\"");
     let workspace = bench.workspace();
-    let diffsol = || workspace.program_apart("lab/diffsol", "lab-diffsol");
+    let diffsol = || workspace.program_apart("crates/studies/diffsol", "studies-diffsol");
     let diffsol = with_diffsol.then(diffsol).transpose()?;
     let header = "scene,method,step_s,tolerance,error,cpu_time_s,left_out";
     let mut csv = Csv::new(bench, "methods", header);

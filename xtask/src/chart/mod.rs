@@ -89,7 +89,7 @@ pub fn chart(workspace: &Workspace, names: &[String], is_measured: bool) -> Resu
     .context("the charts were not drawn")?;
     println!(
         "wrote {}",
-        packing::shown(&workspace.path("docs/charts/README.md"))
+        fmu_package::shown(&workspace.path("docs/charts/README.md"))
     );
     Ok(())
 }

@@ -9,7 +9,7 @@ use super::bench::Bench;
 use super::csv::Csv;
 use super::numbers::number;
 
-/// Parts of the lab's report with their times.
+/// Parts of the studies's report with their times.
 const PARTS: [(&str, &str); 3] = [
     ("start", "instantiate set_up enter exit first_step whole"),
     ("step", "solver step exchange outside"),
@@ -26,7 +26,7 @@ pub fn measure(bench: &Bench) -> Result<()> {
     let header = format!("body,{},bytes", names.join(","));
     let mut csv = Csv::new(bench, "overhead", &header);
     for elements in [0, 1, 10, 100, 1000] {
-        let report = bench.lab(&["overhead"], Some(&scene(&cable, elements)))?;
+        let report = bench.studies(&["overhead"], Some(&scene(&cable, elements)))?;
         let body = match elements {
             0 => "rigid".to_owned(),
             count => count.to_string(),

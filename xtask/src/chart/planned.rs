@@ -9,7 +9,7 @@ use super::numbers::{number, text};
 /// Errors that are wanted.
 pub const ERRORS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// Scenes of the chart `peers`, with what is measured there.
-pub const SETTINGS: &str = "lab/exudyn/settings.json";
+pub const SETTINGS: &str = "crates/studies/exudyn/settings.json";
 const PEERS: &str = "soft_pendulum steel_pendulum flying_spaghetti spin_up slider_crank catenary";
 
 /// A scene to plan.

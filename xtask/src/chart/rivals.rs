@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use super::bench::Bench;
 
-/// Measures, by the lab, which writes the table itself.
+/// Measures, by the studies, which writes the table itself.
 pub fn measure(bench: &Bench) -> Result<()> {
     bench.lab_table("rivals")
 }

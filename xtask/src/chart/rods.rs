@@ -13,14 +13,14 @@ use super::peers::{described, options};
 use super::server::{ELASTICA, EXUDYN, Server};
 use crate::table::Table;
 
-/// Scenes with what Exudyn does best there and its converged answers, made by `lab/exudyn/rods.py`.
-const SETTINGS: &str = "lab/exudyn/rods.json";
+/// Scenes with what Exudyn does best there and its converged answers, made by `crates/studies/exudyn/rods.py`.
+const SETTINGS: &str = "crates/studies/exudyn/rods.json";
 /// Rounds of timed runs after the first.
 const ROUNDS: usize = 2;
 /// The product's meshes and tolerances.
 const MESHES: [u32; 6] = [2, 4, 8, 12, 17, 32];
 const TOLERANCES: [f64; 2] = [1e-3, 1e-4];
-/// Its elements, in which `lab/exudyn/space.py` has the same section.
+/// Its elements, in which `crates/studies/exudyn/space.py` has the same section.
 const MODELS: [&str; 2] = ["rod", "beam"];
 /// Shear factors of beams, as those of Exudyn.
 const SHEAR: [f64; 2] = [5.0 / 6.0; 2];

@@ -12,11 +12,11 @@ use crate::python::Python;
 use super::numbers::{Path, number, path};
 
 /// Exudyn for scenes of the plane, and of rods in space.
-pub const EXUDYN: &str = "lab/exudyn/run.py";
+pub const EXUDYN: &str = "crates/studies/exudyn/run.py";
 /// PyElastica for one clamped rod.
-pub const ELASTICA: &str = "lab/exudyn/elastica_rod.py";
+pub const ELASTICA: &str = "crates/studies/exudyn/elastica_rod.py";
 /// MuJoCo, Pinocchio and Exudyn for trees in space.
-pub const TREES: &str = "lab/trees/run.py";
+pub const TREES: &str = "crates/studies/trees/run.py";
 
 /// The running program.
 pub struct Server {

@@ -7,7 +7,7 @@ use super::bench::{Bench, progress_bar};
 use super::csv::Csv;
 use super::numbers::{Path, distance, largest_distance, medians, number, path};
 
-/// Names of the lab.
+/// Names of the studies.
 const KINDS: &str =
     "cubic cubic_graded cubic_mass cubic_mass_bending quintic quintic_mass spline3 spline4";
 /// Meshes and slenderness of the elastica.
@@ -82,7 +82,8 @@ fn elastica(bench: &Bench, csv: &mut Csv) -> Result<()> {
         for kind in KINDS.split(' ') {
             for count in STILL {
                 let options = format!("bend --element {kind} --elements {count} --force {force}");
-                let report = bench.lab(&options.split(' ').collect::<Vec<_>>(), Some(&scene))?;
+                let report =
+                    bench.studies(&options.split(' ').collect::<Vec<_>>(), Some(&scene))?;
                 let error = distance([number(&report["x"])?, number(&report["y"])?], exact);
                 let size = number(&report["coordinates"])?;
                 csv.row(&[
@@ -107,7 +108,7 @@ fn run(bench: &Bench, moving: &Moving, kind: &str, elements: u32) -> Result<Valu
     let count = elements.to_string();
     let mut options = vec!["space", "--element", kind, "--elements", &count];
     options.extend(["--stop-time", moving.stop_time, "--every", moving.every]);
-    bench.lab(&options, Some(&scene))
+    bench.studies(&options, Some(&scene))
 }
 
 /// All kinds on all meshes, by turns; CPU times are medians.

@@ -4,7 +4,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use packing::Platform;
+use fmu_package::Platform;
 
 use super::bench::Bench;
 use super::csv::Csv;
@@ -69,7 +69,8 @@ pub fn measure(bench: &Bench) -> Result<()> {
                     timed(command)?
                 }
                 _ => {
-                    let mut command = usual.script(&bench.workspace().path("lab/simulate_loop.py"));
+                    let mut command =
+                        usual.script(&bench.workspace().path("crates/studies/simulate_loop.py"));
                     command.arg(&fmu).arg(name);
                     let numbers = [first, last, *runs as f64, STOP_TIME, STEP];
                     let printed = stdout(command.args(numbers.map(|number| number.to_string())))?;

@@ -298,7 +298,7 @@ impl Tree {
                 times.push(number(&answer["cpu_time"])?);
                 found.push(numbers(&answer["acceleration"])?);
             }
-            let report = bench.lab(&["dynamics"], Some(&self.scene))?;
+            let report = bench.studies(&["dynamics"], Some(&self.scene))?;
             times[2].push(number(&report["acceleration"])?);
         }
         let pairs = found[0].iter().zip(&found[1]);

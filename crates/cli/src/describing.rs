@@ -1,0 +1,60 @@
+//! `flexbody describe`: what the FMU of a scene holds besides the library.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use flexbody::fmi2;
+use flexbody::simulation::{Simulation, check};
+use fmu_package::{prepared, shown};
+
+use crate::icon;
+use crate::planning::{Within, planned};
+use crate::reading::at;
+use crate::viewing;
+
+/// Which scene, and where to write.
+#[derive(clap::Args)]
+pub struct Describe {
+    /// Scene file.
+    scene: PathBuf,
+    /// Directory to write into; made if it does not exist.
+    #[arg(long)]
+    output: PathBuf,
+    /// Leaves the default experiment in motion out of the documentation.
+    #[arg(long)]
+    no_animation: bool,
+    #[command(flatten)]
+    within: Within,
+}
+
+/// Describes as the user asks for it.
+pub fn run(arguments: &Describe) -> Result<()> {
+    let is_moving = !arguments.no_animation;
+    describe(
+        &arguments.scene,
+        &arguments.output,
+        is_moving,
+        &arguments.within,
+    )
+    .map(drop)
+}
+
+/// Writes everything that an FMU of a scene holds besides libraries and licenses, and returns the scene's name.
+pub fn describe(place: &Path, output: &Path, is_moving: bool, within: &Within) -> Result<String> {
+    let (scene, planned) = planned(place, within)?;
+    // What contradicts itself, or has no start, is told here, not by the first master that runs it.
+    check(&scene).map_err(|error| at(place, error))?;
+    let start = Simulation::new(scene.clone()).initialize(0.0);
+    start.map_err(|error| at(place, format!("start values: {error}")))?;
+    let motion = match is_moving {
+        true => viewing::motion(place, &scene)?,
+        false => String::new(),
+    };
+    for (name, text) in fmi2::describe(&scene, &planned, &motion) {
+        let path = prepared(&output.join(name))?;
+        std::fs::write(&path, text).with_context(|| format!("cannot write {}", shown(&path)))?;
+    }
+    let documentation = output.join("documentation");
+    icon::render(&documentation.join("scene.svg"), &output.join("model.png"))?;
+    Ok(scene.name)
+}
