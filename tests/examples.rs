@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Redundant, Simulation};
+use flexbody::simulation::{RedundantNames, Simulation};
 
 /// Communication steps of one example at most: examples are short.
 const STEPS: u32 = 400;
@@ -77,7 +77,7 @@ fn run(path: &Path) -> Result<(), String> {
         check_finite(&mut simulation)?;
     }
     let redundant = simulation.redundant();
-    if redundant != Redundant::default() {
+    if redundant != RedundantNames::default() {
         return Err(format!("holds what others hold already: {redundant:?}"));
     }
     let mut warnings = Vec::new();

@@ -1,7 +1,7 @@
 //! What a scene may not say, and how it is told: the place, what was expected, what was found.
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Redundant, Simulation, courses};
+use flexbody::simulation::{RedundantNames, Simulation, courses};
 use serde_json::{Value, json};
 
 const SCENE: &str = include_str!("../scenes/cantilever.json");
@@ -296,7 +296,7 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
             rejected += simulation.report().rejected;
         }
     }
-    assert_eq!(simulation.redundant(), Redundant::default());
+    assert_eq!(simulation.redundant(), RedundantNames::default());
     assert_eq!(simulation.next_singular(), None);
     for index in 0..simulation.variables().len() {
         let variable = &simulation.variables()[index];

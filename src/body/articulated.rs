@@ -15,7 +15,7 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Vector3};
 
 use super::connectivity::Node;
-use super::frame::{Axes, Frame, combined};
+use super::frame::{Axes, RigidBodyFrame, combined};
 
 /// Part of the product of their sizes that turns which a joint holds must span.
 const SPAN: f64 = 1e-3;
@@ -56,7 +56,7 @@ impl Twist {
 
 /// Inertia against turns and shifts of a point: moment `J w + H v`, force `H^T w + M v`.
 #[derive(Clone, Copy, Debug, Default)]
-struct Inertia {
+struct SpatialInertia {
     j: Matrix3<f64>,
     h: Matrix3<f64>,
     m: Matrix3<f64>,
@@ -76,9 +76,9 @@ fn crossed(r: &Vector3<f64>, m: &Matrix3<f64>) -> Matrix3<f64> {
     Matrix3::from_columns(&[column(0), column(1), column(2)].map(Vector3::from))
 }
 
-impl Inertia {
+impl SpatialInertia {
     /// That of a body about its centre of mass.
-    fn of(frame: &Frame, axes: &Axes) -> Self {
+    fn of(frame: &RigidBodyFrame, axes: &Axes) -> Self {
         let mut j = Matrix3::zeros();
         for (axis, moment) in axes.iter().zip(frame.moments) {
             j += axis * (axis * moment).transpose();
@@ -142,12 +142,12 @@ struct Free {
 
 /// A body in the elimination.
 #[derive(Clone, Debug, Default)]
-struct Part {
+struct TreeBody {
     axes: Axes,
     /// From the centre of mass to the point that is held, of the body and of its parent, m.
     arms: [Vector3<f64>; 2],
     /// About the point that is held, with what hangs on the body.
-    inertia: Inertia,
+    inertia: SpatialInertia,
     /// Of the solution under way: forces, what the joint asks for, accelerations of the centre of mass.
     force: Twist,
     asked: Twist,
@@ -158,7 +158,7 @@ struct Part {
 #[derive(Clone, Debug, Default)]
 pub struct Articulated {
     links: Vec<Link>,
-    parts: Vec<Part>,
+    parts: Vec<TreeBody>,
     free: Vec<Free>,
     /// Free ways of every link.
     ways: Vec<Range<usize>>,
@@ -180,7 +180,7 @@ impl Articulated {
             (count, turns) = (count + free, turns + link.turns.len());
         }
         Self {
-            parts: vec![Part::default(); links.len()],
+            parts: vec![TreeBody::default(); links.len()],
             free: vec![Free::default(); count],
             ways,
             normals: vec![Vector3::zeros(); turns],
@@ -198,13 +198,13 @@ impl Articulated {
     /// False where turns that a joint holds depend on each other.
     pub fn factor<const D: usize>(
         &mut self,
-        frames: &[Frame],
+        frames: &[RigidBodyFrame],
         x: &[Node<D>],
         mut normal: impl FnMut(usize, &Link) -> Vector3<f64>,
     ) -> bool {
         for (part, link) in self.parts.iter_mut().zip(&self.links) {
             part.axes = frames[link.frame].axes(x);
-            part.inertia = Inertia::of(&frames[link.frame], &part.axes);
+            part.inertia = SpatialInertia::of(&frames[link.frame], &part.axes);
         }
         for index in (0..self.links.len()).rev() {
             let link = &self.links[index];
@@ -303,7 +303,7 @@ impl Articulated {
     /// how much more the point of the body than that of the parent is to have.
     pub fn bring(
         &mut self,
-        frames: &[Frame],
+        frames: &[RigidBodyFrame],
         turn: impl Fn(usize) -> f64,
         shift: impl Fn(usize) -> [f64; 3],
         q: &mut [f64],
@@ -340,7 +340,7 @@ impl Articulated {
     }
 
     /// Forces that would keep bodies from what `q` says.
-    fn take(&mut self, frames: &[Frame], q: &[f64]) {
+    fn take(&mut self, frames: &[RigidBodyFrame], q: &[f64]) {
         for (part, link) in self.parts.iter_mut().zip(&self.links) {
             let frame = &frames[link.frame];
             let (at, scale) = link.center;
@@ -375,7 +375,7 @@ impl Articulated {
     }
 
     /// Accelerations as `q` has them.
-    fn put(&self, frames: &[Frame], q: &mut [f64]) {
+    fn put(&self, frames: &[RigidBodyFrame], q: &mut [f64]) {
         for (part, link) in self.parts.iter().zip(&self.links) {
             let Twist { turn, shift } = part.acceleration;
             let (at, scale) = link.center;

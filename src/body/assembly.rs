@@ -3,8 +3,10 @@
 
 use std::ops::Range;
 
-use super::connectivity::{Cluster, Dependent, Node, Row, clusters, no_node};
-use super::layout::{Entry, Held, Run, Tied, alone, components, entries, held, runs, vertices};
+use super::connectivity::{Cluster, ConnectivityRow, Dependent, Node, clusters, no_node};
+use super::layout::{
+    Entry, FreeRange, MultiplierConstraint, Tied, alone, components, entries, held, runs, vertices,
+};
 use crate::math::sparse::{Cholesky, General, Matrix, Number, Pattern, Reach, Slot};
 
 /// A matrix over two nodes: by vector and axis of the one, then of the other.
@@ -17,7 +19,7 @@ pub const fn no_block<const D: usize>() -> NodeBlock<D> {
 
 /// Where the coordinates of a node are.
 #[derive(Clone, Copy, Debug)]
-enum Place {
+enum NodeCoordinates {
     /// They are free: from here on in `y`.
     Alone(usize),
     /// They follow from those of a cluster: its index, first row of its basis.
@@ -42,11 +44,11 @@ pub struct Assembly<const D: usize = 2> {
     pattern: Pattern,
     /// That of the mass, over the free coordinates alone and in the same order.
     of_mass: Pattern,
-    runs: Vec<Run>,
-    held: Vec<Held>,
+    runs: Vec<FreeRange>,
+    held: Vec<MultiplierConstraint>,
     /// Parts of the free coordinates without links between them.
     components: Vec<Range<usize>>,
-    places: Vec<Place>,
+    places: Vec<NodeCoordinates>,
     /// Runs of nodes that are alone, with the place of the first; and those that are tied.
     alone: Vec<(Range<usize>, usize)>,
     tied: Vec<usize>,
@@ -65,7 +67,7 @@ pub struct Assembly<const D: usize = 2> {
 
 impl<const D: usize> Assembly<D> {
     /// For nodes under these rows. Also says which rows depend on others.
-    pub fn new(nodes: usize, rows: &[Row<D>], links: &Links) -> (Self, Vec<Dependent>) {
+    pub fn new(nodes: usize, rows: &[ConnectivityRow<D>], links: &Links) -> (Self, Vec<Dependent>) {
         let (clusters, dependent) = clusters(nodes, rows);
         let mut tied: Vec<Tied> = vec![None; nodes];
         for (index, cluster) in clusters.iter().enumerate() {
@@ -80,32 +82,32 @@ impl<const D: usize> Assembly<D> {
         let held = held(&links.held, &vertices, first);
         let mut edges = mass_edges.clone();
         edges.extend(links.stiffness.iter().map(edge));
-        edges.extend(held.iter().flat_map(Held::edges));
+        edges.extend(held.iter().flat_map(MultiplierConstraint::edges));
         let of_multipliers = links.held.iter().map(|(_, count)| *count);
         let all: Vec<usize> = sizes.iter().copied().chain(of_multipliers).collect();
         let pattern = Pattern::with_multipliers(&all, &edges, first);
         let of_mass = pattern.of_part(&sizes, &mass_edges);
         let place = |node: usize| match tied[node] {
-            None => Place::Alone(of_mass.range(vertices[node]).start),
-            Some((index, row)) => Place::Tied(index, row),
+            None => NodeCoordinates::Alone(of_mass.range(vertices[node]).start),
+            Some((index, row)) => NodeCoordinates::Tied(index, row),
         };
-        let places: Vec<Place> = (0..nodes).map(place).collect();
+        let places: Vec<NodeCoordinates> = (0..nodes).map(place).collect();
         let free = places.iter().map(|place| match place {
-            Place::Alone(start) => Some(*start),
-            Place::Tied(..) => None,
+            NodeCoordinates::Alone(start) => Some(*start),
+            NodeCoordinates::Tied(..) => None,
         });
         let alone = alone(free, 2 * D);
         let slot = |a: usize, b: usize| pattern.slot(vertices[a], vertices[b]);
         let next = (0..nodes.saturating_sub(1))
             .map(|node| match (places[node], places[node + 1]) {
-                (Place::Alone(_), Place::Alone(_)) => slot(node, node + 1),
+                (NodeCoordinates::Alone(_), NodeCoordinates::Alone(_)) => slot(node, node + 1),
                 _ => None,
             })
             .collect();
         let diagonal = (0..nodes)
             .map(|node| match places[node] {
-                Place::Alone(_) => slot(node, node),
-                Place::Tied(..) => None,
+                NodeCoordinates::Alone(_) => slot(node, node),
+                NodeCoordinates::Tied(..) => None,
             })
             .collect();
         let range = |v: &Option<usize>| v.map_or(0..0, |v| of_mass.range(v));
@@ -165,7 +167,7 @@ impl<const D: usize> Assembly<D> {
 
     /// Free coordinates, side by side, and where they stand in vectors that matrices are applied to.
     pub fn runs(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
-        self.runs.iter().map(|Run { free, start }| {
+        self.runs.iter().map(|FreeRange { free, start }| {
             let at = *start..*start + free.len();
             (free.clone(), at)
         })
@@ -178,13 +180,13 @@ impl<const D: usize> Assembly<D> {
 
     /// Where the multiplier of a constraint stands in vectors that matrices are applied to.
     pub fn multiplier(&self, constraint: usize) -> usize {
-        let Held { vertex, row, .. } = self.held[constraint];
+        let MultiplierConstraint { vertex, row, .. } = self.held[constraint];
         self.pattern.range(vertex).start + row
     }
 
     /// Adds a number where the multiplier of a constraint meets itself in a matrix.
     pub fn add_corner(&self, constraint: usize, value: f64, matrix: &mut Matrix<f64>) {
-        let Held { vertex, row, .. } = self.held[constraint];
+        let MultiplierConstraint { vertex, row, .. } = self.held[constraint];
         if let Some(slot) = self.pattern.slot(vertex, vertex) {
             matrix.values[slot.entry(row, row)] += value;
         }
@@ -217,7 +219,7 @@ impl<const D: usize> Assembly<D> {
         term: &Node<D>,
         matrix: &mut Matrix<f64>,
     ) {
-        let Held { vertex, row, .. } = self.held[constraint];
+        let MultiplierConstraint { vertex, row, .. } = self.held[constraint];
         let Some(slot) = self.pattern.slot(vertex, self.vertices[node]) else {
             return;
         };
@@ -306,11 +308,11 @@ impl<const D: usize> Assembly<D> {
     pub fn restrict_node(&self, node: usize, f: &Node<D>, y: &mut [f64]) {
         let f = f.as_flattened();
         match self.places[node] {
-            Place::Alone(start) => {
+            NodeCoordinates::Alone(start) => {
                 let y = &mut y[start..];
                 y.iter_mut().zip(f).for_each(|(y, f)| *y += f);
             }
-            Place::Tied(..) => {
+            NodeCoordinates::Tied(..) => {
                 for entry in &self.entries[self.of_node[node].clone()] {
                     y[entry.free] += entry.value * f[entry.coordinate];
                 }
@@ -353,7 +355,7 @@ impl<const D: usize> Assembly<D> {
     /// [`Self::add`] where nodes are tied to others or do not follow each other.
     #[inline(never)]
     fn add_apart(&self, a: usize, b: usize, block: &NodeBlock<D>, matrix: &mut Matrix<f64>) {
-        let alone = |node: usize| matches!(self.places[node], Place::Alone(_));
+        let alone = |node: usize| matches!(self.places[node], NodeCoordinates::Alone(_));
         if !(alone(a) && alone(b)) {
             return self.add_tied(a, b, block, matrix);
         }
@@ -400,8 +402,8 @@ impl<const D: usize> Assembly<D> {
     #[inline(always)]
     fn each_entry(&self, node: usize, mut call: impl FnMut(usize, usize, f64)) {
         match self.places[node] {
-            Place::Alone(_) => (0..2 * D).for_each(|k| call(k, k, 1.0)),
-            Place::Tied(index, _) => {
+            NodeCoordinates::Alone(_) => (0..2 * D).for_each(|k| call(k, k, 1.0)),
+            NodeCoordinates::Tied(index, _) => {
                 let start = self.ranges[index].start;
                 for entry in &self.entries[self.of_node[node].clone()] {
                     call(entry.free - start, entry.coordinate, entry.value);
@@ -447,8 +449,10 @@ impl<const D: usize> Assembly<D> {
     /// How much coordinate `row` of a node moves with the free coordinate `column` of its vertex.
     fn weight(&self, node: usize, row: usize, column: usize) -> f64 {
         match self.places[node] {
-            Place::Alone(_) => f64::from(u8::from(row == column)),
-            Place::Tied(index, first) => self.clusters[index].basis[(first + row, column)],
+            NodeCoordinates::Alone(_) => f64::from(u8::from(row == column)),
+            NodeCoordinates::Tied(index, first) => {
+                self.clusters[index].basis[(first + row, column)]
+            }
         }
     }
 }

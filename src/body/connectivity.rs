@@ -70,7 +70,7 @@ pub const RANK_TOLERANCE: f64 = 1e-10;
 
 /// A linear constraint `sum over terms of coefficients . x = c`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row<const D: usize = 2> {
+pub struct ConnectivityRow<const D: usize = 2> {
     /// Nodes and their coefficients.
     pub terms: Vec<(usize, Node<D>)>,
     /// Whether `c` changes in time.
@@ -101,7 +101,7 @@ pub struct Cluster {
 }
 
 /// With how many nodes each is tied together, itself among them.
-pub fn tied_with<const D: usize>(nodes: usize, rows: &[&Row<D>]) -> Vec<usize> {
+pub fn tied_with<const D: usize>(nodes: usize, rows: &[&ConnectivityRow<D>]) -> Vec<usize> {
     let mut groups = Groups::of_rows(nodes, rows.iter().copied());
     let mut sizes = vec![0; nodes];
     (0..nodes).for_each(|node| sizes[groups.find(node)] += 1);
@@ -111,7 +111,10 @@ pub fn tied_with<const D: usize>(nodes: usize, rows: &[&Row<D>]) -> Vec<usize> {
 /// Ties nodes together.
 ///
 /// Returns the clusters, and rows that depend on others.
-pub fn clusters<const D: usize>(nodes: usize, rows: &[Row<D>]) -> (Vec<Cluster>, Vec<Dependent>) {
+pub fn clusters<const D: usize>(
+    nodes: usize,
+    rows: &[ConnectivityRow<D>],
+) -> (Vec<Cluster>, Vec<Dependent>) {
     let mut groups = Groups::of_rows(nodes, rows.iter());
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); nodes];
     let mut tied = vec![false; nodes];
@@ -140,7 +143,7 @@ pub fn clusters<const D: usize>(nodes: usize, rows: &[Row<D>]) -> (Vec<Cluster>,
 fn factor<const D: usize>(
     nodes: Vec<usize>,
     own: &[usize],
-    rows: &[Row<D>],
+    rows: &[ConnectivityRow<D>],
     dependent: &mut Vec<Dependent>,
 ) -> Cluster {
     let size = nodes.len() * 2 * D;
@@ -256,7 +259,10 @@ impl Groups {
         Self((0..count).collect())
     }
 
-    fn of_rows<'a, const D: usize>(nodes: usize, rows: impl Iterator<Item = &'a Row<D>>) -> Self {
+    fn of_rows<'a, const D: usize>(
+        nodes: usize,
+        rows: impl Iterator<Item = &'a ConnectivityRow<D>>,
+    ) -> Self {
         let mut groups = Self::new(nodes);
         for pair in rows.flat_map(|row| row.terms.windows(2)) {
             groups.join(pair[0].0, pair[1].0);

@@ -32,7 +32,7 @@ use crate::math::space::{Vector, components, is_nothing, vector};
 
 pub use section_frame::{Derivative, SectionFrame, SectionFrameState};
 pub use tangent::turning_block;
-pub use turn::Turn;
+pub use turn::RotationIncrement;
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
 pub const RENEWED: f64 = 0.5;
@@ -42,7 +42,7 @@ pub type Axes<N = f64> = [Vector3<N>; 3];
 
 /// A rigid body of space.
 #[derive(Clone, Debug)]
-pub struct Frame {
+pub struct RigidBodyFrame {
     /// Its first node; the second one follows.
     pub node: usize,
     /// Mass, kg.
@@ -91,7 +91,7 @@ fn set_axes_at<const D: usize, N: Number>(node: usize, axes: &Axes<N>, x: &mut [
     x[node + 1] = [b, c];
 }
 
-impl Frame {
+impl RigidBodyFrame {
     /// Its axes, or their rates where `x` holds rates.
     pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         axes_at(self.node, x)
@@ -214,24 +214,24 @@ pub enum NodeKind {
     Inner,
 }
 
-/// Stands for no frame in [`Frames::of_node`].
+/// Stands for no frame in [`RotationMaps::of_node`].
 const NO_FRAME: usize = usize::MAX;
 
 /// The rigid bodies of a system in space, and the frames that its rods carry; none in the plane, so that what is asked of them
 /// there is nothing when it is compiled (`D == 2`).
 #[derive(Clone, Debug, Default)]
-pub struct Frames {
-    list: Vec<Frame>,
+pub struct RotationMaps {
+    list: Vec<RigidBodyFrame>,
     carried: Vec<SectionFrame>,
     /// For every node its body, or after those its carried frame, and whether it is the second node of that.
     of_node: Vec<Option<(usize, bool)>>,
 }
 
-impl Frames {
+impl RotationMaps {
     /// For these bodies and carried frames, among so many nodes, of which these are inside elements, and these hold directions of
     /// planar sections.
     pub fn new(
-        list: Vec<Frame>,
+        list: Vec<RigidBodyFrame>,
         carried: Vec<SectionFrame>,
         nodes: (
             usize,
@@ -262,12 +262,12 @@ impl Frames {
     }
 
     /// The bodies.
-    pub fn list(&self) -> &[Frame] {
+    pub fn list(&self) -> &[RigidBodyFrame] {
         &self.list
     }
 
     /// The bodies, to be changed.
-    pub fn list_mut(&mut self) -> &mut [Frame] {
+    pub fn list_mut(&mut self) -> &mut [RigidBodyFrame] {
         &mut self.list
     }
 
@@ -278,7 +278,7 @@ impl Frames {
 
     /// The body that a node belongs to, and whether it is its second node.
     #[inline(always)]
-    pub fn of_node<const D: usize>(&self, node: usize) -> Option<(&Frame, bool)> {
+    pub fn of_node<const D: usize>(&self, node: usize) -> Option<(&RigidBodyFrame, bool)> {
         if D == 2 || self.list.is_empty() {
             return None;
         }
@@ -299,7 +299,7 @@ impl Frames {
     pub fn place<const D: usize>(
         &self,
         from: &[Quaternion],
-        (turns, carries): (&mut [Turn], &mut [SectionFrameState]),
+        (turns, carries): (&mut [RotationIncrement], &mut [SectionFrameState]),
         x: &mut [Node<D>],
     ) {
         if D == 2 {
@@ -316,7 +316,7 @@ impl Frames {
     pub fn place_rates<const D: usize>(
         &self,
         x: &[Node<D>],
-        (turns, carries): (&mut [Turn], &mut [SectionFrameState]),
+        (turns, carries): (&mut [RotationIncrement], &mut [SectionFrameState]),
         v: &mut [Node<D>],
     ) {
         if D == 2 {
@@ -413,7 +413,7 @@ impl Frames {
         }
         self.pull_carried(x, f);
         for frame in &self.list {
-            let mut moment = Frame::moment(&frame.axes(x), &frame.axes(f));
+            let mut moment = RigidBodyFrame::moment(&frame.axes(x), &frame.axes(f));
             if let Some(v) = v {
                 moment += frame.gyroscopic(&frame.spin(x, v));
             }

@@ -24,7 +24,7 @@ const ROUNDOFF: f64 = 1e-13;
 /// Sparse rows over `q`.
 #[derive(Clone, Debug)]
 pub struct SparseRows {
-    pieces: Vec<Piece>,
+    pieces: Vec<RowSegment>,
     /// Pieces of every row.
     of_row: Vec<Range<usize>>,
     values: Vec<f64>,
@@ -32,7 +32,7 @@ pub struct SparseRows {
 
 /// Numbers of a row that stand side by side.
 #[derive(Clone, Debug)]
-struct Piece {
+struct RowSegment {
     coordinates: Range<usize>,
     at: usize,
 }
@@ -43,7 +43,7 @@ impl SparseRows {
         for reach in reaches {
             let first = pieces.len();
             for range in &reach.variables {
-                pieces.push(Piece {
+                pieces.push(RowSegment {
                     coordinates: range.clone(),
                     at,
                 });
@@ -158,7 +158,7 @@ impl Jacobian {
         let reaches: Vec<Reach> = constraints.iter().map(|c| elimination.reach(*c)).collect();
         let rows = SparseRows::new(&reaches);
         let meetings = meetings(&rows);
-        let blocks = Blocks::new(elimination, constraints);
+        let blocks = RowBlocks::new(elimination, constraints);
         let edge = |(i, j): (usize, usize)| (blocks.of_row[i].0, blocks.of_row[j].0);
         let edges: Vec<(usize, usize)> = meetings.iter().map(|(rows, _, _)| edge(*rows)).collect();
         let pattern = Pattern::new(&blocks.sizes, &edges);
@@ -322,13 +322,13 @@ impl Jacobian {
 }
 
 /// Rows in blocks: those that hold the same bodies, and with them those that hold one of these bodies alone.
-struct Blocks {
+struct RowBlocks {
     /// Block of every row and place in it.
     of_row: Vec<(usize, usize)>,
     sizes: Vec<usize>,
 }
 
-impl Blocks {
+impl RowBlocks {
     fn new<const D: usize>(elimination: &Elimination<D>, constraints: &[usize]) -> Self {
         let held = |row: usize| elimination.assembly.held(constraints[row]);
         let mut shared: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
@@ -377,13 +377,13 @@ fn add_products(overlaps: &[Overlap], rows: &[f64], entries: &mut [f64]) {
 
 /// Where two rows, the earlier one second, have numbers at the same coordinates.
 fn meetings(rows: &SparseRows) -> Vec<((usize, usize), [usize; 2], usize)> {
-    let mut pieces: Vec<(usize, &Piece)> = Vec::new();
+    let mut pieces: Vec<(usize, &RowSegment)> = Vec::new();
     for (row, range) in rows.of_row.iter().enumerate() {
         pieces.extend(rows.pieces[range.clone()].iter().map(|piece| (row, piece)));
     }
     pieces.sort_by_key(|(row, piece)| (piece.coordinates.start, *row));
     let mut meetings = Vec::new();
-    let mut open: Vec<(usize, &Piece)> = Vec::new();
+    let mut open: Vec<(usize, &RowSegment)> = Vec::new();
     for (row, piece) in pieces {
         let start = piece.coordinates.start;
         open.retain(|(_, other)| other.coordinates.end > start);

@@ -4,11 +4,11 @@
 use std::ops::Range;
 
 use super::connectivity::Cluster;
-use crate::math::sparse::{Component, Pattern};
+use crate::math::sparse::{GraphComponent, Pattern};
 
 /// A constraint with a multiplier.
 #[derive(Clone, Debug)]
-pub(super) struct Held {
+pub(super) struct MultiplierConstraint {
     /// Vertex of its multiplier and place among those of this vertex.
     pub vertex: usize,
     pub row: usize,
@@ -27,7 +27,7 @@ pub(super) struct Entry {
     pub value: f64,
 }
 
-impl Held {
+impl MultiplierConstraint {
     pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
         self.on.iter().map(|v| (self.vertex, *v))
     }
@@ -35,7 +35,7 @@ impl Held {
 
 /// Numbers that stand side by side in vectors of free coordinates and in those of matrices.
 #[derive(Clone, Debug)]
-pub(super) struct Run {
+pub(super) struct FreeRange {
     pub free: Range<usize>,
     pub start: usize,
 }
@@ -62,13 +62,17 @@ pub(super) fn alone(
 }
 
 /// Constraints one by one; vertices of their multipliers are counted on from `first`.
-pub(super) fn held(held: &[(Vec<usize>, usize)], vertices: &[usize], first: usize) -> Vec<Held> {
+pub(super) fn held(
+    held: &[(Vec<usize>, usize)],
+    vertices: &[usize],
+    first: usize,
+) -> Vec<MultiplierConstraint> {
     let mut constraints = Vec::new();
     for (index, (nodes, count)) in held.iter().enumerate() {
         let mut on: Vec<usize> = nodes.iter().map(|node| vertices[*node]).collect();
         on.sort_unstable();
         on.dedup();
-        constraints.extend((0..*count).map(|row| Held {
+        constraints.extend((0..*count).map(|row| MultiplierConstraint {
             vertex: first + index,
             row,
             on: on.clone(),
@@ -78,14 +82,14 @@ pub(super) fn held(held: &[(Vec<usize>, usize)], vertices: &[usize], first: usiz
 }
 
 /// Where the free coordinates stand between multipliers.
-pub(super) fn runs(pattern: &Pattern, of_mass: &Pattern) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+pub(super) fn runs(pattern: &Pattern, of_mass: &Pattern) -> Vec<FreeRange> {
+    let mut runs: Vec<FreeRange> = Vec::new();
     for v in of_mass.order() {
         let (free, start) = (of_mass.range(*v), pattern.range(*v).start);
         match runs.last_mut() {
             _ if free.is_empty() => {}
             Some(run) if run.start + run.free.len() == start => run.free.end = free.end,
-            _ => runs.push(Run { free, start }),
+            _ => runs.push(FreeRange { free, start }),
         }
     }
     runs
@@ -94,7 +98,7 @@ pub(super) fn runs(pattern: &Pattern, of_mass: &Pattern) -> Vec<Run> {
 /// The free coordinates of every component of a pattern; vertices with sizes are no multipliers.
 pub(super) fn components(pattern: &Pattern, sizes: &[usize]) -> Vec<Range<usize>> {
     let mut start = 0;
-    let range = |component: &Component| {
+    let range = |component: &GraphComponent| {
         let vertices = pattern.order()[component.vertices.clone()].iter();
         let size: usize = vertices.filter_map(|v| sizes.get(*v)).sum();
         start += size;

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, Vector3};
 
 use super::Chain;
-use super::connectivity::{Node, Row, add_node};
+use super::connectivity::{ConnectivityRow, Node, add_node};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular, perpendicular_matrix};
@@ -159,7 +159,7 @@ impl Marker {
         &self,
         position: Vector<D>,
         direction: Vector<D>,
-        row: &mut Row<D>,
+        row: &mut ConnectivityRow<D>,
     ) {
         for (node, part) in self.forces(position, direction) {
             match row.terms.iter_mut().find(|(other, _)| *other == node) {

@@ -18,13 +18,13 @@ pub use articulated::{Articulated, Link};
 pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use chain::Chain;
 pub use connectivity::{
-    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, carried_node, largest_turn, map_node,
-    no_node, product, tied_with,
+    Cluster, ConnectivityRow, Dependent, Node, RANK_TOLERANCE, add_node, carried_node,
+    largest_turn, map_node, no_node, product, tied_with,
 };
 pub use elimination::Elimination;
 pub use frame::{
-    Axes, Derivative, Frame, Frames, NodeKind, RENEWED, SectionFrame, SectionFrameState, Turn,
-    axes_at, combined, spin_at, turned, turning_block,
+    Axes, Derivative, NodeKind, RENEWED, RigidBodyFrame, RotationIncrement, RotationMaps,
+    SectionFrame, SectionFrameState, axes_at, combined, spin_at, turned, turning_block,
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};

@@ -15,10 +15,10 @@ use nalgebra::Vector3;
 
 use super::assembly::{NodeBlock, no_block};
 use super::connectivity::{Node, no_node};
-use super::frame::{Frames, SectionFrame, axes_at, combined};
+use super::frame::{RotationMaps, SectionFrame, axes_at, combined};
 use super::marker::Marker;
 use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
-use crate::elements::section::{Section, SpinInertia};
+use crate::elements::section::{SectionElement, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
 use lanes::{Packed, packs};
@@ -51,7 +51,7 @@ const MOST_TWIST: f64 = 3.0;
 pub struct RodChain {
     packs: Vec<Packed>,
     /// Its elements, each with its inertia against spins at its ends and the rates inside, kg m^2.
-    elements: Vec<(Section, SpinInertia)>,
+    elements: Vec<(SectionElement, SpinInertia)>,
     /// Which components of spins, moments and internal coordinates there are: the first of a rod, all of a beam, the second of one in the
     /// plane, where the internal coordinate is the angle of the section in the middle of the element.
     parts: Range<usize>,
@@ -70,7 +70,7 @@ impl RodChain {
     /// Along the line from node `line` on, whose nodes those of its frames follow and then those inside its elements; each element with its
     /// inertia against spins. So many frames are carried before its own.
     pub fn new<const D: usize>(
-        elements: Vec<(Section, SpinInertia)>,
+        elements: Vec<(SectionElement, SpinInertia)>,
         line: usize,
         carried: usize,
     ) -> Self {
@@ -158,7 +158,7 @@ impl RodChain {
     }
 
     /// Element `j`.
-    pub fn element(&self, j: usize) -> &Section {
+    pub fn element(&self, j: usize) -> &SectionElement {
         &self.elements[j].0
     }
 
@@ -198,7 +198,7 @@ impl RodChain {
         &self,
         j: usize,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> Rates<N> {
         let [a, fa, b, fb, inner] = self.nodes(j);
         let spin = |k: usize, node: usize| match D {
@@ -213,7 +213,7 @@ impl RodChain {
     }
 
     /// Its carried frame at a node.
-    fn frame<'a>(&self, k: usize, frames: &'a Frames) -> &'a SectionFrame {
+    fn frame<'a>(&self, k: usize, frames: &'a RotationMaps) -> &'a SectionFrame {
         &frames.carried()[self.carried + k]
     }
 
@@ -221,7 +221,7 @@ impl RodChain {
     pub fn add_force_of<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
         (force, moments): (&mut [Node<D, N>], &mut [[N; 3]]),
     ) -> N {
         let mut sum = N::of(0.0);
@@ -265,7 +265,7 @@ impl RodChain {
     pub fn dissipation<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> N {
         let mut sum = N::of(0.0);
         for (j, (section, _)) in self.elements.iter().enumerate() {

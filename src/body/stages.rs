@@ -27,7 +27,7 @@ use super::connectivity::{Cluster, Node, no_node};
 use super::elimination::Elimination;
 use crate::math::space::axis;
 use crate::math::sparse::{Matrix, Pattern};
-use sections::Sections;
+use sections::StageSections;
 
 /// Most stages: one real and one complex system.
 pub const STAGES: usize = 3;
@@ -44,7 +44,7 @@ pub struct Stages<const D: usize> {
     /// Whether nodes belong to cables.
     elastic: Vec<bool>,
     /// Beams turn with these.
-    sections: Sections,
+    sections: StageSections,
     floating: Vec<Floating>,
 }
 
@@ -95,7 +95,7 @@ impl<const D: usize> Stages<D> {
             floating: floating::<D>(elimination, grounded, still),
             knots: knots(&elimination.assembly, elastic),
             elastic: elastic.to_vec(),
-            sections: Sections::new(sections),
+            sections: StageSections::new(sections),
             nodes: vec![no_node(); nodes],
             base: directions(),
             turned: [directions(), directions(), directions()],

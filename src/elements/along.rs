@@ -6,12 +6,12 @@
 /// A number along an element: a polynomial of degree 4 in `xi` in [0, 1], as second moments of area are where a section
 /// changes its size linearly.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Along {
+pub struct ElementPolynomial {
     /// Forward differences of the values at `xi` = 0, 1/4, 1/2, 3/4, 1.
     differences: [f64; 5],
 }
 
-impl From<f64> for Along {
+impl From<f64> for ElementPolynomial {
     fn from(value: f64) -> Self {
         Self {
             differences: [value, 0.0, 0.0, 0.0, 0.0],
@@ -19,7 +19,7 @@ impl From<f64> for Along {
     }
 }
 
-impl Along {
+impl ElementPolynomial {
     /// The polynomial through the values of a function of `xi` at five even places.
     pub fn through(of: impl Fn(f64) -> f64) -> Self {
         let mut differences = [0.0, 0.25, 0.5, 0.75, 1.0].map(of);
@@ -64,13 +64,13 @@ mod tests {
     #[test]
     fn goes_through_polynomials_of_degree_4() {
         let of = |x: f64| 2.0 - 3.0 * x + 0.5 * x * x - 4.0 * x.powi(3) + 1.5 * x.powi(4);
-        let along = Along::through(of);
+        let along = ElementPolynomial::through(of);
         for xi in [0.0, 0.1, 0.33, 0.5, 0.77, 1.0] {
             assert!((along.at(xi) - of(xi)).abs() < 1e-14);
         }
         let mean = 2.0 - 1.5 + 0.5 / 3.0 - 1.0 + 0.3;
         assert!((along.mean() - mean).abs() < 1e-15);
-        let same = Along::from(0.1);
+        let same = ElementPolynomial::from(0.1);
         assert_eq!(
             (same.at(0.3), same.mean(), same.is_uniform()),
             (0.1, 0.1, true)

@@ -4,7 +4,7 @@
 //! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eqs. 5 and 9, by the reference length.
 
 use crate::math::lanes::Real;
-use crate::math::quadrature::Point;
+use crate::math::quadrature::QuadraturePoint;
 
 /// Changes numbers one by one. No closures: they are not inlined everywhere, and then not compiled for
 /// the processor at hand.
@@ -28,7 +28,7 @@ macro_rules! of_rate {
     };
 }
 
-pub(super) type Vector<N, const D: usize> = [N; D];
+pub(super) type Components<N, const D: usize> = [N; D];
 
 /// Weights of the three vectors in `r'` and `l r''`.
 pub(super) type Combination = [f64; 3];
@@ -42,7 +42,7 @@ pub(super) struct Sample {
     pub curvature: Combination,
 }
 
-pub(super) const fn sample(point: Point) -> Sample {
+pub(super) const fn sample(point: QuadraturePoint) -> Sample {
     let at = point.at;
     let square = at * at;
     Sample {
@@ -60,8 +60,8 @@ pub(super) const fn sample(point: Point) -> Sample {
 #[inline(always)]
 pub(super) fn combine<N: Real, const D: usize>(
     weights: &Combination,
-    v: &[Vector<N, D>; 3],
-) -> Vector<N, D> {
+    v: &[Components<N, D>; 3],
+) -> Components<N, D> {
     // Ends of an element see one vector alone; known when compiling.
     match weights {
         [0.0, 1.0, 0.0] => v[1],

@@ -14,7 +14,7 @@ pub mod rod;
 pub mod section;
 pub mod shape;
 
-pub use along::Along;
+pub use along::ElementPolynomial;
 use nalgebra::{SMatrix, SVector};
 
 use crate::math::jet::Number;
@@ -43,7 +43,7 @@ pub type EndBlocks<N, const D: usize> = [[[[[N; D]; D]; 2]; 2]; 3];
 /// Strain measures. They agree only for small strains; the energy is half the integral of
 /// `EA axial^2 + EI bending^2` over the reference length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Strain {
+pub enum StrainMeasure {
     /// Axial `|r'| - 1`, bending: rotation per reference length (Gerstmayr & Irschik 2008).
     ThetaPrime,
     /// Axial `(r'.r' - 1) / 2`, bending: curvature of the deformed line (Berzeri & Shabana 2000).

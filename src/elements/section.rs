@@ -10,7 +10,7 @@ use super::beam::planar::{self, Planar};
 use super::beam::{self, At, Beam, Force, Rates};
 use super::rod::{self, Rod};
 use crate::math::lanes::Real;
-use crate::math::quadrature::{GAUSS_5, Point};
+use crate::math::quadrature::{GAUSS_5, QuadraturePoint};
 
 /// Inertia of an element against spins at its ends and the rates of its internal coordinates between them, kg m^2, in the order first end,
 /// inside, last end: blocks over the three components, of rods the first alone.
@@ -22,7 +22,7 @@ pub type SpinInertia = [[[[f64; 3]; 3]; 3]; 3];
 /// (docs/decisions/0050-beams-lean-on-rods.md).
 pub fn spin_inertia(length: f64, section: impl Fn(f64) -> Matrix3<f64>) -> SpinInertia {
     let mut inertia = SpinInertia::default();
-    for Point { at, weight } in GAUSS_5 {
+    for QuadraturePoint { at, weight } in GAUSS_5 {
         let shapes = [1.0 - at, 4.0 * at * (1.0 - at), at];
         let here = section(at) * (weight * length);
         for (row, a) in inertia.iter_mut().zip(shapes) {
@@ -52,7 +52,7 @@ pub fn planar_inertia(length: f64, section: impl Fn(f64) -> f64) -> SpinInertia 
 
 /// An element of a rod or of a beam.
 #[derive(Clone, Debug)]
-pub enum Section {
+pub enum SectionElement {
     /// Bending and torsion.
     Rod(Box<Rod>),
     /// Stretching, shear, bending and torsion.
@@ -106,7 +106,7 @@ fn of_rod<N: Real>(force: rod::Force<N>) -> Force<N> {
 /// Vectors at the points of [`GAUSS_5`].
 pub type Vectors<N> = [[N; 3]; GAUSS_5.len()];
 
-impl Section {
+impl SectionElement {
     /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam, 1 of one in the plane.
     pub fn turns(&self) -> usize {
         match self {
@@ -264,7 +264,7 @@ mod tests {
         At { e, axes, inner }
     }
 
-    fn elements() -> [(Section, bool); 2] {
+    fn elements() -> [(SectionElement, bool); 2] {
         let (length, one) = (0.9, Matrix3::<f64>::identity());
         let rod = rod::Parameters {
             length,
@@ -280,8 +280,8 @@ mod tests {
         let rod = Rod::new(rod, &rod_at(&bent(false)));
         let beam = Beam::new(beam, &bent(true));
         [
-            (Section::Rod(Box::new(rod)), false),
-            (Section::Beam(Box::new(beam)), true),
+            (SectionElement::Rod(Box::new(rod)), false),
+            (SectionElement::Beam(Box::new(beam)), true),
         ]
     }
 

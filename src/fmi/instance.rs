@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, UnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use super::guid::guid;
-use super::lifecycle::{Call, State};
+use super::lifecycle::{Call, InstanceState};
 use super::logger::{Category, Logger};
 use super::names::Names;
 use super::state::SavedState;
@@ -30,7 +30,7 @@ pub struct Instance {
     pub(super) names: &'static Names,
     pub(super) logger: Logger,
     pub(super) simulation: Simulation,
-    pub(super) state: State,
+    pub(super) state: InstanceState,
     /// What the variables of the last set call were set to before.
     pub(super) before: Vec<f64>,
     guid: String,
@@ -82,13 +82,13 @@ impl Instance {
                 for remark in remarks(scene).iter().chain(&scene.accuracy.notes) {
                     logger.log(Status::Warning, Category::Warning, format_args!("{remark}"));
                 }
-                State::Instantiated
+                InstanceState::Instantiated
             }
             None => {
                 let message =
                     format_args!("instantiated without resources: expecting a saved state");
                 logger.log(Status::Ok, Category::Warning, message);
-                State::Bare
+                InstanceState::Bare
             }
         };
         let simulation = simulation.unwrap_or_default();
@@ -114,7 +114,7 @@ impl Instance {
         call: Call,
         body: impl FnOnce(&mut Self) -> Result<(), Fault>,
     ) -> Status {
-        if self.state == State::Fatal {
+        if self.state == InstanceState::Fatal {
             return Status::Fatal;
         }
         let name = call.name;
@@ -132,7 +132,7 @@ impl Instance {
             }
             Err(panic) => {
                 // Nothing is known about the simulation any more.
-                self.state = State::Fatal;
+                self.state = InstanceState::Fatal;
                 let message = format_args!("{name}: defect of the library: {}", words(&*panic));
                 self.logger.log(Status::Fatal, Category::Error, message);
                 Status::Fatal
@@ -184,13 +184,13 @@ impl Instance {
     /// From here on values exist.
     pub fn enter_initialization_mode(&mut self) -> Result<(), Fault> {
         let outcome = self.simulation.initialize(self.start_time);
-        self.passed_on(outcome, State::Initialization)
+        self.passed_on(outcome, InstanceState::Initialization)
     }
 
     /// To the first communication point.
     pub fn exit_initialization_mode(&mut self) -> Result<(), Fault> {
         let outcome = self.simulation.start();
-        self.passed_on(outcome, State::StepComplete)?;
+        self.passed_on(outcome, InstanceState::StepComplete)?;
         let time = self.simulation.time();
         self.log_event(format_args!("initialized at time {time} s"));
         self.log_redundant();
@@ -228,15 +228,19 @@ impl Instance {
     fn passed_on(
         &mut self,
         outcome: Result<(), simulation::Error>,
-        next: State,
+        next: InstanceState,
     ) -> Result<(), Fault> {
-        self.state = if outcome.is_ok() { next } else { State::Error };
+        self.state = if outcome.is_ok() {
+            next
+        } else {
+            InstanceState::Error
+        };
         outcome.map_err(Fault::from)
     }
 
     /// To the end.
     pub fn terminate(&mut self) -> Result<(), Fault> {
-        self.state = State::Terminated;
+        self.state = InstanceState::Terminated;
         let time = self.simulation.time();
         self.log_event(format_args!("terminated at time {time} s"));
         Ok(())
@@ -245,7 +249,7 @@ impl Instance {
     /// Back to a life as new.
     pub fn reset(&mut self) -> Result<(), Fault> {
         self.simulation = Simulation::new(self.simulation.scene().clone());
-        self.state = State::Instantiated;
+        self.state = InstanceState::Instantiated;
         self.start_time = 0.0;
         self.stop_time = None;
         self.log_event(format_args!("reset"));
@@ -270,7 +274,7 @@ impl Instance {
         self.simulation
             .tell_warnings(|message| logger.log(Status::Warning, Category::Warning, message));
         outcome.map_err(|failure| {
-            self.state = State::StepFailed;
+            self.state = InstanceState::StepFailed;
             failure.into()
         })
     }
@@ -342,7 +346,7 @@ impl Instance {
             return Err(Fault::SavedState(reason));
         }
         let refused = |error: simulation::Error| Fault::SavedState(error.to_string());
-        if self.state == State::Bare {
+        if self.state == InstanceState::Bare {
             let mut simulation = self.simulation_of(saved)?;
             simulation.restore(&saved.snapshot).map_err(refused)?;
             self.scene = saved.scene.clone();
@@ -438,7 +442,9 @@ mod tests {
             name: "call",
             states,
         };
-        let panicked = instance.call(call(State::Instantiated as u8), |_| panic!("planted"));
+        let panicked = instance.call(call(InstanceState::Instantiated as u8), |_| {
+            panic!("planted")
+        });
         assert_eq!(panicked, Status::Fatal);
         for states in 0..=u8::MAX {
             let answer = instance.call(call(states), |_| {

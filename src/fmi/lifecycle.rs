@@ -6,7 +6,7 @@ use crate::simulation::Causality;
 /// State of an instance, one bit each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub enum State {
+pub enum InstanceState {
     /// Made, or reset: parameters are set here.
     Instantiated = 1,
     /// In initialization mode.
@@ -25,7 +25,7 @@ pub enum State {
     Fatal = 128,
 }
 
-impl State {
+impl InstanceState {
     /// All states.
     pub const ALL: [Self; 8] = [
         Self::Instantiated,
@@ -55,7 +55,7 @@ pub struct Call {
 
 impl Call {
     /// Whether the function may be called in `state`.
-    pub fn allowed_in(self, state: State) -> bool {
+    pub fn allowed_in(self, state: InstanceState) -> bool {
         self.states & state as u8 != 0
     }
 }
@@ -64,10 +64,10 @@ impl Call {
 /// table of FMI 2.0 leaves them out there, yet masters, FMPy among them, set their start
 /// values at that moment, and refusing would help nobody.
 pub fn settable_states(causality: Causality) -> u8 {
-    let before = State::Instantiated as u8 | State::Initialization as u8;
+    let before = InstanceState::Instantiated as u8 | InstanceState::Initialization as u8;
     match causality {
         Causality::Parameter => before,
-        Causality::Input => before | State::StepComplete as u8,
+        Causality::Input => before | InstanceState::StepComplete as u8,
         Causality::Independent | Causality::Output | Causality::CalculatedParameter => 0,
     }
 }
@@ -89,10 +89,10 @@ mod tests {
 
     #[test]
     fn a_state_survives_as_its_bit() {
-        for state in State::ALL {
-            assert_eq!(State::from_bit(state as u8), Some(state));
+        for state in InstanceState::ALL {
+            assert_eq!(InstanceState::from_bit(state as u8), Some(state));
         }
-        assert_eq!(State::from_bit(0), None);
-        assert_eq!(State::from_bit(3), None);
+        assert_eq!(InstanceState::from_bit(0), None);
+        assert_eq!(InstanceState::from_bit(3), None);
     }
 }

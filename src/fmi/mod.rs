@@ -18,7 +18,7 @@ mod values;
 pub(crate) mod xml;
 
 pub use guid::guid;
-pub use lifecycle::{Call, State};
+pub use lifecycle::{Call, InstanceState};
 pub use logger::Category;
 pub use status::Status;
 pub use terminals::terminals;
@@ -31,7 +31,7 @@ pub(crate) use lifecycle::settable_states;
 pub(crate) use logger::{Logger, Sink};
 pub(crate) use names::Names;
 pub(crate) use place::own_place;
-pub(crate) use resources::{Refusal, open};
+pub(crate) use resources::{NoSimulation, open};
 pub(crate) use state::SavedState;
 pub(crate) use status::Fault;
 

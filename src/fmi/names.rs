@@ -1,6 +1,6 @@
 //! What a version of the standard calls the things that messages speak of.
 
-use super::lifecycle::State;
+use super::lifecycle::InstanceState;
 
 /// Names in a version of the standard.
 pub struct Names {
@@ -17,5 +17,5 @@ pub struct Names {
     /// The type of integers.
     pub integer: &'static str,
     /// The states of an instance.
-    pub state: fn(State) -> &'static str,
+    pub state: fn(InstanceState) -> &'static str,
 }

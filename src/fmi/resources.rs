@@ -14,7 +14,7 @@ const MOST_BYTES: u64 = 1 << 26;
 
 /// Why a simulation could not be made.
 #[derive(Debug, thiserror::Error)]
-pub enum Refusal {
+pub enum NoSimulation {
     /// An argument that must be given.
     #[error("{0}: expected a text that is not empty")]
     Missing(&'static str),
@@ -52,17 +52,17 @@ pub enum Refusal {
 ///
 /// # Errors
 /// No scene, a bad one, or one that the token does not stand for.
-pub fn open(folder: &Path, names: &Names, token: &str) -> Result<Simulation, Refusal> {
+pub fn open(folder: &Path, names: &Names, token: &str) -> Result<Simulation, NoSimulation> {
     let path = folder.join("scene.json");
-    let text = text(&path).map_err(|error| Refusal::Unreadable {
+    let text = text(&path).map_err(|error| NoSimulation::Unreadable {
         path: path.clone(),
         error,
     })?;
-    let scene = Scene::from_json(&text).map_err(|error| Refusal::Scene { path, error })?;
+    let scene = Scene::from_json(&text).map_err(|error| NoSimulation::Scene { path, error })?;
     let simulation = Simulation::new(scene);
     let expected = guid(simulation.scene(), simulation.variables());
     if token != expected {
-        return Err(Refusal::Token {
+        return Err(NoSimulation::Token {
             argument: names.token,
             expected,
             found: token.into(),

@@ -38,7 +38,7 @@ pub struct SavedState {
     /// Its scene, JSON.
     pub scene: Arc<str>,
     /// Lifecycle state.
-    pub lifecycle: lifecycle::State,
+    pub lifecycle: lifecycle::InstanceState,
     /// Start time of the experiment.
     pub start_time: f64,
     /// Stop time of the experiment, where one is set.
@@ -117,7 +117,7 @@ impl SavedState {
     /// Bytes that are damaged, cut off, of another format or of another model.
     pub fn from_bytes(bytes: &[u8], guid: &str) -> Result<Self, Fault> {
         let body = checked(bytes, guid)?;
-        let mut reader = Reader(&body[8 + 4 + GUID_BYTES..]);
+        let mut reader = ByteReader(&body[8 + 4 + GUID_BYTES..]);
         let [mode, flags] = reader.take()?;
         let (lifecycle, initialized, started) = stage(mode, flags)?;
         let [start_time, stop, time, step, input, lost] = reader.numbers()?;
@@ -225,9 +225,9 @@ fn whole(rests: [&[f64]; 4]) -> Result<(), Fault> {
 }
 
 /// Where an instance stood: its lifecycle state, whether it was initialized, whether it was started.
-fn stage(mode: u8, flags: u8) -> Result<(lifecycle::State, bool, bool), Fault> {
-    let lifecycle = lifecycle::State::from_bit(mode)
-        .filter(|state| *state as u8 <= lifecycle::State::Error as u8 && flags < 2 * MOVING)
+fn stage(mode: u8, flags: u8) -> Result<(lifecycle::InstanceState, bool, bool), Fault> {
+    let lifecycle = lifecycle::InstanceState::from_bit(mode)
+        .filter(|state| *state as u8 <= lifecycle::InstanceState::Error as u8 && flags < 2 * MOVING)
         .ok_or_else(|| refused("names a lifecycle state that does not exist"))?;
     let (initialized, started) = (flags & INITIALIZED != 0, flags & STARTED != 0);
     if !fits_together(lifecycle, initialized, started) {
@@ -239,8 +239,8 @@ fn stage(mode: u8, flags: u8) -> Result<(lifecycle::State, bool, bool), Fault> {
 }
 
 /// Whether a simulation can be that far in a lifecycle state.
-fn fits_together(lifecycle: lifecycle::State, initialized: bool, started: bool) -> bool {
-    use lifecycle::State::*;
+fn fits_together(lifecycle: lifecycle::InstanceState, initialized: bool, started: bool) -> bool {
+    use lifecycle::InstanceState::*;
     match lifecycle {
         Instantiated | Initialization => !started,
         StepComplete | StepFailed | Terminated => initialized && started,
@@ -265,7 +265,7 @@ fn checked<'a>(bytes: &'a [u8], guid: &str) -> Result<&'a [u8], Fault> {
     if Sha256::digest(body)[..] != *hash {
         return Err(refused("is damaged or cut off: its checksum does not fit"));
     }
-    let mut reader = Reader(&body[MAGIC.len()..]);
+    let mut reader = ByteReader(&body[MAGIC.len()..]);
     let version = u32::from_le_bytes(reader.take()?);
     if version != VERSION {
         let reason = format!("expected format version {VERSION}, found {version}");
@@ -280,9 +280,9 @@ fn checked<'a>(bytes: &'a [u8], guid: &str) -> Result<&'a [u8], Fault> {
 }
 
 /// Reads from the front of a slice.
-struct Reader<'a>(&'a [u8]);
+struct ByteReader<'a>(&'a [u8]);
 
-impl Reader<'_> {
+impl ByteReader<'_> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], Fault> {
         let (head, tail) = self
             .0
@@ -344,7 +344,7 @@ mod tests {
         SavedState {
             guid: GUID.into(),
             scene: "{}".into(),
-            lifecycle: lifecycle::State::StepComplete,
+            lifecycle: lifecycle::InstanceState::StepComplete,
             start_time: -1.0,
             stop_time: Some(3.5),
             snapshot: Snapshot {

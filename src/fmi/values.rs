@@ -3,7 +3,7 @@
 use std::mem::MaybeUninit;
 
 use super::instance::Instance;
-use super::lifecycle::{State, rule, settable_states};
+use super::lifecycle::{InstanceState, rule, settable_states};
 use super::status::Fault;
 use crate::simulation::{Causality, Variable};
 
@@ -127,7 +127,7 @@ impl Instance {
         for reference in knowns.iter().chain(unknowns) {
             self.variable(*reference, self.names.real)?;
         }
-        if self.state == State::Initialization {
+        if self.state == InstanceState::Initialization {
             let indices = knowns.iter().map(|reference| *reference as usize);
             if self.simulation.start_follows(indices) {
                 return Err(Fault::NotNow(

@@ -25,7 +25,7 @@ use std::sync::atomic::{AtomicPtr, Ordering};
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
 use super::instantiation::{Request, instantiate};
-use super::lifecycle::Function;
+use super::lifecycle::InterfaceFunction;
 use crate::fmi::{
     Environment, Fault, Instance, Logger, SavedState, Sink, Status, guard, lent, lent_mut, place,
     saved, text,
@@ -172,7 +172,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> Status {
     // SAFETY: module contract, for all three.
     unsafe {
-        guard(c, Function::SetDebugLogging.call(), |instance| {
+        guard(c, InterfaceFunction::SetDebugLogging.call(), |instance| {
             let category = |data: &*const c_char| {
                 text("categories", *data)?.ok_or(Fault::Pointer("categories"))
             };
@@ -198,7 +198,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     let stop = (stopTimeDefined != 0).then_some(stopTime);
     let body = |instance: &mut Instance| instance.set_up_experiment(tolerance, startTime, stop);
     // SAFETY: module contract.
-    unsafe { guard(c, Function::SetupExperiment.call(), body) }
+    unsafe { guard(c, InterfaceFunction::SetupExperiment.call(), body) }
 }
 
 /// Functions that take nothing but the instance.
@@ -208,7 +208,7 @@ macro_rules! transitions {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(c: Component) -> Status {
             // SAFETY: module contract.
-            unsafe { guard(c, Function::$function.call(), $body) }
+            unsafe { guard(c, InterfaceFunction::$function.call(), $body) }
         }
     )*};
 }
@@ -236,7 +236,7 @@ macro_rules! accessors {
             // SAFETY: module contract, for both arrays and the instance.
             unsafe {
                 let (vr, value) = (lent("vr", vr, nvr), $lent("value", value, nvr));
-                guard(c, Function::$function.call(), |instance| body(instance, vr?, value?))
+                guard(c, InterfaceFunction::$function.call(), |instance| body(instance, vr?, value?))
             }
         }
     )*};
@@ -263,7 +263,7 @@ accessors! {
 pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
     // SAFETY: module contract; `*FMUstate` is NULL or a state of this library, which is reused.
     unsafe {
-        guard(c, Function::GetFMUstate.call(), |instance| {
+        guard(c, InterfaceFunction::GetFMUstate.call(), |instance| {
             let place = FMUstate.as_mut().ok_or(Fault::Pointer("FMUstate"))?;
             let state = instance.save();
             match place.cast::<SavedState>().as_mut() {
@@ -280,7 +280,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) 
 pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SetFMUstate.call(), |instance| {
+        guard(c, InterfaceFunction::SetFMUstate.call(), |instance| {
             instance.restore(saved("FMUstate", FMUstate)?)
         })
     }
@@ -291,7 +291,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> St
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
     // SAFETY: module contract; a state was made by `Box::into_raw`, and NULL takes its place.
     unsafe {
-        guard(c, Function::FreeFMUstate.call(), |_| {
+        guard(c, InterfaceFunction::FreeFMUstate.call(), |_| {
             if let Some(place) = FMUstate.as_mut()
                 && !place.is_null()
             {
@@ -312,7 +312,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SerializedFMUstateSize.call(), |_| {
+        guard(c, InterfaceFunction::SerializedFMUstateSize.call(), |_| {
             place("size", size)?.write(saved("FMUstate", FMUstate)?.size());
             Ok(())
         })
@@ -329,7 +329,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SerializeFMUstate.call(), |_| {
+        guard(c, InterfaceFunction::SerializeFMUstate.call(), |_| {
             let target = lent_mut("serializedState", serializedState.cast::<u8>(), size)?;
             saved("FMUstate", FMUstate)?.write_to(target)
         })
@@ -347,12 +347,16 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     // SAFETY: module contract. A state that `*FMUstate` already holds stays the master's to free:
     // the standard speaks of reuse only for `fmi2GetFMUstate`.
     unsafe {
-        guard(c, Function::DeSerializeFMUstate.call(), |instance| {
-            let place = place("FMUstate", FMUstate)?;
-            let bytes = lent("serializedState", serializedState.cast::<u8>(), size)?;
-            place.write(Box::into_raw(Box::new(instance.deserialize(bytes)?)).cast());
-            Ok(())
-        })
+        guard(
+            c,
+            InterfaceFunction::DeSerializeFMUstate.call(),
+            |instance| {
+                let place = place("FMUstate", FMUstate)?;
+                let bytes = lent("serializedState", serializedState.cast::<u8>(), size)?;
+                place.write(Box::into_raw(Box::new(instance.deserialize(bytes)?)).cast());
+                Ok(())
+            },
+        )
     }
 }
 
@@ -369,13 +373,17 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> Status {
     // SAFETY: module contract, for all arrays and the instance.
     unsafe {
-        guard(c, Function::GetDirectionalDerivative.call(), |instance| {
-            let unknowns = lent("vUnknown_ref", vUnknown_ref, nUnknown)?;
-            let knowns = lent("vKnown_ref", vKnown_ref, nKnown)?;
-            let seeds = lent("dvKnown", dvKnown, nKnown)?;
-            let changes = lent_mut("dvUnknown", dvUnknown, nUnknown)?;
-            instance.directional_derivative((knowns, seeds), unknowns, changes)
-        })
+        guard(
+            c,
+            InterfaceFunction::GetDirectionalDerivative.call(),
+            |instance| {
+                let unknowns = lent("vUnknown_ref", vUnknown_ref, nUnknown)?;
+                let knowns = lent("vKnown_ref", vKnown_ref, nKnown)?;
+                let seeds = lent("dvKnown", dvKnown, nKnown)?;
+                let changes = lent_mut("dvUnknown", dvUnknown, nUnknown)?;
+                instance.directional_derivative((knowns, seeds), unknowns, changes)
+            },
+        )
     }
 }
 
@@ -395,7 +403,7 @@ macro_rules! derivatives {
             unsafe {
                 let (vr, order) = (lent("vr", vr, nvr), lent("order", order, nvr));
                 let value = $lent("value", value, nvr);
-                guard(c, Function::$function.call(), |instance| $body(instance, vr?, order?, value?))
+                guard(c, InterfaceFunction::$function.call(), |instance| $body(instance, vr?, order?, value?))
             }
         }
     )*};
@@ -419,7 +427,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     let (current, step) = (currentCommunicationPoint, communicationStepSize);
     let body = |instance: &mut Instance| instance.do_step(current, step);
     // SAFETY: module contract.
-    unsafe { guard(c, Function::DoStep.call(), body) }
+    unsafe { guard(c, InterfaceFunction::DoStep.call(), body) }
 }
 
 /// Functions that ask for a status of one type.
@@ -431,7 +439,7 @@ macro_rules! statuses {
             let body: fn(&Instance, c_int) -> Option<$type> = $body;
             // SAFETY: module contract.
             unsafe {
-                guard(c, Function::$function.call(), |instance| {
+                guard(c, InterfaceFunction::$function.call(), |instance| {
                     let value = place("value", value)?;
                     value.write(body(instance, s).ok_or(NO_STATUS)?);
                     Ok(())

@@ -32,7 +32,7 @@ pub struct Request<'a> {
 
 /// Why an instance could not be made.
 #[derive(Debug, thiserror::Error)]
-enum Refusal {
+enum NoInstance {
     /// Model exchange.
     #[error("fmuType: expected fmi2CoSimulation, the only kind that this unit offers")]
     Kind,
@@ -41,7 +41,7 @@ enum Refusal {
     Location(#[from] LocationError),
     /// What any version refuses.
     #[error(transparent)]
-    Shared(#[from] fmi::Refusal),
+    Shared(#[from] fmi::NoSimulation),
 }
 
 /// The instance that is asked for. A refusal is logged even when logging is off.
@@ -50,15 +50,15 @@ pub fn instantiate(request: &Request<'_>, logger: Logger) -> Option<Instance> {
 }
 
 /// The simulation of the unit; nothing where a saved state will bring the scene.
-fn simulation(request: &Request<'_>) -> Result<Option<Simulation>, Refusal> {
+fn simulation(request: &Request<'_>) -> Result<Option<Simulation>, NoInstance> {
     if request.name.trim().is_empty() {
-        return Err(fmi::Refusal::Missing("instanceName").into());
+        return Err(fmi::NoSimulation::Missing("instanceName").into());
     }
     if !request.co_simulation {
-        return Err(Refusal::Kind);
+        return Err(NoInstance::Kind);
     }
     if request.guid.is_empty() {
-        return Err(fmi::Refusal::Missing(NAMES.token).into());
+        return Err(fmi::NoSimulation::Missing(NAMES.token).into());
     }
     let Some(location) = request.location else {
         return Ok(None);

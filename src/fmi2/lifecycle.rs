@@ -1,29 +1,31 @@
 //! Which function may be called in which state: the table of the standard (FMI 2.0.5, section 4.2.4) for a
 //! co-simulation unit that never runs a step in the background, so that `stepInProgress` and `stepCanceled` do not exist.
 
-use crate::fmi::{Call, State};
+use crate::fmi::{Call, InstanceState};
 
 /// Name of a state for messages, as in the standard.
-pub fn state_name(state: State) -> &'static str {
+pub fn state_name(state: InstanceState) -> &'static str {
     match state {
-        State::Instantiated => "instantiated",
-        State::Initialization => "initializationMode",
-        State::StepComplete => "stepComplete",
-        State::StepFailed => "stepFailed",
-        State::Terminated => "terminated",
-        State::Error => "error",
-        State::Bare => "instantiated without fmuResourceLocation (only a saved state can follow)",
-        State::Fatal => "fatal",
+        InstanceState::Instantiated => "instantiated",
+        InstanceState::Initialization => "initializationMode",
+        InstanceState::StepComplete => "stepComplete",
+        InstanceState::StepFailed => "stepFailed",
+        InstanceState::Terminated => "terminated",
+        InstanceState::Error => "error",
+        InstanceState::Bare => {
+            "instantiated without fmuResourceLocation (only a saved state can follow)"
+        }
+        InstanceState::Fatal => "fatal",
     }
 }
 
-const I: u8 = State::Instantiated as u8;
-const M: u8 = State::Initialization as u8;
-const C: u8 = State::StepComplete as u8;
-const F: u8 = State::StepFailed as u8;
-const T: u8 = State::Terminated as u8;
-const E: u8 = State::Error as u8;
-const B: u8 = State::Bare as u8;
+const I: u8 = InstanceState::Instantiated as u8;
+const M: u8 = InstanceState::Initialization as u8;
+const C: u8 = InstanceState::StepComplete as u8;
+const F: u8 = InstanceState::StepFailed as u8;
+const T: u8 = InstanceState::Terminated as u8;
+const E: u8 = InstanceState::Error as u8;
+const B: u8 = InstanceState::Bare as u8;
 
 /// Everywhere but in the fatal state and without resources.
 const ALWAYS: u8 = I | M | C | F | T | E;
@@ -35,11 +37,11 @@ macro_rules! functions {
     ($($name:ident: $states:expr,)*) => {
         /// Functions that take an instance; `fmi2FreeInstance` is always allowed.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum Function {
+        pub enum InterfaceFunction {
             $(#[doc = concat!("`fmi2", stringify!($name), "`.")] $name,)*
         }
 
-        impl Function {
+        impl InterfaceFunction {
             /// All functions.
             pub const ALL: &[Self] = &[$(Self::$name,)*];
 
@@ -86,14 +88,14 @@ functions! {
     GetStringStatus: C | F | T,
 }
 
-impl Function {
+impl InterfaceFunction {
     /// Name in the standard.
     pub fn name(self) -> &'static str {
         self.call().name
     }
 
     /// Whether the function may be called in `state`.
-    pub fn allowed_in(self, state: State) -> bool {
+    pub fn allowed_in(self, state: InstanceState) -> bool {
         self.call().allowed_in(state)
     }
 }
@@ -106,41 +108,51 @@ mod tests {
 
     #[test]
     fn nothing_is_allowed_after_a_fatal_error() {
-        for function in Function::ALL {
-            assert!(!function.allowed_in(State::Fatal), "{}", function.name());
+        for function in InterfaceFunction::ALL {
+            assert!(
+                !function.allowed_in(InstanceState::Fatal),
+                "{}",
+                function.name()
+            );
         }
     }
 
     #[test]
     fn the_way_through_a_life_is_the_standard_one() {
-        let allowed = |function: Function| -> Vec<State> {
-            let states = State::ALL.into_iter();
+        let allowed = |function: InterfaceFunction| -> Vec<InstanceState> {
+            let states = InstanceState::ALL.into_iter();
             states.filter(|state| function.allowed_in(*state)).collect()
         };
-        assert_eq!(allowed(Function::SetupExperiment), [State::Instantiated]);
         assert_eq!(
-            allowed(Function::EnterInitializationMode),
-            [State::Instantiated]
+            allowed(InterfaceFunction::SetupExperiment),
+            [InstanceState::Instantiated]
         );
         assert_eq!(
-            allowed(Function::ExitInitializationMode),
-            [State::Initialization]
+            allowed(InterfaceFunction::EnterInitializationMode),
+            [InstanceState::Instantiated]
         );
-        assert_eq!(allowed(Function::DoStep), [State::StepComplete]);
         assert_eq!(
-            allowed(Function::Terminate),
-            [State::StepComplete, State::StepFailed]
+            allowed(InterfaceFunction::ExitInitializationMode),
+            [InstanceState::Initialization]
         );
-        assert_eq!(allowed(Function::CancelStep), []);
-        assert_eq!(allowed(Function::Reset).len(), 6);
-        assert!(!Function::GetReal.allowed_in(State::Instantiated));
+        assert_eq!(
+            allowed(InterfaceFunction::DoStep),
+            [InstanceState::StepComplete]
+        );
+        assert_eq!(
+            allowed(InterfaceFunction::Terminate),
+            [InstanceState::StepComplete, InstanceState::StepFailed]
+        );
+        assert_eq!(allowed(InterfaceFunction::CancelStep), []);
+        assert_eq!(allowed(InterfaceFunction::Reset).len(), 6);
+        assert!(!InterfaceFunction::GetReal.allowed_in(InstanceState::Instantiated));
     }
 
     #[test]
     fn setting_needs_a_state_in_which_the_function_is_allowed() {
         for causality in [Causality::Parameter, Causality::Input, Causality::Output] {
             assert_eq!(
-                settable_states(causality) & !Function::SetReal.call().states,
+                settable_states(causality) & !InterfaceFunction::SetReal.call().states,
                 0
             );
         }

@@ -9,7 +9,7 @@ mod location;
 mod model_description;
 
 pub use documentation::documentation;
-pub use lifecycle::{Function, state_name};
+pub use lifecycle::{InterfaceFunction, state_name};
 pub use model_description::model_description;
 
 use crate::fmi::terminals;

@@ -3,13 +3,15 @@
 //!
 //! Positions and velocities are the polynomials through the start of the step and its stages; what drives the system is the
 //! same all the way. Between stages the polynomial leaves the equilibrium of stiff directions, so that they are let come
-//! to rest there ([`Method::polish_within`]), as at the end of a step that is read.
+//! to rest there ([`OneStepMethod::polish_within`]), as at the end of a step that is read.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8 (the collocation
 //! polynomial of Radau IIA as dense output).
 
 use super::controller::{Pitch, Trial};
-use super::{AlternativeMethod, Method, RELAXATIONS, StepError, Tolerance, outcome, shortest};
+use super::{
+    AlternativeMethod, OneStepMethod, RELAXATIONS, StepError, Tolerance, outcome, shortest,
+};
 use crate::math::radau::{A_INVERSE, C};
 use crate::math::sums::{Term, sum};
 use crate::system::{DenseStep, Dynamics, State};
@@ -30,7 +32,7 @@ const POINT: f64 = 3.0;
 /// The step to try from a state that is to be known at `until` where one of `wanted` (s) would lead well beyond it;
 /// nothing where it is to end there, or before.
 pub(super) fn trial(
-    method: &dyn Method,
+    method: &dyn OneStepMethod,
     dynamics: &dyn Dynamics,
     state: &State,
     (until, wanted): (f64, f64),
@@ -46,7 +48,7 @@ pub(super) fn trial(
 
 /// The step that a method has attempted last is under way.
 pub(super) fn begin(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     state: &mut State,
     [h, operations, ceiling]: [f64; 3],
 ) {
@@ -62,7 +64,7 @@ pub(super) fn begin(
 /// Goes on within the step under way, to `until` or to its end, whichever comes first. Where constraints cannot be kept, or an element
 /// of a rod is bent or twisted too far, the state is taken back to where the step began, and shorter steps follow.
 pub(super) fn follow(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
@@ -96,7 +98,7 @@ pub(super) fn follow(
 /// Brings a state within its step back to the constraints and, where it is read, lets stiff directions come to rest. Whether
 /// they have.
 fn come_to_rest(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     (is_read, tolerance): (bool, &Tolerance),

@@ -57,7 +57,7 @@ pub enum Attempt {
 }
 
 /// A one-step method of second-order systems.
-pub trait Method: Send {
+pub trait OneStepMethod: Send {
     /// Name in logs and charts.
     fn name(&self) -> &'static str;
     /// Longest step that stability allows, s.
@@ -99,13 +99,13 @@ pub trait Method: Send {
     ) -> bool {
         false
     }
-    /// Whether its steps can be read in between ([`Method::keep`]).
+    /// Whether its steps can be read in between ([`OneStepMethod::keep`]).
     fn is_dense(&self) -> bool {
         false
     }
     /// Keeps stages and powers of the last attempt, which has succeeded, so that it is read in between.
     fn keep(&mut self, _step: &mut DenseStep) {}
-    /// As [`Method::polish_accelerations`] for a state within a step that is kept, whoever took it. What was left unsolved, in units of
+    /// As [`OneStepMethod::polish_accelerations`] for a state within a step that is kept, whoever took it. What was left unsolved, in units of
     /// what may be; beyond 1 the state has been corrected.
     fn polish_within(
         &mut self,
@@ -129,7 +129,7 @@ pub trait Method: Send {
     ) {
         error.into_iter().for_each(|error| error.fill(0.0));
     }
-    /// Lets the stiff directions of a state follow that was moved from the one of [`Method::error`] by a small part of its error: where a
+    /// Lets the stiff directions of a state follow that was moved from the one of [`OneStepMethod::error`] by a small part of its error: where a
     /// body rotates, its velocities are to rotate with it, or damping and constraints answer to a deformation that is not there.
     fn follow(&mut self, _dynamics: &mut dyn Dynamics, _state: (f64, &mut [f64], &mut [f64])) {}
     /// Work that came in and that was dissipated over the last attempt, J; zero where the method cannot tell.
@@ -138,7 +138,7 @@ pub trait Method: Send {
     }
     /// Acceleration at the state last begun with or accepted, for the first step's length.
     fn acceleration(&self) -> &[f64];
-    /// Newton iterations since [`Method::begin`].
+    /// Newton iterations since [`OneStepMethod::begin`].
     fn newton_iterations(&self) -> u64 {
         0
     }
@@ -190,7 +190,7 @@ const RELAXATIONS: usize = 3;
 /// # Errors
 /// The reason, when no step however short succeeds or the work is too much.
 pub fn advance(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
@@ -202,7 +202,7 @@ pub fn advance(
 
 /// As [`advance`], with the cheaper of two methods where there are two.
 fn advance_choosing(
-    methods: &mut [&mut dyn Method],
+    methods: &mut [&mut dyn OneStepMethod],
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
@@ -252,7 +252,7 @@ fn advance_choosing(
 
 /// Advances over a smooth interval, until the alternative method is to go on, or until a step is to lead beyond the interval.
 fn advance_smoothly(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
@@ -327,7 +327,7 @@ fn advance_smoothly(
 
 /// The step to try next on the way to `until`, and whether it is to lead beyond.
 fn next_trial(
-    method: &dyn Method,
+    method: &dyn OneStepMethod,
     dynamics: &dyn Dynamics,
     state: &State,
     (until, pitch): (f64, Pitch),
@@ -342,7 +342,7 @@ fn next_trial(
 
 /// Begins at a state; whether errors have set the step that it proposes.
 fn begin(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     tolerance: &Tolerance,
@@ -368,7 +368,7 @@ fn since(dynamics: &dyn Dynamics, counted: &mut f64) -> f64 {
 /// Goes on with the tableau that takes fewer operations over the time that remains (s); with the second only where errors
 /// have set the step.
 fn use_cheaper_variant(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     state: &mut State,
     (remaining, is_settled): (f64, bool),
 ) {
@@ -381,7 +381,7 @@ fn use_cheaper_variant(
 }
 
 /// The outcome of an attempt; work that is not finite is none.
-fn bounded(attempt: Attempt, method: &dyn Method) -> Attempt {
+fn bounded(attempt: Attempt, method: &dyn OneStepMethod) -> Attempt {
     match method.work().iter().all(|work| work.is_finite()) {
         true => attempt,
         false => Attempt::Failed(0.25),
@@ -389,7 +389,7 @@ fn bounded(attempt: Attempt, method: &dyn Method) -> Attempt {
 }
 
 /// The state is that at the end of the step attempted last.
-fn take(method: &mut dyn Method, state: &mut State, (trial, until): (Trial, f64)) {
+fn take(method: &mut dyn OneStepMethod, state: &mut State, (trial, until): (Trial, f64)) {
     method.accept(&mut state.coordinates, &mut state.rates);
     state.time = match trial.is_last {
         true => until,
@@ -407,7 +407,7 @@ fn shortest(one: f64, other: f64) -> f64 {
 
 /// Lets the system do with an accepted state what it must.
 fn project(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
 ) -> Result<(), StepError> {
@@ -419,7 +419,7 @@ fn project(
 
 /// Lets forces come to rest in a state at the end of a call, which is read.
 fn polish_accelerations(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     (until, tolerance): (f64, &Tolerance),

@@ -7,7 +7,7 @@
 //! 235-250: RKN4(3)4FM (Table 3).
 
 use super::selection::cheaper_of_pair;
-use super::{Attempt, Method, Tolerance, rescaled};
+use super::{Attempt, OneStepMethod, Tolerance, rescaled};
 use crate::math::sums::{Term, combine};
 use crate::system::{DenseStep, Dynamics};
 
@@ -220,7 +220,7 @@ fn set(out: &mut [f64], start: &[Term<'_>], factor: f64, (weights, a): (&[f64], 
     combine(out, start.iter().copied().chain(weighted));
 }
 
-impl Method for Nystrom {
+impl OneStepMethod for Nystrom {
     fn name(&self) -> &'static str {
         self.tableau().name
     }

@@ -13,7 +13,7 @@ mod start;
 
 use nalgebra::Complex;
 
-use super::{Attempt, Method, Tolerance, dense, size};
+use super::{Attempt, OneStepMethod, Tolerance, dense, size};
 use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
 use crate::math::sums::{Term, add, sum};
 use crate::system::{DenseStep, Dynamics};
@@ -35,17 +35,17 @@ const LARGEST_TURN: f64 = 1.5;
 const FAST: f64 = 1e-3;
 
 /// Three stage vectors.
-type Stages = [Vec<f64>; 3];
+type StageVectors = [Vec<f64>; 3];
 
 /// Scratch of the method.
 #[derive(Clone, Debug)]
 pub struct Radau {
     a: Vec<f64>,
     /// Stage increments of position and velocity.
-    zq: Stages,
-    zv: Stages,
+    zq: StageVectors,
+    zv: StageVectors,
     /// Stage accelerations, then Newton corrections.
-    f: Stages,
+    f: StageVectors,
     stage_q: Vec<f64>,
     stage_v: Vec<f64>,
     error_q: Vec<f64>,
@@ -287,7 +287,7 @@ impl Radau {
     }
 }
 
-impl Method for Radau {
+impl OneStepMethod for Radau {
     fn name(&self) -> &'static str {
         "radau"
     }
@@ -449,7 +449,7 @@ impl Method for Radau {
 }
 
 /// Vectors of the stages, with the weights of a row times a factor.
-fn mixed<'a>(row: &[f64; 3], factor: f64, stages: &'a Stages) -> [Term<'a>; 3] {
+fn mixed<'a>(row: &[f64; 3], factor: f64, stages: &'a StageVectors) -> [Term<'a>; 3] {
     std::array::from_fn(|i| (factor * row[i], &stages[i][..]))
 }
 

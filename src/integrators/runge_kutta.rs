@@ -6,7 +6,7 @@
 //! 3 (their Table II.2.1).
 
 use super::selection::cheaper_of_pair;
-use super::{Attempt, Method, Tolerance, rescaled};
+use super::{Attempt, OneStepMethod, Tolerance, rescaled};
 use crate::math::sums::combine;
 use crate::system::{DenseStep, Dynamics};
 
@@ -177,7 +177,7 @@ fn scaled(h: f64, weights: Weights, stages: &[Vec<f64>]) -> impl Iterator<Item =
         .map(move |(stage, weight)| (h * weight, &stages[*stage][..]))
 }
 
-impl Method for RungeKutta {
+impl OneStepMethod for RungeKutta {
     fn name(&self) -> &'static str {
         self.method().name
     }

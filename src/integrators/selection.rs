@@ -10,7 +10,7 @@
 //! price of steps is counted while they are taken is ours (docs/decisions/0034-integrator-by-counted-cost.md).
 
 use super::controller::{Pitch, Trial};
-use super::{Counts, Method, StepError, Tolerance, advance_choosing};
+use super::{Counts, OneStepMethod, StepError, Tolerance, advance_choosing};
 use crate::system::{Dynamics, MethodStatistics, State};
 
 /// Operations before the first trial.
@@ -54,22 +54,22 @@ pub(super) fn cheaper_of_pair(
 
 /// One method, or two to choose from.
 pub struct Methods {
-    methods: Vec<Box<dyn Method>>,
+    methods: Vec<Box<dyn OneStepMethod>>,
     pitch: Pitch,
 }
 
 impl Methods {
     /// No choice.
-    pub fn one(method: Box<dyn Method>) -> Self {
+    pub fn one(method: Box<dyn OneStepMethod>) -> Self {
         Self::of(vec![method])
     }
 
     /// Begins with the first.
-    pub fn two(first: Box<dyn Method>, second: Box<dyn Method>) -> Self {
+    pub fn two(first: Box<dyn OneStepMethod>, second: Box<dyn OneStepMethod>) -> Self {
         Self::of(vec![first, second])
     }
 
-    fn of(methods: Vec<Box<dyn Method>>) -> Self {
+    fn of(methods: Vec<Box<dyn OneStepMethod>>) -> Self {
         let pitch = Pitch::default();
         Self { methods, pitch }
     }
@@ -82,7 +82,7 @@ impl Methods {
     }
 
     /// The method that is in use.
-    pub fn at(&mut self, pace: &MethodStatistics) -> &mut dyn Method {
+    pub fn at(&mut self, pace: &MethodStatistics) -> &mut dyn OneStepMethod {
         let index = pace.index(self.methods.len());
         &mut *self.methods[index]
     }
@@ -103,7 +103,7 @@ impl Methods {
         until: f64,
         tolerance: &Tolerance,
     ) -> (Counts, Result<(), StepError>) {
-        let methods: &mut [&mut dyn Method] = match &mut self.methods[..] {
+        let methods: &mut [&mut dyn OneStepMethod] = match &mut self.methods[..] {
             [one, two] => &mut [&mut **one, &mut **two],
             methods => &mut [&mut *methods[0]],
         };
@@ -119,7 +119,7 @@ pub(super) struct AlternativeMethod {
 }
 
 impl AlternativeMethod {
-    pub fn of(method: &dyn Method) -> Self {
+    pub fn of(method: &dyn OneStepMethod) -> Self {
         Self {
             at_most: method.longest_step() / method.fewest_operations(),
         }

@@ -10,14 +10,14 @@ pub enum Function {
     /// An expression in `t`.
     Expression(Box<Expression>),
     /// Straight from point to point.
-    Linear(Table),
+    Linear(SplineTable),
     /// A cubic spline through the points, straight outside.
-    Spline(Table),
+    Spline(SplineTable),
 }
 
 /// Points of a function of time and its slopes.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct SplineTable {
     /// Times, s, increasing.
     times: Vec<f64>,
     values: Vec<f64>,
@@ -70,7 +70,7 @@ impl Function {
     /// # Errors
     /// No point, times that do not increase, numbers that are not finite.
     pub fn linear(points: &[[f64; 2]]) -> Result<Self, String> {
-        Table::new(points).map(Self::Linear)
+        SplineTable::new(points).map(Self::Linear)
     }
 
     /// The cubic spline through points `[t, y]` with these slopes at its ends, with which it goes on
@@ -80,7 +80,7 @@ impl Function {
     /// No point, or one only where slopes are not zero; times that do not increase, numbers that are not
     /// finite.
     pub fn spline(points: &[[f64; 2]], ends: [f64; 2]) -> Result<Self, String> {
-        let mut table = Table::new(points)?;
+        let mut table = SplineTable::new(points)?;
         if points.len() < 2 && ends != [0.0; 2] {
             return Err("expected at least two points between two slopes, found one".into());
         }
@@ -157,7 +157,7 @@ impl Function {
     }
 }
 
-impl Table {
+impl SplineTable {
     fn new(points: &[[f64; 2]]) -> Result<Self, String> {
         if points.is_empty() {
             return Err("expected at least one point [t, y], found none".into());

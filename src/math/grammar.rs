@@ -47,12 +47,12 @@ pub(super) fn program(
             "expected at most {LENGTH} characters, found {found}"
         ));
     }
-    let mut reader = Reader {
+    let mut reader = TokenReader {
         variable,
         given,
         program: Vec::new(),
         waiting: Vec::new(),
-        place: Place::Start,
+        place: BeforeToken::Start,
     };
     let mut rest = text.trim_start();
     while let Some(first) = rest.chars().next() {
@@ -102,7 +102,7 @@ fn number(text: &str) -> Option<(f64, usize)> {
 
 /// What stands before the next token.
 #[derive(Clone, Copy, PartialEq)]
-enum Place {
+enum BeforeToken {
     /// Nothing, an opening parenthesis or an operator.
     Start,
     /// The name of a function, by its place in the list.
@@ -131,38 +131,38 @@ const PRODUCT: u8 = 3;
 const SIGN: u8 = 4;
 const POWER: u8 = 5;
 
-struct Reader {
+struct TokenReader {
     /// Name of the variable.
     variable: &'static str,
     /// A name and the number that it stands for.
     given: Option<(&'static str, f64)>,
     program: Vec<Operation>,
     waiting: Vec<Waiting>,
-    place: Place,
+    place: BeforeToken,
 }
 
-impl Reader {
+impl TokenReader {
     fn expected(&self, found: &str) -> String {
         let opened = self.waiting.iter().rev().find_map(|waiting| match waiting {
             Waiting::Parenthesis { function, .. } => Some(*function),
             Waiting::Operator { .. } => None,
         });
         let wanted = match (self.place, opened) {
-            (Place::Start, _) => "a number, t, a function or \"(\"",
-            (Place::Name(_), _) => "\"(\" after the name of a function",
-            (Place::Operand, Some(Some(_))) => "an operator, \",\" or \")\"",
-            (Place::Operand, Some(None)) => "an operator or \")\"",
-            (Place::Operand, None) => "an operator",
+            (BeforeToken::Start, _) => "a number, t, a function or \"(\"",
+            (BeforeToken::Name(_), _) => "\"(\" after the name of a function",
+            (BeforeToken::Operand, Some(Some(_))) => "an operator, \",\" or \")\"",
+            (BeforeToken::Operand, Some(None)) => "an operator or \")\"",
+            (BeforeToken::Operand, None) => "an operator",
         };
         format!("expected {wanted}, found {found}")
     }
 
     fn operand(&mut self, operation: Operation, text: &str) -> Result<(), String> {
-        if self.place != Place::Start {
+        if self.place != BeforeToken::Start {
             return Err(self.expected(&format!("\"{text}\"")));
         }
         self.program.push(operation);
-        self.place = Place::Operand;
+        self.place = BeforeToken::Operand;
         Ok(())
     }
 
@@ -192,37 +192,37 @@ impl Reader {
                 "expected one of the names {known}, found \"{name}\""
             ));
         };
-        if self.place != Place::Start {
+        if self.place != BeforeToken::Start {
             return Err(self.expected(&format!("\"{name}\"")));
         }
-        self.place = Place::Name(function);
+        self.place = BeforeToken::Name(function);
         Ok(())
     }
 
     fn sign(&mut self, sign: char) -> Result<(), String> {
         match (sign, self.place) {
-            ('(', Place::Start | Place::Name(_)) => {
+            ('(', BeforeToken::Start | BeforeToken::Name(_)) => {
                 let function = match self.place {
-                    Place::Name(function) => Some(function),
+                    BeforeToken::Name(function) => Some(function),
                     _ => None,
                 };
                 let ended = 0;
                 self.waiting.push(Waiting::Parenthesis { function, ended });
-                self.place = Place::Start;
+                self.place = BeforeToken::Start;
                 Ok(())
             }
-            (',', Place::Operand) => self.next_number(),
-            (')', Place::Operand) => self.close(),
-            ('+', Place::Start) => Ok(()),
-            ('-', Place::Start) => {
+            (',', BeforeToken::Operand) => self.next_number(),
+            (')', BeforeToken::Operand) => self.close(),
+            ('+', BeforeToken::Start) => Ok(()),
+            ('-', BeforeToken::Start) => {
                 self.wait(Operation::Negate, SIGN);
                 Ok(())
             }
-            ('+', Place::Operand) => self.operator(Operation::Add, SUM),
-            ('-', Place::Operand) => self.operator(Operation::Subtract, SUM),
-            ('*', Place::Operand) => self.operator(Operation::Multiply, PRODUCT),
-            ('/', Place::Operand) => self.operator(Operation::Divide, PRODUCT),
-            ('^', Place::Operand) => self.operator(Operation::Power, POWER),
+            ('+', BeforeToken::Operand) => self.operator(Operation::Add, SUM),
+            ('-', BeforeToken::Operand) => self.operator(Operation::Subtract, SUM),
+            ('*', BeforeToken::Operand) => self.operator(Operation::Multiply, PRODUCT),
+            ('/', BeforeToken::Operand) => self.operator(Operation::Divide, PRODUCT),
+            ('^', BeforeToken::Operand) => self.operator(Operation::Power, POWER),
             _ => Err(self.expected(&format!("\"{sign}\""))),
         }
     }
@@ -236,13 +236,13 @@ impl Reader {
         // Powers of powers are taken from the right.
         self.release(if rank == POWER { POWER + 1 } else { rank });
         self.wait(operation, rank);
-        self.place = Place::Start;
+        self.place = BeforeToken::Start;
         Ok(())
     }
 
     /// A comparison, whose sign is one character or two.
     fn comparison(&mut self, text: &str) -> Result<(), String> {
-        if self.place != Place::Operand {
+        if self.place != BeforeToken::Operand {
             return Err(self.expected(&format!("\"{text}\"")));
         }
         let switch = match text {
@@ -280,7 +280,7 @@ impl Reader {
             return Err(wrong);
         };
         *ended += 1;
-        self.place = Place::Start;
+        self.place = BeforeToken::Start;
         Ok(())
     }
 
@@ -328,7 +328,7 @@ impl Reader {
     }
 
     fn end(mut self) -> Result<Vec<Operation>, String> {
-        if self.place != Place::Operand {
+        if self.place != BeforeToken::Operand {
             return Err(self.expected("the end"));
         }
         self.release(0);

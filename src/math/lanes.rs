@@ -246,15 +246,15 @@ pub fn vectorized_where(is_long: bool, work: impl Vectorized) {
 /// Does work with the vector instructions of this processor.
 #[inline]
 pub fn vectorized(work: impl Vectorized) {
-    struct Run<W>(W);
-    impl<W: Vectorized> pulp::WithSimd for Run<W> {
+    struct VectorizedCall<W>(W);
+    impl<W: Vectorized> pulp::WithSimd for VectorizedCall<W> {
         type Output = ();
         #[inline(always)]
         fn with_simd<S: Simd>(self, simd: S) {
             self.0.run(simd);
         }
     }
-    pulp::Arch::new().dispatch(Run(work));
+    pulp::Arch::new().dispatch(VectorizedCall(work));
 }
 
 #[cfg(test)]

@@ -2,29 +2,29 @@
 
 /// A point and its weight.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct QuadraturePoint {
     /// Coordinate in [0, 1].
     pub at: f64,
     /// Weight; the weights of a rule sum to 1.
     pub weight: f64,
 }
 
-const fn point(at: f64, weight: f64) -> Point {
-    Point { at, weight }
+const fn point(at: f64, weight: f64) -> QuadraturePoint {
+    QuadraturePoint { at, weight }
 }
 
 /// sqrt(15) / 10.
 const SQRT_15_10: f64 = 0.387_298_334_620_741_7;
 
 /// Gauss-Legendre, exact to degree 5.
-pub const GAUSS_3: [Point; 3] = [
+pub const GAUSS_3: [QuadraturePoint; 3] = [
     point(0.5 - SQRT_15_10, 5.0 / 18.0),
     point(0.5, 8.0 / 18.0),
     point(0.5 + SQRT_15_10, 5.0 / 18.0),
 ];
 
 /// Gauss-Legendre, exact to degree 9.
-pub const GAUSS_5: [Point; 5] = [
+pub const GAUSS_5: [QuadraturePoint; 5] = [
     point(0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
     point(0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
     point(0.5, 64.0 / 225.0),
@@ -36,14 +36,14 @@ pub const GAUSS_5: [Point; 5] = [
 const SQRT_13_15_2: f64 = 0.465_474_668_125_631_4;
 
 /// Between Gauss-Legendre and Gauss-Lobatto, exact to degree 3.
-pub const BETWEEN_3: [Point; 3] = [
+pub const BETWEEN_3: [QuadraturePoint; 3] = [
     point(0.5 - SQRT_13_15_2, 5.0 / 26.0),
     point(0.5, 8.0 / 13.0),
     point(0.5 + SQRT_13_15_2, 5.0 / 26.0),
 ];
 
 /// Gauss-Lobatto, exact to degree 3, with both ends (Simpson's rule).
-pub const LOBATTO_3: [Point; 3] = [
+pub const LOBATTO_3: [QuadraturePoint; 3] = [
     point(0.0, 1.0 / 6.0),
     point(0.5, 4.0 / 6.0),
     point(1.0, 1.0 / 6.0),
@@ -53,14 +53,14 @@ pub const LOBATTO_3: [Point; 3] = [
 const SQRT_6_10: f64 = 0.244_948_974_278_317_8;
 
 /// Gauss-Radau, exact to degree 4, with the first end.
-pub const RADAU_3: [Point; 3] = [
+pub const RADAU_3: [QuadraturePoint; 3] = [
     point(0.0, 1.0 / 9.0),
     point(0.6 - SQRT_6_10, (16.0 + 10.0 * SQRT_6_10) / 36.0),
     point(0.6 + SQRT_6_10, (16.0 - 10.0 * SQRT_6_10) / 36.0),
 ];
 
 /// The same with the last end.
-pub const RADAU_3_LAST: [Point; 3] = [
+pub const RADAU_3_LAST: [QuadraturePoint; 3] = [
     point(0.4 - SQRT_6_10, (16.0 - 10.0 * SQRT_6_10) / 36.0),
     point(0.4 + SQRT_6_10, (16.0 + 10.0 * SQRT_6_10) / 36.0),
     point(1.0, 1.0 / 9.0),
@@ -95,7 +95,7 @@ fn legendre(x: f64) -> [f64; 6] {
 mod tests {
     use super::*;
 
-    fn integrate(rule: &[Point], degree: i32) -> f64 {
+    fn integrate(rule: &[QuadraturePoint], degree: i32) -> f64 {
         rule.iter().map(|p| p.weight * p.at.powi(degree)).sum()
     }
 

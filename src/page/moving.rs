@@ -5,7 +5,7 @@ use super::drawing::drawing;
 use super::number::number;
 use crate::scene::Scene;
 use crate::simulation::InputTable;
-use crate::view::{Limits, Recording, Table, document, picture, picture_of_table};
+use crate::view::{Limits, OutputTable, Recording, document, picture, picture_of_table};
 
 /// What a section of a run in motion stands between: it is that of the machine which made the page, the rest of the page is not.
 const AROUND: [&str; 2] = ["<!-- motion begins -->\n", "<!-- motion ends -->\n"];
@@ -60,7 +60,7 @@ pub fn moving(scene: &Scene, run: &Recording) -> String {
 }
 
 /// The page of a table of outputs.
-pub fn moving_table(title: &str, table: &Table) -> String {
+pub fn moving_table(title: &str, table: &OutputTable) -> String {
     let note = "outputs alone: markers whose positions are among them";
     document(&escape(title), note, &picture_of_table(table, title))
 }

@@ -4,7 +4,7 @@ use super::engine::{Engine, InitialWarnings};
 use super::inputs::Inputs;
 use super::watch::Doubtful;
 use super::{
-    Error, NoPropeller, Pose, Quantity, Redundant, Report, Singular, Spectra, StepFailure,
+    Error, NoPropeller, Pose, Quantity, RedundantNames, Report, Singular, Spectra, StepFailure,
     Unresolved, Variable,
 };
 use crate::scene::{Error as SceneError, LoadId, Resolved, Scene};
@@ -43,7 +43,7 @@ handed_on! {
     fn way_to_rest([&mut] self, state: &State, inputs: &[f64], rate: f64) -> Option<f64>;
     fn slow_response([&mut] self, state: &State, asked: (&[f64], usize), rate: f64, of: &[Option<Quantity>]) -> Option<Vec<f64>>;
     fn remarks([&] self) -> &InitialWarnings;
-    fn redundant([&mut] self, state: &State) -> Redundant;
+    fn redundant([&mut] self, state: &State) -> RedundantNames;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
     fn limit_work([&mut] self, most: f64);
     fn size([&] self) -> f64;

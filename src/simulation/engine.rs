@@ -14,8 +14,8 @@ use crate::math::space::components;
 use crate::scene::{Assembled, ConstraintOwner, InitialState, LoadId, Resolved, Timed};
 use crate::system::equilibrium;
 use crate::system::{
-    Derivatives, Dynamics, Evaluation, Model, NotAssembled, State, System, Workspace, eigenvalues,
-    natural_frequencies,
+    Derivatives, DrivenSystem, Dynamics, Evaluation, NotAssembled, State, System, Workspace,
+    eigenvalues, natural_frequencies,
 };
 
 /// What the derivatives at hand are by.
@@ -255,7 +255,7 @@ impl<const D: usize> Engine<D> {
         }
         state.work[0] += set;
         let (system, start) = (&self.assembled.system, state.time);
-        let model = Model::new(system, &inputs.values, &mut self.work, state);
+        let model = DrivenSystem::new(system, &inputs.values, &mut self.work, state);
         let model = model.limited(self.most_work);
         let mut model = model.moving(&inputs.slopes).until(state, until);
         let (counts, result) = self

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::integrators::{
-    Bounds, DOPRI853, Method, Methods, Nystrom, RK4, RKN43, RKN64, Radau, RungeKutta, Tolerance,
-    VERLET,
+    Bounds, DOPRI853, Methods, Nystrom, OneStepMethod, RK4, RKN43, RKN64, Radau, RungeKutta,
+    Tolerance, VERLET,
 };
 use crate::math::vector::norm;
 use crate::scene::{Error, Integrator, LoadKind, Resolved};
@@ -58,7 +58,7 @@ pub(super) fn choose<const D: usize>(
         time: 1.0 / rate,
     };
     let n = system.coordinates();
-    let radau = || -> Box<dyn Method> { Box::new(Radau::new(n)) };
+    let radau = || -> Box<dyn OneStepMethod> { Box::new(Radau::new(n)) };
     let named = scene.method.integrator;
     if named == Integrator::Radau || (named == Integrator::Auto && system.has_contacts()) {
         return Ok((tolerance, Methods::one(radau())));
@@ -67,11 +67,14 @@ pub(super) fn choose<const D: usize>(
         takes_rates(named)?;
     }
     let (frequency, decay) = fastest(system, start.inputs, work, start.state);
-    let nystrom = |tableau| -> Box<dyn Method> { Box::new(Nystrom::new(tableau, n, frequency)) };
-    let both = || -> Box<dyn Method> { Box::new(Nystrom::pair([&RKN43, &RKN64], n, frequency)) };
-    let runge_kutta =
-        |method| -> Box<dyn Method> { Box::new(RungeKutta::new(method, n, frequency, decay)) };
-    let with_rates = || -> Box<dyn Method> {
+    let nystrom =
+        |tableau| -> Box<dyn OneStepMethod> { Box::new(Nystrom::new(tableau, n, frequency)) };
+    let both =
+        || -> Box<dyn OneStepMethod> { Box::new(Nystrom::pair([&RKN43, &RKN64], n, frequency)) };
+    let runge_kutta = |method| -> Box<dyn OneStepMethod> {
+        Box::new(RungeKutta::new(method, n, frequency, decay))
+    };
+    let with_rates = || -> Box<dyn OneStepMethod> {
         let projection = if system.is_projected() {
             PROJECTION
         } else {

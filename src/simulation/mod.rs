@@ -31,14 +31,14 @@ pub use dimension::check;
 pub use fast::TooFast;
 pub use mesh::Unresolved;
 pub use plan::{
-    Budget, Damped, Given, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo,
-    Settled, Settles, courses, plan, plan_for,
+    Budget, Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo,
+    Settled, Settles, TrialConditions, courses, plan, plan_for,
 };
 pub use propeller::NoPropeller;
 pub use quantities::Quantity;
 pub use shapes::Pose;
 pub use signals::{InputTable, SignalError, Signals};
-pub use singular::{NEARLY, Redundant, Singular};
+pub use singular::{NEARLY, RedundantNames, Singular};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Causality, DrivePart, Parameter, Source, Unit, Variable, variables};
 pub use watch::Doubtful;

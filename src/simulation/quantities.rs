@@ -13,7 +13,7 @@ use crate::math::space::{axis, components};
 use crate::scene::{
     Along, AngleId, Assembled, ConstraintOwnerId, CouplingId, LoadId, MarkerId, PointId, SlideId,
 };
-use crate::system::{End, Evaluation, System};
+use crate::system::{Attachment, Evaluation, System};
 
 /// Outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,7 +154,7 @@ pub(super) fn value<const D: usize, N: Number>(
         },
         JointAcceleration(joint) => {
             let (x, v, a) = (&values.x[..], &values.v[..], &values.acceleration[..]);
-            let rate = |end: End<D>| end.lift().spin_rate(x, v, a);
+            let rate = |end: Attachment<D>| end.lift().spin_rate(x, v, a);
             let [first, second] = ends(joint).map(rate);
             turn(joint).map_or(second - first, |turn| turn.second([x, v, a]))
         }
@@ -307,8 +307,8 @@ fn first<const D: usize, N: Number>(
 ) -> [Vector3<N>; 3] {
     let [end, _] = &assembled.system.joints()[joint.index()].ends;
     match end {
-        End::Body(marker) => frame(values, assembled, marker),
-        End::Ground(_) => std::array::from_fn(|k| axis(k)),
+        Attachment::Body(marker) => frame(values, assembled, marker),
+        Attachment::Ground(_) => std::array::from_fn(|k| axis(k)),
     }
 }
 

@@ -1,14 +1,14 @@
 //! Joints that hold what others hold already, at the start, at a dead point and along the way, by their names.
 
 use super::engine::Engine;
-use crate::system::{Held, State};
+use crate::system::{HoldingParts, State};
 
 /// Part of a constraint that is left beside the others near a dead point.
 const NEAR: f64 = 1e-2;
 
 /// Names of what holds, at least in part, what others hold already.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Redundant {
+pub struct RedundantNames {
     /// Exactly: this does no harm, what is held twice is held once.
     pub exactly: Vec<String>,
     /// Nearly: accelerations and reactions are found as if these did not hold it.
@@ -43,10 +43,10 @@ impl std::fmt::Display for Singular {
 
 impl<const D: usize> Engine<D> {
     /// What holds what others hold already at a state.
-    pub(super) fn redundant(&mut self, state: &State) -> Redundant {
+    pub(super) fn redundant(&mut self, state: &State) -> RedundantNames {
         let found = (self.assembled.system).redundant_at(state, &mut self.work);
         self.forget();
-        Redundant {
+        RedundantNames {
             exactly: self.names(&found.exactly),
             nearly: self.names(&found.nearly),
         }
@@ -68,7 +68,7 @@ impl<const D: usize> Engine<D> {
         Some(Singular { time, names })
     }
 
-    fn names(&self, held: &Held) -> Vec<String> {
+    fn names(&self, held: &HoldingParts) -> Vec<String> {
         let holders = held.holders.iter().map(|holder| self.name(*holder));
         let bodies = held.bodies.iter().map(|body| &self.bodies[*body][..]);
         holders.chain(bodies).map(str::to_owned).collect()

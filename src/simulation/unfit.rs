@@ -2,12 +2,12 @@
 
 use super::Error;
 use super::engine::Engine;
-use crate::system::equilibrium::{Failure, NotFound};
+use crate::system::equilibrium::{Failure, NoEquilibrium};
 use crate::system::{Gap, NotAssembled};
 
 impl<const D: usize> Engine<D> {
     /// Why there is no equilibrium.
-    pub(super) fn unsettled(&self, error: NotFound) -> Error {
+    pub(super) fn unsettled(&self, error: NoEquilibrium) -> Error {
         match error.why {
             Failure::ElementOverDeformed(body, element) => {
                 let place = format!(

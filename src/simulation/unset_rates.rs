@@ -8,13 +8,13 @@ const MOVES: u8 = 2;
 /// The prescribed motions with rates as inputs.
 #[derive(Default)]
 pub(super) struct UnsetRates {
-    motions: Vec<Motion>,
+    motions: Vec<MotionInputs>,
     /// Of every variable: its motion and order.
     parts: Vec<Option<(usize, usize)>>,
 }
 
 /// What a master did with a prescribed motion.
-struct Motion {
+struct MotionInputs {
     /// Place of the input with the value.
     first: usize,
     /// What there is to tell.
@@ -30,11 +30,11 @@ struct Motion {
 impl UnsetRates {
     /// Those among variables.
     pub(super) fn new(variables: &[Variable]) -> Self {
-        let mut motions: Vec<Motion> = Vec::new();
+        let mut motions: Vec<MotionInputs> = Vec::new();
         let drives = variables.iter().filter_map(|variable| variable.drive);
         for drive in drives.filter(|drive| drive.order() == 1) {
             if motions.iter().all(|motion| motion.first != drive.first()) {
-                motions.push(Motion {
+                motions.push(MotionInputs {
                     first: drive.first(),
                     message: message(variables, drive.first()),
                     changed: false,
@@ -45,7 +45,7 @@ impl UnsetRates {
         }
         let part = |variable: &Variable| {
             let drive = variable.drive?;
-            let of = |motion: &Motion| motion.first == drive.first();
+            let of = |motion: &MotionInputs| motion.first == drive.first();
             Some((motions.iter().position(of)?, drive.order()))
         };
         Self {

@@ -1,7 +1,7 @@
 //! What there is to tell of a simulation beside its values: of its start, of its constraints and of its steps.
 
 use super::{
-    AnyEngine, Doubtful, NoPropeller, Redundant, Simulation, Singular, TooFast, Unresolved,
+    AnyEngine, Doubtful, NoPropeller, RedundantNames, Simulation, Singular, TooFast, Unresolved,
 };
 
 impl Simulation {
@@ -78,7 +78,7 @@ impl Simulation {
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
     /// rigid bodies that joints alone keep in shape, in the present position; none before [`Self::initialize`].
-    pub fn redundant(&mut self) -> Redundant {
+    pub fn redundant(&mut self) -> RedundantNames {
         let (engine, state) = (self.engine.as_mut(), &self.state);
         engine
             .map(|engine| engine.redundant(state))

@@ -14,7 +14,7 @@ use super::{Source, Variable};
 use crate::integrators::Tolerance;
 use crate::math::vector::norm;
 use crate::scene::Assembled;
-use crate::system::{Model, State};
+use crate::system::{DrivenSystem, State};
 
 /// Communication points from one sample to the next; before, those whose number is a power of two are sampled.
 const EVERY: u64 = 16;
@@ -33,7 +33,7 @@ pub(super) fn is_sampled(point: u64) -> bool {
 }
 
 /// An output, with all its components where it is a vector.
-struct Group {
+struct WatchedOutput {
     name: String,
     members: Vec<Quantity>,
     /// What it is where the scene moves at its natural rate.
@@ -83,7 +83,7 @@ impl std::fmt::Display for Doubtful {
 /// What has been seen of the outputs so far.
 #[derive(Default)]
 pub(super) struct Watch {
-    groups: Vec<Group>,
+    groups: Vec<WatchedOutput>,
     /// The error wanted, relative.
     wanted: f64,
     /// The state moved by its error.
@@ -111,7 +111,7 @@ impl Watch {
                 }
                 _ => None,
             });
-        let (mut groups, by) = (Vec::<Group>::new(), Scale::of(system, tolerance));
+        let (mut groups, by) = (Vec::<WatchedOutput>::new(), Scale::of(system, tolerance));
         for (quantity, name, drawn) in outputs {
             let Some(natural) = natural(quantity, by) else {
                 continue;
@@ -122,7 +122,7 @@ impl Watch {
                     group.drawn[group.members.len()] = drawn;
                     group.members.push(quantity);
                 }
-                _ => groups.push(Group {
+                _ => groups.push(WatchedOutput {
                     name: name.to_owned(),
                     members: vec![quantity],
                     natural,
@@ -137,7 +137,7 @@ impl Watch {
                 }),
             }
         }
-        let nature = |group: &Group| {
+        let nature = |group: &WatchedOutput| {
             let body = group.name.split('.').next().map(str::to_owned);
             (body, std::mem::discriminant(&group.members[0]))
         };
@@ -258,7 +258,7 @@ impl<const D: usize> Engine<D> {
         let shifted = &mut watch.shifted;
         shifted.copy_from(state);
         let system = &self.assembled.system;
-        let model = Model::new(system, &inputs.values, &mut self.work, state);
+        let model = DrivenSystem::new(system, &inputs.values, &mut self.work, state);
         let mut model = model.moving(&inputs.slopes);
         let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
         let at = (state.time, &state.coordinates[..], &state.rates[..]);

@@ -7,16 +7,16 @@ use std::ops::Range;
 
 use nalgebra::SMatrix;
 
-use super::end::{Angle, End};
-use super::joints::{Constraint, ConstraintKind, Joint, Linear, Primitive, Target, View};
-use super::loads::Load;
+use super::end::{Angle, Attachment};
+use super::joints::{Constraint, ConstraintKind, JointEquations, Linear, Primitive, Target, View};
+use super::loads::AppliedLoad;
 use super::motion::forces::add_mass;
 use super::motion::tree::Tree;
 use super::signal::Drive;
-use super::{DrivenRow, LineChain, Rod, System};
+use super::{DrivenRow, LineChain, RigidRod, System};
 use crate::body::{
-    Assembly, Dependent, Elimination, Frame, Frames, Marker, Node, NodeKind, RodChain, Row,
-    SectionFrame, add_node, no_block, no_node, product,
+    Assembly, ConnectivityRow, Dependent, Elimination, Marker, Node, NodeKind, RigidBodyFrame,
+    RodChain, RotationMaps, SectionFrame, add_node, no_block, no_node, product,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;
@@ -58,23 +58,23 @@ pub struct Parts<const D: usize = 2> {
     /// Rigid bodies and point masses.
     pub lumped_masses: Vec<LumpedMass>,
     /// Rigid bodies of space that turn: their nodes hold the centre of mass and the principal axes.
-    pub frames: Vec<Frame>,
+    pub frames: Vec<RigidBodyFrame>,
     /// Bending and torsion of rods, whose lines are chains.
     pub rod_chains: Vec<RodChain>,
     /// Rigid bodies whose sections are read.
-    pub rods: Vec<Rod>,
+    pub rods: Vec<RigidRod>,
     /// Nodes of rigid bodies, and whether they can turn.
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
-    pub joints: Vec<Joint<D>>,
+    pub joints: Vec<JointEquations<D>>,
     /// Driven coordinates.
     pub drives: Vec<Drive>,
     /// Cables that winches pay out: of each the chain, whether the winch is at its last end, and the driven coordinate.
     pub winches: Vec<(usize, bool, usize)>,
     /// Loads.
-    pub loads: Vec<Load<D>>,
+    pub loads: Vec<AppliedLoad<D>>,
     /// Loads that act only where the initial state is looked for.
-    pub initial_loads: Vec<Load<D>>,
+    pub initial_loads: Vec<AppliedLoad<D>>,
     /// Angles to count.
     pub angles: Vec<Angle<D>>,
     /// Gravitational acceleration, m/s^2.
@@ -106,14 +106,15 @@ impl<const D: usize> System<D> {
         let is_clamp = |joint: usize| parts.joints[joint].clamp().is_some();
         let (clamped, nonlinear): (_, Vec<Constraint<D>>) =
             (nonlinear.into_iter()).partition(|constraint| constraint.joint.is_some_and(is_clamp));
-        let rows: Vec<Row<D>> = linear.iter().map(|linear| linear.row.clone()).collect();
+        let rows: Vec<ConnectivityRow<D>> =
+            linear.iter().map(|linear| linear.row.clone()).collect();
         let links = links(&parts, &nonlinear);
         let (assembly, dependent) = Assembly::new(parts.nodes.len(), &rows, &links);
         let (redundant, mass) = (redundant(&linear, &dependent)?, mass(&parts, &assembly));
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
         let chains_damped = parts.rod_chains.iter().any(RodChain::is_damped)
             || parts.chains.iter().any(LineChain::is_damped);
-        let loads_damped = parts.loads.iter().any(Load::is_damped);
+        let loads_damped = parts.loads.iter().any(AppliedLoad::is_damped);
         let releases = releases(&parts).map(|(_, release)| release).collect();
         let (grounded, takes_moments) = (grounded(&parts, &nonlinear), takes_moments(&parts));
         let (frames, described) = (take_frames(&mut parts), parts.nodes.clone());
@@ -255,7 +256,10 @@ impl<const D: usize> System<D> {
         for frame in self.frames.list() {
             arms[frame.node] = frame.gyration();
         }
-        for marker in ends().filter_map(End::marker).filter(|m| m.is_framed()) {
+        for marker in ends()
+            .filter_map(Attachment::marker)
+            .filter(|m| m.is_framed())
+        {
             let arm = &mut arms[marker.nodes[0]];
             *arm = arm.max(marker.arm());
         }
@@ -366,7 +370,7 @@ impl<const D: usize> System<D> {
 }
 
 /// Puts the nodes of frames where nothing has turned.
-fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &Frames) {
+fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &RotationMaps) {
     for chain in &parts.rod_chains {
         unplaced_rod(chain, &mut parts.nodes);
     }
@@ -377,7 +381,7 @@ fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &Frames) {
 }
 
 /// Frames of rigid bodies, which are taken out of the parts, and those that rods carry.
-fn take_frames<const D: usize>(parts: &mut Parts<D>) -> Frames {
+fn take_frames<const D: usize>(parts: &mut Parts<D>) -> RotationMaps {
     let chains = || parts.rod_chains.iter();
     let carried = chains().filter(|_| D > 2);
     let carried = carried.flat_map(|chain| chain.frames().map(|frame| (chain.leans(), frame)));
@@ -391,7 +395,7 @@ fn take_frames<const D: usize>(parts: &mut Parts<D>) -> Frames {
     let planar = chains().filter(|_| D == 2).flat_map(RodChain::axes_nodes);
     let nodes = (parts.nodes.len(), inner, planar);
     let bodies = std::mem::take(&mut parts.frames);
-    Frames::new(bodies, carried.collect(), nodes)
+    RotationMaps::new(bodies, carried.collect(), nodes)
 }
 
 fn redundant<const D: usize>(
@@ -432,7 +436,7 @@ fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64>
 /// For every node, whether a joint, motion, load or lumped inertia may exert a moment there.
 fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
     let mut takes = vec![false; parts.nodes.len()];
-    let mut take = |end: &End<D>| end.nodes().for_each(|node| takes[node] = true);
+    let mut take = |end: &Attachment<D>| end.nodes().for_each(|node| takes[node] = true);
     for joint in &parts.joints {
         for hold in &joint.holds {
             match hold {
@@ -456,7 +460,7 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
         }
     }
     for lump in parts.lumped_masses.iter().filter(|lump| lump.inertia > 0.0) {
-        take(&End::Body(lump.marker));
+        take(&Attachment::Body(lump.marker));
     }
     takes
 }
@@ -473,12 +477,12 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
         .collect();
     for load in &parts.loads {
         let is_grounded = match load {
-            Load::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),
-            Load::Bushing(_) => true,
+            AppliedLoad::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),
+            AppliedLoad::Bushing(_) => true,
             _ => false,
         };
         if is_grounded {
-            nodes.extend(load.ends().iter().flat_map(End::nodes));
+            nodes.extend(load.ends().iter().flat_map(Attachment::nodes));
         }
     }
     for constraint in nonlinear.iter().filter(|c| c.is_grounded()) {

@@ -5,7 +5,7 @@
 use nalgebra::SMatrix;
 
 use super::direction::Direction;
-use super::end::{Add, Angle, End, bilinear, coupling};
+use super::end::{Add, Angle, Attachment, bilinear, coupling};
 use super::gradient::Gradient;
 use crate::body::Node;
 use crate::math::jet::Number;
@@ -25,7 +25,7 @@ pub enum Coordinate<const D: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Translation<const D: usize> {
     /// From here to there.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// A unit vector of the first end's body, or fixed in space.
     pub direction: Direction<D>,
     /// In the plane of a body, sine and cosine of the angle from that to the way.
@@ -60,7 +60,7 @@ impl<const D: usize> Translation<D> {
         let first = match self.direction {
             Direction::Of(marker) => {
                 let back = turned(self.between(x), (-sin, cos));
-                (End::Body(marker.lift()), [-along, back])
+                (Attachment::Body(marker.lift()), [-along, back])
             }
             Direction::Fixed(_) => (self.ends[0].lift(), [-along, none]),
         };
@@ -82,7 +82,7 @@ impl<const D: usize> Translation<D> {
         };
         let [sin, cos] = self.turn;
         let product = SMatrix::from_fn(|r, c| turned(axis::<D, f64>(r), (sin, cos))[c]) * factor;
-        if let End::Body(second) = &self.ends[1] {
+        if let Attachment::Body(second) = &self.ends[1] {
             bilinear([(first, 1), (second, 0)], product, add);
         }
         bilinear([(first, 1), (first, 0)], -product, add);
@@ -127,7 +127,7 @@ impl<const D: usize> Angle<D> {
         let [p, q] = turn.products(x);
         let size = p.hypot(q);
         let first = turn.turned([q / size, p / size]);
-        if let (End::Body(first), Direction::Of(second)) = (&first, &turn.of) {
+        if let (Attachment::Body(first), Direction::Of(second)) = (&first, &turn.of) {
             let product = SMatrix::identity() * (factor / size);
             bilinear([(first, 1), (second, 1)], product, add);
         }
@@ -185,7 +185,7 @@ impl<const D: usize> Coordinate<D> {
         &self,
         force: N,
         x: &[Node<D, N>],
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         for (end, on) in &self.gradient(x).scaled(force).ends {
             call(end, *on);
@@ -193,7 +193,7 @@ impl<const D: usize> Coordinate<D> {
     }
 
     /// What it is measured between.
-    pub fn ends(&self) -> [End<D>; 2] {
+    pub fn ends(&self) -> [Attachment<D>; 2] {
         match self {
             Self::Translation(way) => way.ends,
             Self::Angle(angle, _) => angle.ends,

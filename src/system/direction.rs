@@ -4,7 +4,7 @@
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 use crate::system::gradient::Gradient;
 
 /// A direction: of a marker, or fixed in space.
@@ -43,10 +43,10 @@ impl<const D: usize> Direction<D> {
     }
 
     /// Its end; the ground where it is fixed.
-    pub fn end(&self) -> End<D> {
+    pub fn end(&self) -> Attachment<D> {
         match self {
-            Self::Of(marker) => End::Body(*marker),
-            Self::Fixed(_) => End::Ground(Vector::zeros()),
+            Self::Of(marker) => Attachment::Body(*marker),
+            Self::Fixed(_) => Attachment::Ground(Vector::zeros()),
         }
     }
 }
@@ -95,13 +95,13 @@ impl<const D: usize> AxisTurn<D> {
     }
 
     /// `w = -sin n + cos m`, across `u` at the angle with this sine and cosine, fixed in the first body: its end.
-    pub(super) fn turned<N: Number>(&self, [sin, cos]: [N; 2]) -> End<D, N> {
+    pub(super) fn turned<N: Number>(&self, [sin, cos]: [N; 2]) -> Attachment<D, N> {
         let [n, m] = self.across;
         match (n, m) {
             (Direction::Of(n), Direction::Of(m)) => {
-                End::Body(n.lift().blended(-sin, &m.lift(), cos))
+                Attachment::Body(n.lift().blended(-sin, &m.lift(), cos))
             }
-            _ => End::Ground(Vector::zeros()),
+            _ => Attachment::Ground(Vector::zeros()),
         }
     }
 

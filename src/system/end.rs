@@ -2,21 +2,21 @@
 
 use nalgebra::SMatrix;
 
-use crate::body::{Marker, Node, NodeBlock, Partial, Row, no_block};
+use crate::body::{ConnectivityRow, Marker, Node, NodeBlock, Partial, no_block};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, perpendicular, perpendicular_matrix};
 use crate::system::direction::AxisTurn;
 
 /// A point of the ground or of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End<const D: usize = 2, N: Number = f64> {
+pub enum Attachment<const D: usize = 2, N: Number = f64> {
     /// A fixed point, m. Its direction is the x axis.
     Ground(Vector<D, N>),
     /// A marker.
     Body(Marker<N>),
 }
 
-impl<const D: usize, N: Number> End<D, N> {
+impl<const D: usize, N: Number> Attachment<D, N> {
     /// Position, m.
     pub fn position(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         match self {
@@ -96,18 +96,23 @@ impl<const D: usize, N: Number> End<D, N> {
     }
 }
 
-impl<const D: usize> End<D> {
+impl<const D: usize> Attachment<D> {
     /// The same end in another kind of numbers.
     #[inline(always)]
-    pub fn lift<N: Number>(&self) -> End<D, N> {
+    pub fn lift<N: Number>(&self) -> Attachment<D, N> {
         match self {
-            Self::Ground(point) => End::Ground(point.map(N::of)),
-            Self::Body(marker) => End::Body(marker.lift()),
+            Self::Ground(point) => Attachment::Ground(point.map(N::of)),
+            Self::Body(marker) => Attachment::Body(marker.lift()),
         }
     }
 
     /// Adds what forces on position and direction would do to a row.
-    pub fn add_terms(&self, position: Vector<D>, direction: Vector<D>, row: &mut Row<D>) {
+    pub fn add_terms(
+        &self,
+        position: Vector<D>,
+        direction: Vector<D>,
+        row: &mut ConnectivityRow<D>,
+    ) {
         if let Self::Body(marker) = self {
             marker.add_terms(position, direction, row);
         }
@@ -128,8 +133,8 @@ impl<const D: usize> End<D> {
 }
 
 /// How far markers of rigid bodies are from their centres of mass at most, m.
-pub fn reach<const D: usize>(ends: &[End<D>; 2]) -> f64 {
-    let arm = |end: &End<D>| end.marker().map_or(0.0, |marker| marker.arm());
+pub fn reach<const D: usize>(ends: &[Attachment<D>; 2]) -> f64 {
+    let arm = |end: &Attachment<D>| end.marker().map_or(0.0, |marker| marker.arm());
     ends.iter().map(arm).fold(0.0, f64::max)
 }
 
@@ -137,7 +142,7 @@ pub fn reach<const D: usize>(ends: &[End<D>; 2]) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle<const D: usize = 2> {
     /// From here to there.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// In space, about what.
     pub turn: Option<AxisTurn<D>>,
 }
@@ -181,13 +186,13 @@ pub type Add<'a, const D: usize> = &'a mut dyn FnMut(usize, usize, &NodeBlock<D>
 
 /// Stiffness of a potential whose second derivative by the way between two ends is `k` times the
 /// identity.
-pub fn isotropic<const D: usize>(ends: &[End<D>; 2], k: f64, add: Add<'_, D>) {
+pub fn isotropic<const D: usize>(ends: &[Attachment<D>; 2], k: f64, add: Add<'_, D>) {
     between(ends, SMatrix::identity() * k, 0, add);
 }
 
 /// Stiffness `k` between the positions (`part` 0) or directions (1) of two ends.
 pub fn between<const D: usize>(
-    ends: &[End<D>; 2],
+    ends: &[Attachment<D>; 2],
     k: SMatrix<f64, D, D>,
     part: usize,
     add: Add<'_, D>,
@@ -197,7 +202,7 @@ pub fn between<const D: usize>(
 
 /// Adds the symmetric matrix `k` over positions (`part` 0) or directions (1) of two ends.
 pub fn coupling<const D: usize>(
-    ends: &[End<D>; 2],
+    ends: &[Attachment<D>; 2],
     k: [[SMatrix<f64, D, D>; 2]; 2],
     part: usize,
     add: Add<'_, D>,
@@ -205,7 +210,7 @@ pub fn coupling<const D: usize>(
     let none = (usize::MAX, [SMatrix::zeros(); 2]);
     let mut terms = [none; 4];
     for (i, end) in ends.iter().enumerate() {
-        if let End::Body(marker) = end {
+        if let Attachment::Body(marker) = end {
             let jacobian = marker.jacobian(part);
             terms[2 * i] = jacobian[0];
             if !marker.is_nodal() {

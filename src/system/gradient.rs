@@ -1,7 +1,7 @@
 //! Derivatives of a function of two ends, such as a constraint or a coordinate of a joint: forces on both, and over the nodes.
 
-use super::end::{Add, End};
-use crate::body::{Frames, Node, add_node, no_node};
+use super::end::{Add, Attachment};
+use crate::body::{Node, RotationMaps, add_node, no_node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, is_nothing};
 
@@ -9,7 +9,7 @@ use crate::math::space::{Vector, is_nothing};
 #[derive(Clone, Copy, Debug)]
 pub struct Gradient<const D: usize, N: Number = f64> {
     /// The ends and, for each, the derivatives by position and direction.
-    pub ends: [(End<D, N>, [Vector<D, N>; 2]); 2],
+    pub ends: [(Attachment<D, N>, [Vector<D, N>; 2]); 2],
 }
 
 impl<const D: usize, N: Number> Gradient<D, N> {
@@ -18,7 +18,7 @@ impl<const D: usize, N: Number> Gradient<D, N> {
     pub fn along(&self, rates: &[Node<D, N>]) -> N {
         let mut sum = N::of(0.0);
         for (end, [position, direction]) in &self.ends {
-            let End::Body(marker) = end else {
+            let Attachment::Body(marker) = end else {
                 continue;
             };
             if !is_nothing(position) {
@@ -44,7 +44,7 @@ impl<const D: usize, N: Number> Gradient<D, N> {
     #[inline(always)]
     pub fn for_each(&self, mut term: impl FnMut(usize, &Node<D, N>)) {
         for (end, [position, direction]) in &self.ends {
-            if let End::Body(marker) = end {
+            if let Attachment::Body(marker) = end {
                 let [a, b] = marker.forces(*position, *direction);
                 term(a.0, &a.1);
                 if !marker.is_nodal() {
@@ -58,12 +58,12 @@ impl<const D: usize, N: Number> Gradient<D, N> {
     #[inline(always)]
     pub fn for_each_pulled(
         &self,
-        frames: &Frames,
+        frames: &RotationMaps,
         x: &[Node<D, N>],
         mut term: impl FnMut(usize, &Node<D, N>),
     ) {
         for (end, [position, direction]) in &self.ends {
-            let End::Body(marker) = end else {
+            let Attachment::Body(marker) = end else {
                 continue;
             };
             if frames.pull_marker(marker, [position, direction], x, &mut term) {
@@ -105,8 +105,8 @@ impl<const D: usize> Terms<D> {
     }
 
     /// Adds derivatives by position and direction of an end.
-    pub fn add_end(&mut self, end: &End<D>, [position, direction]: [Vector<D>; 2]) {
-        if let End::Body(marker) = end {
+    pub fn add_end(&mut self, end: &Attachment<D>, [position, direction]: [Vector<D>; 2]) {
+        if let Attachment::Body(marker) = end {
             for (node, term) in marker.forces(position, direction) {
                 self.add(node, &term);
             }

@@ -3,7 +3,7 @@
 use super::LineChain;
 use super::end::Angle;
 use super::winch::{PaidOut, Winch};
-use crate::body::{Frames, Node, RodChain};
+use crate::body::{Node, RodChain, RotationMaps};
 use crate::math::jet::Number;
 
 /// Time, inputs and state as loads see them.
@@ -24,7 +24,7 @@ pub struct Instant<'a, const D: usize, N = f64> {
     /// Flexible bodies.
     pub chains: &'a [LineChain<D>],
     /// Sections of rods and beams, and the frames that they are at.
-    pub sections: (&'a [RodChain], &'a Frames),
+    pub sections: (&'a [RodChain], &'a RotationMaps),
     /// Counted angles of the system and their current values, rad.
     pub angles: (&'a [Angle<D>], &'a [N]),
     /// Cables that winches pay out.

@@ -24,18 +24,18 @@ pub use attitude::Attitude;
 pub use build::{BuildError, LumpedMass, Parts};
 pub use coordinate::{Coordinate, Translation};
 pub use direction::{AxisTurn, Direction};
-pub use end::{Angle, End, reach};
+pub use end::{Angle, Attachment, reach};
 pub use gradient::Gradient;
 pub use instant::Instant;
 pub use motion::breaks::Follower;
-pub use motion::dynamics::{Dynamics, Model, StepOutcome};
+pub use motion::dynamics::{DrivenSystem, Dynamics, StepOutcome};
 pub use motion::multipliers::ConstraintRow;
-pub use motion::rank::{Held, Redundant};
+pub use motion::rank::{HoldingParts, Redundant};
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
-pub use outputs::stress::SectionPoint;
-pub use rod::Rod;
-pub use signal::{Drive, Given, Signal, Trajectory, moved};
+pub use outputs::stress::StressPoint;
+pub use rod::RigidRod;
+pub use signal::{Drive, InputSignal, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
 pub use spectra::modes::{Mode, damping_along, modes};
 pub use spectra::response::slow_response;
@@ -55,11 +55,11 @@ use crate::math::jet::Number;
 use crate::math::rotation::NO_TURN;
 use crate::math::space::Vector;
 
-use crate::body::{Chain, Elimination, Frames, Node, RodChain};
+use crate::body::{Chain, Elimination, Node, RodChain, RotationMaps};
 use crate::elements::cable::Cable;
 pub use joints::Release;
-use joints::{Constraint, Joint, Linear};
-use loads::Load;
+use joints::{Constraint, JointEquations, Linear};
+use loads::AppliedLoad;
 use motion::tree::Tree;
 use winch::Length;
 
@@ -74,16 +74,16 @@ pub struct System<const D: usize = 2> {
     chains: Vec<LineChain<D>>,
     lumped_masses: Vec<LumpedMass>,
     /// Rigid bodies of space that turn, and how far the system reaches where there are any, m.
-    frames: Frames,
+    frames: RotationMaps,
     reach: f64,
     /// Bending and torsion of rods.
     rod_chains: Vec<RodChain>,
     /// Rigid bodies whose sections are read.
-    rods: Vec<Rod>,
+    rods: Vec<RigidRod>,
     /// Nodes of every body.
     bodies: Vec<Range<usize>>,
     elimination: Elimination<D>,
-    joints: Vec<Joint<D>>,
+    joints: Vec<JointEquations<D>>,
     linear: Vec<Linear<D>>,
     /// For every linear row, its cluster and place there, unless it repeats others.
     holds: Vec<Option<(usize, usize)>>,
@@ -101,9 +101,9 @@ pub struct System<const D: usize = 2> {
     /// Joints with a row that repeats others.
     redundant: Vec<usize>,
     drives: Vec<Drive>,
-    loads: Vec<Load<D>>,
+    loads: Vec<AppliedLoad<D>>,
     /// Loads that act only where the initial state is looked for.
-    initial_loads: Vec<Load<D>>,
+    initial_loads: Vec<AppliedLoad<D>>,
     angles: Vec<Angle<D>>,
     /// When joints let go.
     releases: Vec<Release>,
@@ -175,7 +175,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Rigid bodies of space that turn.
-    pub fn frames(&self) -> &Frames {
+    pub fn frames(&self) -> &RotationMaps {
         &self.frames
     }
 
@@ -185,7 +185,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Straight rigid bodies whose sections are read.
-    pub fn rods(&self) -> &[Rod] {
+    pub fn rods(&self) -> &[RigidRod] {
         &self.rods
     }
 
@@ -200,7 +200,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Joints, then motions.
-    pub fn joints(&self) -> &[Joint<D>] {
+    pub fn joints(&self) -> &[JointEquations<D>] {
         &self.joints
     }
 
@@ -286,7 +286,7 @@ impl<const D: usize> System<D> {
 
     /// Whether forces have kinks at times that the state decides: error estimates of explicit methods may miss them.
     pub fn has_contacts(&self) -> bool {
-        self.loads.iter().any(Load::has_contact)
+        self.loads.iter().any(AppliedLoad::has_contact)
     }
 
     /// Whether states are brought back to constraints after each step.
@@ -322,10 +322,12 @@ impl<const D: usize> System<D> {
     }
 
     /// What inputs say of every coordinate that they drive.
-    fn trajectories(&self) -> impl Iterator<Item = Given> {
+    fn trajectories(&self) -> impl Iterator<Item = InputSignal> {
         self.drives.iter().filter_map(|drive| match drive {
-            Drive::Input { first, derivatives } => Some(Given::Coordinate(*first, 1 + derivatives)),
-            Drive::Turned { attitude, part } => Some(Given::Part(*attitude, *part)),
+            Drive::Input { first, derivatives } => {
+                Some(InputSignal::Coordinate(*first, 1 + derivatives))
+            }
+            Drive::Turned { attitude, part } => Some(InputSignal::Part(*attitude, *part)),
             Drive::Function(_) => None,
         })
     }

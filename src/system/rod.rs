@@ -2,7 +2,7 @@
 
 /// A rigid body along its direction, its mass uniform and its node in the middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rod {
+pub struct RigidRod {
     /// Its node.
     pub node: usize,
     /// Length, m.

@@ -69,14 +69,14 @@ pub enum Drive {
 
 /// What inputs say of a driven coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Given {
+pub enum InputSignal {
     /// Its value, then derivatives: index of the first, and how many numbers there are.
     Coordinate(usize, usize),
     /// An orientation, of whose quaternion it is this part.
     Part(Attitude, usize),
 }
 
-impl Given {
+impl InputSignal {
     /// Whether its second derivative is an input.
     pub fn has_acceleration(self) -> bool {
         match self {

@@ -5,7 +5,9 @@ use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
-use crate::body::{Articulated, Jacobian, Node, STAGES, SectionFrameState, Tangent, Turn, no_node};
+use crate::body::{
+    Articulated, Jacobian, Node, RotationIncrement, STAGES, SectionFrameState, Tangent, no_node,
+};
 use crate::math::recent::Recent;
 use crate::math::rotation::{NO_TURN, Quaternion};
 
@@ -44,11 +46,11 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) released: Vec<bool>,
     /// Frames that rotations are counted from, and how bodies have turned from there.
     pub(super) frames: Vec<Quaternion>,
-    pub(super) turns: Vec<Turn>,
+    pub(super) turns: Vec<RotationIncrement>,
     /// The same of frames that rods carry.
     pub(super) carries: Vec<SectionFrameState>,
     /// Both where the tangent was made, and of frames that lean at the stages of an implicit method too.
-    pub(super) base_turns: Vec<Turn>,
+    pub(super) base_turns: Vec<RotationIncrement>,
     pub(super) stages: [Vec<SectionFrameState>; 1 + STAGES],
     /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
     pub(super) torques: Vec<[f64; 3]>,
@@ -136,7 +138,7 @@ impl<const D: usize> Workspace<D> {
         let jacobian = Jacobian::new(elimination, multipliers, system.evenness(), is_linear);
         let lambda = vec![0.0; system.constraints.len()];
         let rank = RankWatch::new(lambda.len(), system.coordinates());
-        let turns = vec![Turn::default(); system.frames.list().len()];
+        let turns = vec![RotationIncrement::default(); system.frames.list().len()];
         let carries = vec![SectionFrameState::default(); system.frames.carried().len()];
         Self {
             x: nodes.clone(),

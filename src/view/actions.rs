@@ -13,7 +13,7 @@ use crate::system::Signal;
 const ARROWS: u32 = 9;
 
 /// Something that acts.
-pub(super) struct Action<'a> {
+pub(super) struct MovingAction<'a> {
     /// Its name, or what it is.
     pub name: &'a str,
     /// Unit of its components.
@@ -53,7 +53,7 @@ enum Origin<'a> {
 }
 
 /// Everything that acts in a scene.
-pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
+pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<MovingAction<'a>> {
     let dimension = resolved.scene.dimension;
     let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
         LoadKind::Action { action, .. } => Some((load.name, action)),
@@ -88,7 +88,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
 }
 
 /// Forces and moments of joints and motions, those that they may have.
-fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = Action<'a>> {
+fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = MovingAction<'a>> {
     let dimension = resolved.scene.dimension;
     let joints = resolved.joints.iter().map(|joint| {
         let holds = [
@@ -127,7 +127,7 @@ fn exerted<'a>(
     is_there: [bool; 2],
     quantity: impl Fn(bool, usize) -> Quantity,
     of: impl Fn(Vec<Quantity>) -> Origin<'a>,
-) -> impl Iterator<Item = Action<'a>> {
+) -> impl Iterator<Item = MovingAction<'a>> {
     let both = [(is_there[0], false), (is_there[1], true)].into_iter();
     both.filter(|(is_there, _)| *is_there)
         .map(move |(_, is_moment)| {
@@ -135,7 +135,7 @@ fn exerted<'a>(
                 true => spins(dimension),
                 false => 0..dimension,
             };
-            Action {
+            MovingAction {
                 name,
                 unit: if is_moment { "N m" } else { "N" },
                 is_moment,
@@ -148,7 +148,7 @@ fn exerted<'a>(
 }
 
 /// What a spring, a bushing or a stop does to its second end, a contact to its marker or along its body; nothing of other loads.
-fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec<Action<'a>> {
+fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec<MovingAction<'a>> {
     let quantity = move |is_moment, axis| match is_moment {
         true => Quantity::LoadMoment(id, axis),
         false => Quantity::LoadForce(id, axis),
@@ -163,7 +163,7 @@ fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec
     else {
         return Vec::new();
     };
-    vec![Action {
+    vec![MovingAction {
         name: load.name,
         unit: "N/m",
         is_moment: false,
@@ -175,8 +175,8 @@ fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec
 }
 
 /// The current of a fluid.
-fn of_fluid<'a>(name: &'a str, fluid: &'a scene::Fluid<'a>) -> Action<'a> {
-    Action {
+fn of_fluid<'a>(name: &'a str, fluid: &'a scene::Fluid<'a>) -> MovingAction<'a> {
+    MovingAction {
         name,
         unit: "m/s",
         is_moment: false,
@@ -187,8 +187,12 @@ fn of_fluid<'a>(name: &'a str, fluid: &'a scene::Fluid<'a>) -> Action<'a> {
     }
 }
 
-fn of_action<'a>(name: &'a str, action: &'a scene::Action<'a>, dimension: usize) -> Action<'a> {
-    Action {
+fn of_action<'a>(
+    name: &'a str,
+    action: &'a scene::Action<'a>,
+    dimension: usize,
+) -> MovingAction<'a> {
+    MovingAction {
         name,
         unit: action.kind.words()[1],
         is_moment: !action.kind.is_force(),
@@ -210,7 +214,7 @@ fn places() -> Vec<f64> {
     arrows.map(place).collect()
 }
 
-impl Action<'_> {
+impl MovingAction<'_> {
     /// Whether it is a force or moment of a joint or motion.
     pub fn is_reaction(&self) -> bool {
         matches!(self.of, Origin::Reaction(_))

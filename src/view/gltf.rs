@@ -5,7 +5,7 @@
 
 use super::numbers::{list, quoted};
 use super::recording::Recording;
-use super::surface::{Placed, Surface, surfaces};
+use super::surface::{BodySurface, PointWithAxes, surfaces};
 use crate::math::rotation::{NO_TURN, Quaternion};
 
 /// Numbers of types of components and of targets in glTF.
@@ -92,8 +92,8 @@ impl File {
         self.accessor((FLOAT, kind), values.len() / width, &bytes, &more)
     }
 
-    fn body(&mut self, recording: &Recording, surface: &Surface, body: usize, input: usize) {
-        let frames: Vec<Vec<Placed>> = (0..recording.times.len())
+    fn body(&mut self, recording: &Recording, surface: &BodySurface, body: usize, input: usize) {
+        let frames: Vec<Vec<PointWithAxes>> = (0..recording.times.len())
             .map(|frame| surface.places(recording, frame))
             .collect();
         let count = frames[0].len();
@@ -131,7 +131,7 @@ impl File {
     }
 
     /// A node that goes and turns as a place does.
-    fn place(&mut self, frames: &[Vec<Placed>], place: usize, input: usize) {
+    fn place(&mut self, frames: &[Vec<PointWithAxes>], place: usize, input: usize) {
         let (mut ways, mut turns): (Vec<f32>, Vec<f32>) = (Vec::new(), Vec::new());
         let mut held: Quaternion = NO_TURN;
         for places in frames {
@@ -162,7 +162,7 @@ impl File {
         }
     }
 
-    fn mesh(&mut self, surface: &Surface, body: usize, is_rigid: bool) -> usize {
+    fn mesh(&mut self, surface: &BodySurface, body: usize, is_rigid: bool) -> usize {
         let points: Vec<f32> = surface
             .points
             .iter()

@@ -1,6 +1,6 @@
 //! What of a picture does not change in time, as JSON, and the numbers that do.
 
-use super::actions::{Action, Where, actions};
+use super::actions::{MovingAction, Where, actions};
 use super::numbers::{Numbers, list, quoted};
 use super::recording::Recording;
 use super::sections::{has_corners, sections};
@@ -312,7 +312,7 @@ fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {
 fn of_action(
     recording: &Recording,
     place: usize,
-    action: &Action<'_>,
+    action: &MovingAction<'_>,
     numbers: &mut Numbers,
 ) -> String {
     let rows: Vec<Vec<f64>> = (recording.acting.iter())

@@ -18,5 +18,5 @@ pub use bundle::{LICENSE, SOURCES, bundle};
 pub use gltf::gltf;
 pub use picture::{document, picture, picture_of_table};
 pub use recording::{Limits, Recording};
-pub use table::Table;
+pub use table::OutputTable;
 pub use vtk::vtk;

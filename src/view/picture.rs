@@ -3,7 +3,7 @@
 use super::bundle::{LICENSE, STYLE, bundle};
 use super::header::header;
 use super::recording::Recording;
-use super::table::Table;
+use super::table::OutputTable;
 
 /// Unpacks the program and starts it: no module, so that a page does the same from a disk.
 const START: &str = "(async () => {\n\
@@ -25,7 +25,7 @@ pub fn picture(recording: &Recording, still: &str) -> String {
 }
 
 /// The same of a table of outputs: markers as points, and curves.
-pub fn picture_of_table(table: &Table, title: &str) -> String {
+pub fn picture_of_table(table: &OutputTable, title: &str) -> String {
     element(table.header(title), "")
 }
 

@@ -1,6 +1,6 @@
 //! A run, as pictures of it are drawn from: how bodies stand and what acts on them at some communication points, outputs at some or all.
 
-use super::actions::{Action, actions};
+use super::actions::{MovingAction, actions};
 use crate::scene::Scene;
 use crate::simulation::{Causality, InputTable, Pose, Signals, Simulation};
 
@@ -86,7 +86,7 @@ impl Recording {
         }
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| error.to_string())?;
-        let mut run = Run::new(scene.clone(), simulation)?;
+        let mut run = UnfinishedRecording::new(scene.clone(), simulation)?;
         let actions = actions(&resolved);
         run.frame(&actions)?;
         let steps = scene.experiment.steps() as u64;
@@ -130,14 +130,14 @@ impl Recording {
 }
 
 /// A recording in the making.
-struct Run {
+struct UnfinishedRecording {
     simulation: Simulation,
     /// Outputs among the variables.
     columns: Vec<usize>,
     recording: Recording,
 }
 
-impl Run {
+impl UnfinishedRecording {
     fn new(scene: Scene, mut simulation: Simulation) -> Result<Self, String> {
         let variables = simulation.variables().iter().enumerate();
         let outputs = variables.filter(|(_, v)| Causality::of(v) == Causality::Output);
@@ -202,7 +202,7 @@ impl Run {
         Ok(())
     }
 
-    fn frame(&mut self, actions: &[Action<'_>]) -> Result<(), String> {
+    fn frame(&mut self, actions: &[MovingAction<'_>]) -> Result<(), String> {
         let poses = self.simulation.poses().map_err(|error| error.to_string())?;
         let values = actions
             .iter()

@@ -18,12 +18,12 @@ const BAR: f64 = 0.006;
 
 /// A point with axes: the first along a line or that of a frame.
 #[derive(Clone, Copy)]
-pub(super) struct Placed {
+pub(super) struct PointWithAxes {
     pub point: Vector3<f64>,
     pub axes: [Vector3<f64>; 3],
 }
 
-impl Placed {
+impl PointWithAxes {
     /// A point given along the axes.
     pub fn at(&self, local: &[f64; 3]) -> Vector3<f64> {
         let [a, b, c] = &self.axes;
@@ -37,7 +37,7 @@ impl Placed {
 }
 
 /// The surface of a body: points, each along the axes of one of the places that move, and polygons between points.
-pub(super) struct Surface {
+pub(super) struct BodySurface {
     pub name: String,
     /// Of every point the place that it belongs to, and its coordinates there, m.
     pub points: Vec<(usize, [f64; 3])>,
@@ -48,14 +48,14 @@ pub(super) struct Surface {
     body: usize,
 }
 
-impl Surface {
+impl BodySurface {
     /// Where its places are in a frame.
-    pub fn places(&self, recording: &Recording, frame: usize) -> Vec<Placed> {
+    pub fn places(&self, recording: &Recording, frame: usize) -> Vec<PointWithAxes> {
         let pose = &recording.poses[frame][self.body];
         if self.stations.is_empty() {
             return vec![rigid_place(pose, recording.scene.dimension)];
         }
-        let mut places: Vec<Placed> = Vec::new();
+        let mut places: Vec<PointWithAxes> = Vec::new();
         for (element, xi) in &self.stations {
             let before = places.last().map(|place| place.axes[1]);
             places.push(self.section(pose, (*element, *xi), recording.scene.dimension, before));
@@ -69,7 +69,7 @@ impl Surface {
         (element, xi): (usize, f64),
         dimension: usize,
         before: Option<Vector3<f64>>,
-    ) -> Placed {
+    ) -> PointWithAxes {
         let length = self.lengths[element];
         let weighted = |weights: [f64; 4]| {
             let ends = [element, element + 1].map(|node| pose.nodes[node].map(Vector3::from));
@@ -95,14 +95,14 @@ impl Surface {
             _ => before.unwrap_or_else(|| Vector3::ith(along.iamin(), 1.0)),
         };
         let second = (second - along * along.dot(&second)).normalize();
-        Placed {
+        PointWithAxes {
             point,
             axes: [along, second, along.cross(&second)],
         }
     }
 }
 
-fn rigid_place(pose: &Pose, dimension: usize) -> Placed {
+fn rigid_place(pose: &Pose, dimension: usize) -> PointWithAxes {
     let [point, first] = pose.nodes[0].map(Vector3::from);
     let axes = match pose.axes.first() {
         Some(axes) => axes.map(Vector3::from),
@@ -112,11 +112,11 @@ fn rigid_place(pose: &Pose, dimension: usize) -> Placed {
         }
         None => [Vector3::x(), Vector3::y(), Vector3::z()],
     };
-    Placed { point, axes }
+    PointWithAxes { point, axes }
 }
 
 /// Surfaces of all bodies.
-pub(super) fn surfaces(recording: &Recording) -> Vec<Surface> {
+pub(super) fn surfaces(recording: &Recording) -> Vec<BodySurface> {
     let resolved = recording.scene.resolved();
     let size = extent(recording);
     let bodies = resolved.bodies.iter().enumerate();
@@ -162,7 +162,7 @@ fn chain(
     lengths: Vec<f64>,
     sections: &[[[f64; 2]; 2]],
     corners: bool,
-) -> Surface {
+) -> BodySurface {
     let parts = ALONG.div_ceil(lengths.len());
     let count = parts * lengths.len();
     let stations: Vec<(usize, f64)> = (0..=count)
@@ -201,7 +201,7 @@ fn chain(
             ]);
         }
     }
-    Surface {
+    BodySurface {
         name: name.into(),
         points,
         faces,
@@ -280,7 +280,7 @@ impl Built {
     }
 }
 
-fn solid(rigid: &RigidBody, body: usize, size: f64) -> Surface {
+fn solid(rigid: &RigidBody, body: usize, size: f64) -> BodySurface {
     let mut built = Built::default();
     match rigid.shape {
         Some(Solid::Box { size }) => {
@@ -339,7 +339,7 @@ fn solid(rigid: &RigidBody, body: usize, size: f64) -> Surface {
             }
         }
     }
-    Surface {
+    BodySurface {
         name: rigid.name.clone(),
         points: built.points.into_iter().map(|point| (0, point)).collect(),
         faces: built.faces,

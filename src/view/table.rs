@@ -4,13 +4,13 @@ use super::numbers::{Numbers, list, quoted};
 
 /// Outputs at times.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct OutputTable {
     names: Vec<String>,
     times: Vec<f64>,
     rows: Vec<Vec<f64>>,
 }
 
-impl Table {
+impl OutputTable {
     /// Reads a CSV file: a line of names, `time` first, then numbers.
     ///
     /// # Errors

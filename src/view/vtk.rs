@@ -4,7 +4,7 @@
 
 use super::numbers::base64;
 use super::recording::Recording;
-use super::surface::{Surface, surfaces};
+use super::surface::{BodySurface, surfaces};
 
 /// Files of a run: name, content. The first names the others, with their times.
 pub fn vtk(recording: &Recording) -> impl Iterator<Item = (String, String)> + '_ {
@@ -27,7 +27,7 @@ pub fn vtk(recording: &Recording) -> impl Iterator<Item = (String, String)> + '_
     std::iter::once(("motion.pvd".to_owned(), series)).chain(frames)
 }
 
-fn polygons(recording: &Recording, surfaces: &[Surface], frame: usize) -> String {
+fn polygons(recording: &Recording, surfaces: &[BodySurface], frame: usize) -> String {
     let (mut points, mut corners, mut ends, mut bodies) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (body, surface) in surfaces.iter().enumerate() {

@@ -3,23 +3,23 @@
 use std::ffi::{c_char, c_int};
 use std::ptr;
 
-use flexbody::fmi2::{Function, state_name};
+use flexbody::fmi2::{InterfaceFunction, state_name};
 
-use crate::support::{Instance, State, Status, Unit, call};
+use crate::support::{Instance, InstanceState, Status, Unit, call};
 
 /// The states that a master can bring about.
-const STATES: [State; 6] = [
-    State::Instantiated,
-    State::Initialization,
-    State::StepComplete,
-    State::StepFailed,
-    State::Terminated,
-    State::Error,
+const STATES: [InstanceState; 6] = [
+    InstanceState::Instantiated,
+    InstanceState::Initialization,
+    InstanceState::StepComplete,
+    InstanceState::StepFailed,
+    InstanceState::Terminated,
+    InstanceState::Error,
 ];
 
 /// Calls a function with arguments that are harmless.
-fn answer(instance: &Instance<'_>, function: Function) -> Status {
-    use Function::*;
+fn answer(instance: &Instance<'_>, function: InterfaceFunction) -> Status {
+    use InterfaceFunction::*;
     let c = instance.component;
     let (mut real, mut integer, mut status) = (0.0, 0, Status::Ok);
     let mut word: *const c_char = ptr::null();
@@ -82,20 +82,20 @@ fn answer(instance: &Instance<'_>, function: Function) -> Status {
 }
 
 /// The functions of saved states on a state of the instance itself.
-fn saved_state(instance: &Instance<'_>, function: Function) -> Status {
+fn saved_state(instance: &Instance<'_>, function: InterfaceFunction) -> Status {
     let c = instance.component;
     let mut state = instance.save();
     let bytes = instance.serialize(state);
     let mut copy = vec![0_u8; bytes.len()];
     let (mut size, mut second) = (0, ptr::null_mut());
     let status = match function {
-        Function::GetFMUstate => call!(fmi2GetFMUstate, c, &mut state),
-        Function::SetFMUstate => call!(fmi2SetFMUstate, c, state),
-        Function::FreeFMUstate => call!(fmi2FreeFMUstate, c, &mut state),
-        Function::SerializedFMUstateSize => {
+        InterfaceFunction::GetFMUstate => call!(fmi2GetFMUstate, c, &mut state),
+        InterfaceFunction::SetFMUstate => call!(fmi2SetFMUstate, c, state),
+        InterfaceFunction::FreeFMUstate => call!(fmi2FreeFMUstate, c, &mut state),
+        InterfaceFunction::SerializedFMUstateSize => {
             call!(fmi2SerializedFMUstateSize, c, state, &mut size)
         }
-        Function::SerializeFMUstate => {
+        InterfaceFunction::SerializeFMUstate => {
             call!(
                 fmi2SerializeFMUstate,
                 c,
@@ -120,7 +120,10 @@ fn what_the_table_forbids_is_refused_and_changes_nothing() {
     for state in STATES {
         let instance = Instance::in_state(&unit, state);
         let before = instance.fingerprint();
-        for function in Function::ALL.iter().filter(|f| !f.allowed_in(state)) {
+        for function in InterfaceFunction::ALL
+            .iter()
+            .filter(|f| !f.allowed_in(state))
+        {
             let (function, name) = (*function, function.name());
             assert_eq!(
                 answer(&instance, function),
@@ -147,12 +150,15 @@ fn what_the_table_forbids_is_refused_and_changes_nothing() {
 fn what_the_table_allows_is_answered() {
     let unit = Unit::new();
     for state in STATES {
-        for function in Function::ALL.iter().filter(|f| f.allowed_in(state)) {
+        for function in InterfaceFunction::ALL
+            .iter()
+            .filter(|f| f.allowed_in(state))
+        {
             let instance = Instance::in_state(&unit, state);
             let expected = match function {
-                Function::GetStatus | Function::GetIntegerStatus | Function::GetStringStatus => {
-                    Status::Discard
-                }
+                InterfaceFunction::GetStatus
+                | InterfaceFunction::GetIntegerStatus
+                | InterfaceFunction::GetStringStatus => Status::Discard,
                 _ => Status::Ok,
             };
             let found = answer(&instance, *function);

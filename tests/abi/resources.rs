@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-use crate::support::{CO_SIMULATION, Instance, Record, SCENE, State, Status, Unit, call};
+use crate::support::{CO_SIMULATION, Instance, InstanceState, Record, SCENE, Status, Unit, call};
 
 /// Where the child process of a test finds its unit.
 const UNIT: &str = "FLEXBODY_TEST_UNIT";
@@ -104,7 +104,7 @@ fn life(unit: &Unit) {
     assert_eq!(call!(fmi2Reset, instance.component), Status::Ok);
     instance.start();
     assert_eq!(instance.run(0, 3), expected);
-    drop(Instance::in_state(unit, State::Error));
+    drop(Instance::in_state(unit, InstanceState::Error));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::ptr;
 
 use flexbody::fmi2::state_name;
 
-use crate::support::{Instance, SCENE, State, Status, Unit, call};
+use crate::support::{Instance, InstanceState, SCENE, Status, Unit, call};
 
 /// An instance at 0.1 s whose input has just jumped, with parameters of its own.
 fn travelled(unit: &Unit) -> Instance<'_> {
@@ -132,7 +132,7 @@ fn states_carry_the_lifecycle_and_the_experiment() {
 #[test]
 fn a_saved_state_leads_out_of_failure() {
     let unit = Unit::new();
-    for failed in [State::StepFailed, State::Error] {
+    for failed in [InstanceState::StepFailed, InstanceState::Error] {
         let good = Instance::started(&unit);
         let bytes = good.fingerprint();
         let instance = Instance::in_state(&unit, failed);

@@ -3,7 +3,7 @@
 use std::sync::Barrier;
 use std::thread;
 
-use crate::support::{Instance, State, Status, Unit, call};
+use crate::support::{Instance, InstanceState, Status, Unit, call};
 
 const LAST_SUCCESSFUL_TIME: i32 = 2;
 const TERMINATED: i32 = 3;
@@ -150,7 +150,7 @@ fn a_step_that_fails_is_discarded_and_can_be_taken_again() {
 #[test]
 fn an_initialization_that_fails_says_why() {
     let unit = Unit::new();
-    let instance = Instance::in_state(&unit, State::Instantiated);
+    let instance = Instance::in_state(&unit, InstanceState::Instantiated);
     assert_eq!(instance.set_elements(1), Status::Ok);
     assert_eq!(
         call!(fmi2EnterInitializationMode, instance.component),

@@ -8,7 +8,7 @@ use std::ptr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-pub use flexbody::fmi::{State, Status};
+pub use flexbody::fmi::{InstanceState, Status};
 use flexbody::fmi2::abi::{CallbackFunctions, Component, FmuState, LoggerCallback};
 use flexbody::scene::Scene;
 use flexbody::simulation::{Variable, variables};
@@ -252,32 +252,32 @@ impl<'a> Instance<'a> {
     }
 
     /// An instance in a state.
-    pub fn in_state(unit: &'a Unit, state: State) -> Self {
+    pub fn in_state(unit: &'a Unit, state: InstanceState) -> Self {
         let instance = match state {
-            State::Bare => Self::bare(unit),
+            InstanceState::Bare => Self::bare(unit),
             _ => Self::new(unit),
         };
         let c = instance.component;
         match state {
-            State::Instantiated | State::Bare => {}
-            State::Initialization => {
+            InstanceState::Instantiated | InstanceState::Bare => {}
+            InstanceState::Initialization => {
                 assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Ok);
             }
-            State::StepComplete => instance.start(),
-            State::StepFailed => {
+            InstanceState::StepComplete => instance.start(),
+            InstanceState::StepFailed => {
                 instance.start();
                 assert_eq!(instance.set("rod.tip.force[1]", 1e300), Status::Ok);
                 assert_eq!(instance.step(0.0, 0.1), Status::Discard);
             }
-            State::Terminated => {
+            InstanceState::Terminated => {
                 instance.start();
                 assert_eq!(call!(fmi2Terminate, c), Status::Ok);
             }
-            State::Error => {
+            InstanceState::Error => {
                 assert_eq!(instance.set_elements(1), Status::Ok);
                 assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Error);
             }
-            State::Fatal => unreachable!("only a defect of the library leads there"),
+            InstanceState::Fatal => unreachable!("only a defect of the library leads there"),
         }
         instance.record.take();
         instance

@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 use std::ptr;
 
-use crate::support::{Instance, State, Status, Unit, call};
+use crate::support::{Instance, InstanceState, Status, Unit, call};
 
 const FAR: u32 = 9999;
 
@@ -143,7 +143,7 @@ fn a_set_with_one_bad_value_sets_nothing() {
 #[test]
 fn a_refused_set_leaves_the_initial_state_as_it_was() {
     let unit = Unit::new();
-    let instance = Instance::in_state(&unit, State::Initialization);
+    let instance = Instance::in_state(&unit, InstanceState::Initialization);
     let elements = [unit.reference("rod.elements"); 2];
     let c = instance.component;
     refused(&instance, "rod.elements", || {
@@ -214,7 +214,7 @@ fn variables_are_set_only_when_they_may_be() {
     }
     refused(&instance, "rod.elements", || instance.set_elements(5));
     assert_eq!(instance.set("rod.tip.force[1]", 1.0), Status::Ok);
-    let early = Instance::in_state(&unit, State::Initialization);
+    let early = Instance::in_state(&unit, InstanceState::Initialization);
     for name in ["rod.density", "rod.tip.force[1]"] {
         assert_eq!(early.set(name, 3000.0), Status::Ok);
         assert_eq!(early.get(name), 3000.0);
@@ -225,7 +225,7 @@ fn variables_are_set_only_when_they_may_be() {
 #[test]
 fn outputs_follow_parameters_and_inputs_at_once() {
     let unit = Unit::new();
-    let instance = Instance::in_state(&unit, State::Initialization);
+    let instance = Instance::in_state(&unit, InstanceState::Initialization);
     let (gravity, frequency) = ("energy.gravity", "rod.natural_frequency[1]");
     let reaction = "pivot.reaction[2]";
     let before = [reaction, frequency].map(|name| instance.get(name));

@@ -2,7 +2,7 @@
 
 use flexbody::scene::{Scene, assemble};
 use flexbody::simulation::Simulation;
-use flexbody::system::{Dynamics, Model, Workspace};
+use flexbody::system::{DrivenSystem, Dynamics, Workspace};
 use serde_json::{Value, json};
 
 /// A simulation at its start.
@@ -276,7 +276,7 @@ fn a_stretch_counts_as_a_turn() {
         let mut q = vec![0.0; elimination.coordinates()];
         let mut scratch = vec![0.0; elimination.scratch()];
         elimination.reduce(&forces, &mut scratch, &mut q);
-        let mut model = Model::new(&system, &[], &mut work, &state);
+        let mut model = DrivenSystem::new(&system, &[], &mut work, &state);
         model.largest_turn(&state.coordinates, &q)
     };
     for factor in [1.4_f64, 0.6] {

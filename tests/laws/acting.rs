@@ -1,14 +1,15 @@
 //! Loads one by one, on cables and rigid bodies in random states: forces from energies, tangents by
 //! differences, power.
 
-use flexbody::body::{Frames, Marker, Node, NodeBlock};
+use flexbody::body::{Marker, Node, NodeBlock, RotationMaps};
 use flexbody::elements::Element;
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
-    Bushing, Contact, JointLimit, JointSpring, Load, Place, RotationalBushing, Surface,
+    AppliedLoad, Bushing, Contact, ContactPoint, ContactSurface, JointLimit, JointSpring,
+    RotationalBushing,
 };
-use flexbody::system::{Angle, Coordinate, Direction, End, Signal, Translation};
+use flexbody::system::{Angle, Attachment, Coordinate, Direction, Signal, Translation};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
 
@@ -21,7 +22,7 @@ const CASES: u32 = 200;
 /// A load with the angles that it may count.
 struct Acted<'a> {
     frame: &'a Frame,
-    load: Load,
+    load: AppliedLoad,
     angles: Vec<Angle>,
 }
 
@@ -29,7 +30,7 @@ impl Acted<'_> {
     fn at<T>(
         &self,
         (x, v, t): (&[Node], &[Node], f64),
-        f: impl Fn(&Load, Instant<'_, 2>) -> T,
+        f: impl Fn(&AppliedLoad, Instant<'_, 2>) -> T,
     ) -> T {
         let start = &self.frame.x;
         let hints: Vec<f64> = (self.angles.iter())
@@ -43,7 +44,7 @@ impl Acted<'_> {
             x,
             v,
             chains: &self.frame.chains,
-            sections: (&[], &Frames::default()),
+            sections: (&[], &RotationMaps::default()),
             angles: (&self.angles, &hints),
             winches: &[],
         };
@@ -97,7 +98,7 @@ impl Acted<'_> {
 
 /// Springs, dampers and stops on the angle between two ends and, where the first is rigid, on the way along a line of it.
 /// Stops stand where they are pressed on both sides.
-fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
+fn on_coordinates<'a>(frame: &'a Frame, ends: [Attachment; 2]) -> Vec<Acted<'a>> {
     let (made, angle) = (&frame.made, Angle { ends, turn: None });
     let [sin, cos] = [made.noise[23].sin(), made.noise[23].cos()];
     let along = |direction| {
@@ -108,14 +109,14 @@ fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
         })
     };
     let way = match &ends[0] {
-        End::Body(marker) if ends[0].is_rigid() => Some(along(Direction::Of(*marker))),
-        End::Ground(_) => Some(along(Direction::Fixed(Vector2::new(cos, sin)))),
-        End::Body(_) => None,
+        Attachment::Body(marker) if ends[0].is_rigid() => Some(along(Direction::Of(*marker))),
+        Attachment::Ground(_) => Some(along(Direction::Fixed(Vector2::new(cos, sin)))),
+        Attachment::Body(_) => None,
     };
     let coordinates = way.into_iter().chain([Coordinate::Angle(angle, 0)]);
     let loads = coordinates.flat_map(|coordinate| {
         let value = coordinate.value(&frame.x, &[angle.value(&frame.x, 0.4)]);
-        let spring = Load::JointSpring(JointSpring {
+        let spring = AppliedLoad::JointSpring(JointSpring {
             coordinate: Box::new(coordinate.clone()),
             stiffness: 3.0 + made.noise[25],
             damping: 1.0 + made.noise[26],
@@ -127,7 +128,7 @@ fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
             [value - 9.0, value + 9.0],
         ];
         let stops = limits.map(|limits| {
-            Load::JointLimit(JointLimit {
+            AppliedLoad::JointLimit(JointLimit {
                 coordinate: Box::new(coordinate.clone()),
                 limits,
                 stiffness: 5.0 + made.noise[24],
@@ -148,16 +149,16 @@ fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
 fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
     let made = &frame.made;
     let markers = ends(made).into_iter().filter_map(|[_, end]| {
-        let End::Body(marker) = made.product_end(end) else {
+        let Attachment::Body(marker) = made.product_end(end) else {
             return None;
         };
         let weight = 1.0;
-        Some(vec![Place { marker, weight }])
+        Some(vec![ContactPoint { marker, weight }])
     });
     let cables = frame.chains.iter().enumerate().map(|(body, chain)| {
         let elements = chain.elements().iter().enumerate();
         let places = elements.flat_map(|(j, element)| {
-            [0.1, 0.6].map(|xi| Place {
+            [0.1, 0.6].map(|xi| ContactPoint {
                 marker: Marker::within(body, chain, j, xi),
                 weight: 0.5 * element.length(),
             })
@@ -173,11 +174,11 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
         let center = points[0] - normal * 1.3;
         let far = points.iter().map(|point| (point - center).norm());
         let surfaces = [
-            Surface::Plane {
+            ContactSurface::Plane {
                 point: normal * (highest + 0.4),
                 normal,
             },
-            Surface::Round {
+            ContactSurface::Round {
                 center,
                 axis: None,
                 radius: far.fold(0.0, f64::max) + 0.3,
@@ -185,7 +186,7 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
         ];
         surfaces.map(|surface| Acted {
             frame,
-            load: Load::Contact(Box::new(Contact {
+            load: AppliedLoad::Contact(Box::new(Contact {
                 places: places.clone(),
                 surface,
                 stiffness: 5.0 + made.noise[24],
@@ -264,16 +265,16 @@ fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
     let mut couplings = Vec::new();
     for [_, end] in ends(made) {
         let end = made.product_end(end);
-        let End::Body(marker) = end else {
+        let Attachment::Body(marker) = end else {
             continue;
         };
         for damping in [0.0, 1.0 + made.noise[35]] {
             let [x, y, turn] = [36, 39, 42].map(|k| moving(wave(made, k)));
             let ([x, vx], [y, vy], [angle, velocity]) = (x, y, turn);
-            let ends = [End::Ground(Default::default()), end];
+            let ends = [Attachment::Ground(Default::default()), end];
             couplings.push(Acted {
                 frame,
-                load: Load::Bushing(Bushing {
+                load: AppliedLoad::Bushing(Bushing {
                     marker,
                     stiffness: 3.0 + made.noise[34],
                     damping,
@@ -284,7 +285,7 @@ fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
             });
             couplings.push(Acted {
                 frame,
-                load: Load::RotationalBushing(RotationalBushing {
+                load: AppliedLoad::RotationalBushing(RotationalBushing {
                     marker,
                     counted: 0,
                     stiffness: 3.0 + made.noise[34],
@@ -306,7 +307,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
     let rest = vec![[[0.0; 2]; 2]; x.len()];
     let force = acted.force(x, &rest, t);
     let most = 1.0 + force.amax();
-    let follower = matches!(&acted.load, Load::Force(force) if force.follower);
+    let follower = matches!(&acted.load, AppliedLoad::Force(force) if force.follower);
     let [stiffness, damping] = acted.tangent(x, &rest, t);
     let (mut by_x, mut by_v) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
     for i in 0..size {
@@ -317,9 +318,12 @@ fn law(acted: &Acted<'_>) -> Outcome {
             within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
         let conservative = match &acted.load {
-            Load::Spring(_) | Load::JointSpring(_) | Load::JointLimit(_) | Load::Contact(_) => true,
-            Load::Bushing(load) => load.damping == 0.0,
-            Load::RotationalBushing(load) => load.damping == 0.0,
+            AppliedLoad::Spring(_)
+            | AppliedLoad::JointSpring(_)
+            | AppliedLoad::JointLimit(_)
+            | AppliedLoad::Contact(_) => true,
+            AppliedLoad::Bushing(load) => load.damping == 0.0,
+            AppliedLoad::RotationalBushing(load) => load.damping == 0.0,
             _ => false,
         };
         if conservative {
@@ -413,7 +417,7 @@ fn a_rotational_spring_counts_turns() {
         };
         let moment = |turns: f64| {
             let hint = angles[0].value(&frame.x, 0.0) + std::f64::consts::TAU * turns;
-            let Load::JointSpring(spring) = &load else {
+            let AppliedLoad::JointSpring(spring) = &load else {
                 return f64::NAN;
             };
             let rest = vec![[[0.0; 2]; 2]; frame.x.len()];
@@ -425,7 +429,7 @@ fn a_rotational_spring_counts_turns() {
                 x: &frame.x,
                 v: &rest,
                 chains: &frame.chains,
-                sections: (&[], &Frames::default()),
+                sections: (&[], &RotationMaps::default()),
                 angles: (&angles, &[hint]),
                 winches: &[],
             });
@@ -443,7 +447,7 @@ fn a_rotational_spring_counts_turns() {
             x: &frame.x,
             v: &frame.v,
             chains: &frame.chains,
-            sections: (&[], &Frames::default()),
+            sections: (&[], &RotationMaps::default()),
             angles: (&angles, &[0.0]),
             winches: &[],
         };

@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
-use flexbody::integrators::{Method, RK4, Radau, RungeKutta, Tolerance, advance};
-use flexbody::system::{Evaluation, Model, System, fastest};
+use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, Tolerance, advance};
+use flexbody::system::{DrivenSystem, Evaluation, System, fastest};
 use proptest::prelude::*;
 
 use crate::laws::built::{Moving, moving};
@@ -23,7 +23,7 @@ fn energy(values: &Evaluation, system: &System) -> [f64; 2] {
     [parts.iter().sum(), parts.iter().map(|e| e.abs()).sum()]
 }
 
-fn method(moving: &mut Moving, explicit: bool) -> Box<dyn Method> {
+fn method(moving: &mut Moving, explicit: bool) -> Box<dyn OneStepMethod> {
     let n = moving.system.coordinates();
     let (frequency, decay) = fastest(&moving.system, &[], &mut moving.work, &moving.state);
     match explicit {
@@ -45,7 +45,7 @@ fn balance(mechanism: &Mechanism, explicit: bool, seen: &Cell<u32>) -> Outcome {
     let before = energy(&moving.evaluated(), &moving.system);
     let mut state = moving.state.clone();
     for until in [0.02, 0.05] {
-        let mut model = Model::new(&moving.system, &[], &mut moving.work, &state);
+        let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &state);
         let (_, result) = advance(&mut *method, &mut model, &mut state, until, &tolerance);
         // A slide may leave its cable, a singular configuration may come up.
         if result.is_err() {

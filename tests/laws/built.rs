@@ -1,13 +1,13 @@
 //! From the description of a mechanism to the product's system.
 
 use flexbody::body::{Marker, Node};
-use flexbody::system::joints::{Joint, Primitive};
+use flexbody::system::joints::{JointEquations, Primitive};
 use flexbody::system::loads::{
-    DistributedForce, Force, JointSpring, Line, LineLoad, Load, Moment, Spring,
+    AppliedLoad, DistributedForce, Force, JointSpring, LineLoad, LoadedLine, Moment, Spring,
 };
 use flexbody::system::{
-    Angle, BuildError, Coordinate, Drive, End, Evaluation, LineChain, LumpedMass, Model,
-    NotAssembled, Parts, Signal, State, StepOutcome, System, Workspace,
+    Angle, Attachment, BuildError, Coordinate, Drive, DrivenSystem, Evaluation, LineChain,
+    LumpedMass, NotAssembled, Parts, Signal, State, StepOutcome, System, Workspace,
 };
 use nalgebra::Vector2;
 use proptest::test_runner::TestCaseError;
@@ -49,15 +49,15 @@ impl Mechanism {
         }
     }
 
-    pub fn product_end(&self, point: Point) -> End {
+    pub fn product_end(&self, point: Point) -> Attachment {
         match point {
-            Point::Ground(p) => End::Ground(p),
-            Point::On(place) => End::Body(self.marker(place)),
+            Point::Ground(p) => Attachment::Ground(p),
+            Point::On(place) => Attachment::Body(self.marker(place)),
         }
     }
 
     /// The joint of a hold; what drives it is appended.
-    pub fn joint(&self, hold: &Hold, drives: &mut Vec<Drive>) -> Joint {
+    pub fn joint(&self, hold: &Hold, drives: &mut Vec<Drive>) -> JointEquations {
         let mut drive = |wave: &Wave| {
             drives.push(Drive::Function(wave.function()));
             drives.len() - 1
@@ -85,7 +85,7 @@ impl Mechanism {
                 vec![Primitive::DrivenDistance(*along, drive(wave))]
             }
         };
-        Joint {
+        JointEquations {
             holds,
             ends: hold.ends.map(|end| self.product_end(end)),
             spring: None,
@@ -96,33 +96,35 @@ impl Mechanism {
     }
 
     /// The load of an action.
-    pub fn load(&self, acting: &Acting) -> Load {
+    pub fn load(&self, acting: &Acting) -> AppliedLoad {
         let signal = |wave: &Wave| Signal::Function(wave.function());
         let ends = |ends: &[Point; 2]| ends.map(|end| self.product_end(end));
         match acting {
-            Acting::Force { at, follower, size } => Load::Force(Force {
+            Acting::Force { at, follower, size } => AppliedLoad::Force(Force {
                 marker: self.marker(*at),
                 follower: *follower,
                 components: size.each_ref().map(signal),
                 axes: [self.marker(*at); 2],
             }),
-            Acting::Moment { ends: e, size } => Load::Moment(Moment {
+            Acting::Moment { ends: e, size } => AppliedLoad::Moment(Moment {
                 ends: ends(e),
                 size: signal(size),
             }),
-            Acting::DistributedForce { body, size } => Load::DistributedForce(DistributedForce {
-                on: Line::Chain(self.chain(*body)),
-                density: LineLoad {
-                    uniform: size.each_ref().map(signal),
-                    along: [Vec::new(), Vec::new()],
-                },
-            }),
+            Acting::DistributedForce { body, size } => {
+                AppliedLoad::DistributedForce(DistributedForce {
+                    on: LoadedLine::Chain(self.chain(*body)),
+                    density: LineLoad {
+                        uniform: size.each_ref().map(signal),
+                        along: [Vec::new(), Vec::new()],
+                    },
+                })
+            }
             Acting::Spring {
                 ends: e,
                 stiffness,
                 damping,
                 length,
-            } => Load::Spring(Spring {
+            } => AppliedLoad::Spring(Spring {
                 ends: ends(e),
                 stiffness: *stiffness,
                 damping: *damping,
@@ -162,7 +164,7 @@ impl Mechanism {
             });
         lumped_masses.extend(extra);
         let (mut joints, mut drives, mut angles) = (Vec::new(), Vec::new(), Vec::new());
-        let mut loads: Vec<Load> = self.loads.iter().map(|load| self.load(load)).collect();
+        let mut loads: Vec<AppliedLoad> = self.loads.iter().map(|load| self.load(load)).collect();
         for hold in &self.holds {
             let mut joint = self.joint(hold, &mut drives);
             if let Kind::Hinge([stiffness, damping, rest]) = hold.kind {
@@ -172,7 +174,7 @@ impl Mechanism {
                     turn: None,
                 };
                 angles.push(angle);
-                loads.push(Load::JointSpring(JointSpring {
+                loads.push(AppliedLoad::JointSpring(JointSpring {
                     coordinate: Box::new(Coordinate::Angle(angle, angles.len() - 1)),
                     stiffness,
                     damping,
@@ -262,7 +264,7 @@ impl Moving {
         };
         add(&mut self.state.coordinates, &dx, size);
         add(&mut self.state.rates, &dv, 10.0 * size);
-        let mut model = Model::new(&self.system, &[], &mut self.work, &self.state);
+        let mut model = DrivenSystem::new(&self.system, &[], &mut self.work, &self.state);
         model.project(&mut self.state) && model.count(&mut self.state) == StepOutcome::AsIs
     }
 

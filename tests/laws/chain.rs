@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
-use flexbody::system::joints::{Joint, Primitive};
-use flexbody::system::loads::Load;
-use flexbody::system::{End, LineChain, Parts, State, System, Workspace};
+use flexbody::system::joints::{JointEquations, Primitive};
+use flexbody::system::loads::AppliedLoad;
+use flexbody::system::{Attachment, LineChain, Parts, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -79,7 +79,7 @@ pub fn chains(spread: Spread) -> impl Strategy<Value = Chain> {
         .prop_map(|(elements, joints, material, noise)| build(&elements, &joints, material, noise))
 }
 
-type Material = (f64, f64, f64, flexbody::elements::Strain);
+type Material = (f64, f64, f64, flexbody::elements::StrainMeasure);
 
 fn build(
     elements: &[(f64, f64, f64)],
@@ -146,7 +146,7 @@ impl Chain {
         Marker::inside(0, &self.flexible(), element, end as f64)
     }
 
-    fn joint(&self, held: &Held) -> Joint {
+    fn joint(&self, held: &Held) -> JointEquations {
         let [position, slope] = self.nodes[held.node];
         let angle = slope.y.atan2(slope.x);
         let holds = match held.hold {
@@ -155,10 +155,10 @@ impl Chain {
             Hold::Slider(along) => vec![Primitive::Line(along)],
             Hold::Orientation => vec![Primitive::Direction(angle)],
         };
-        let second = End::Body(self.marker(held.node));
-        Joint {
+        let second = Attachment::Body(self.marker(held.node));
+        JointEquations {
             holds,
-            ends: [End::Ground(position), second],
+            ends: [Attachment::Ground(position), second],
             spring: None,
             turn: None,
             way: None,
@@ -198,7 +198,7 @@ impl Chain {
     }
 
     /// The system under loads.
-    pub fn loaded(&self, loads: Vec<Load>) -> System {
+    pub fn loaded(&self, loads: Vec<AppliedLoad>) -> System {
         let parts = Parts {
             loads,
             ..self.parts()

@@ -2,10 +2,10 @@
 //! other.
 
 use flexbody::body::Node;
-use flexbody::elements::Strain;
+use flexbody::elements::StrainMeasure;
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::integrators::{Method, RK4, Radau, RungeKutta, Tolerance, advance};
-use flexbody::system::{Held, Model, fastest, natural_frequencies};
+use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, Tolerance, advance};
+use flexbody::system::{DrivenSystem, HoldingParts, fastest, natural_frequencies};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 
@@ -220,7 +220,7 @@ fn more_cranks_than_two_change_nothing() {
             time: 0.3,
         };
         let mut state = moving.state.clone();
-        let mut model = Model::new(&moving.system, &[], &mut moving.work, &state);
+        let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &state);
         let (_, result) = advance(&mut method, &mut model, &mut state, 1.0, &tolerance);
         assert_eq!(result, Ok(()));
         moving.state = state;
@@ -243,18 +243,18 @@ fn more_cranks_than_two_change_nothing() {
     for (cranks, spare) in [(3, 1), (2, 0)] {
         let mut moving = started(&parallelogram(cranks));
         let held = (moving.system).redundant_at(&moving.state, &mut moving.work);
-        let Held { holders, bodies } = held.exactly;
+        let HoldingParts { holders, bodies } = held.exactly;
         assert_eq!((holders.len(), bodies.len()), (0, spare), "{cranks} cranks");
-        assert_eq!(held.nearly, Held::default());
+        assert_eq!(held.nearly, HoldingParts::default());
     }
     let mut moving = started(&parallelogram(12));
     let held = (moving.system).redundant_at(&moving.state, &mut moving.work);
-    let Held { holders, bodies } = held.exactly;
+    let HoldingParts { holders, bodies } = held.exactly;
     assert!(
         (1..=10).contains(&(holders.len() + bodies.len())),
         "{holders:?} {bodies:?}"
     );
-    assert_eq!(held.nearly, Held::default());
+    assert_eq!(held.nearly, HoldingParts::default());
 }
 
 #[test]
@@ -311,7 +311,7 @@ fn parts_without_connection_do_not_know_of_each_other() {
             line_density: 1.0,
             axial_damping_time: 0.001,
             bending_damping_time: 0.001,
-            strain: Strain::ThetaPrime,
+            strain: StrainMeasure::ThetaPrime,
         };
         let mut made = bodies(&[]);
         made.bodies
@@ -373,7 +373,7 @@ fn run(mechanism: &Mechanism) -> Vec<Node> {
     for step in 0..400 {
         let time = h * f64::from(step);
         state.time = time;
-        let mut model = Model::new(&moving.system, &[], &mut moving.work, &state);
+        let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &state);
         method.begin(&mut model, time, &state.coordinates, &state.rates);
         let from = (time, &state.coordinates[..], &state.rates[..]);
         method.attempt(&mut model, from, h, &tolerance);

@@ -2,7 +2,7 @@
 
 use flexbody::integrators::{Radau, StepError, Tolerance, advance};
 use flexbody::system::{
-    BuildError, Drive, Evaluation, Model, Parts, System, Trajectory, Workspace,
+    BuildError, Drive, DrivenSystem, Evaluation, Parts, System, Trajectory, Workspace,
 };
 use nalgebra::Vector2;
 use proptest::collection::vec;
@@ -122,7 +122,7 @@ fn follows_inputs(rows: &[[f64; 3]], derivatives: usize) -> Outcome {
             }
             *course = Trajectory::new(time, h, from, &held(&given));
         }
-        let mut model = Model::new(&system, &inputs, &mut work, &state).until(&state, until);
+        let mut model = DrivenSystem::new(&system, &inputs, &mut work, &state).until(&state, until);
         let (_, result) = advance(&mut method, &mut model, &mut state, until, &tolerance);
         prop_assert_eq!(result, Ok(()));
         let mut values = Evaluation::new(&system);
@@ -177,7 +177,7 @@ fn a_motion_that_rigidity_contradicts_ends_the_step() {
         position: 1.0,
         time: 1.0,
     };
-    let mut model = Model::new(&system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(&system, &[], &mut work, &state);
     let (_, result) = advance(&mut method, &mut model, &mut state, 1.0, &tolerance);
     assert_eq!(result, Err(StepError::ConstraintsViolated));
 }

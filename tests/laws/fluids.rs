@@ -1,9 +1,9 @@
 //! Fluids along cables in random states: damping by differences, power.
 
-use flexbody::body::{Frames, Node, NodeBlock};
+use flexbody::body::{Node, NodeBlock, RotationMaps};
 use flexbody::math::quadrature::GAUSS_5;
 use flexbody::math::space::Vector;
-use flexbody::system::loads::{Fluid, FluidSegment, Line, LineLoad, Load};
+use flexbody::system::loads::{AppliedLoad, Fluid, FluidSegment, LineLoad, LoadedLine};
 use flexbody::system::{Instant, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -17,7 +17,7 @@ const CASES: u32 = 100;
 const T: f64 = 0.3;
 
 /// A fluid along the first cable, if there is one.
-fn fluid(frame: &Frame) -> Option<Load> {
+fn fluid(frame: &Frame) -> Option<AppliedLoad> {
     let made = &frame.made;
     let body = made
         .bodies
@@ -30,8 +30,8 @@ fn fluid(frame: &Frame) -> Option<Load> {
         inert: 0.4,
     };
     let points = GAUSS_5.len() * frame.chains[chain].elements().len();
-    Some(Load::Fluid(Box::new(Fluid {
-        on: Line::Chain(chain),
+    Some(AppliedLoad::Fluid(Box::new(Fluid {
+        on: LoadedLine::Chain(chain),
         strips: (0..points).map(strip).collect(),
         current: LineLoad {
             uniform: [40, 43].map(|k| Signal::Function(wave(made, k).function())),
@@ -43,7 +43,12 @@ fn fluid(frame: &Frame) -> Option<Load> {
     })))
 }
 
-fn at<'a>(frame: &'a Frame, x: &'a [Node], v: &'a [Node], none: &'a Frames) -> Instant<'a, 2> {
+fn at<'a>(
+    frame: &'a Frame,
+    x: &'a [Node],
+    v: &'a [Node],
+    none: &'a RotationMaps,
+) -> Instant<'a, 2> {
     Instant {
         time: T,
         inputs: &[],
@@ -58,13 +63,13 @@ fn at<'a>(frame: &'a Frame, x: &'a [Node], v: &'a [Node], none: &'a Frames) -> I
     }
 }
 
-fn force(frame: &Frame, load: &Load, x: &[Node], v: &[Node]) -> DVector<f64> {
+fn force(frame: &Frame, load: &AppliedLoad, x: &[Node], v: &[Node]) -> DVector<f64> {
     let mut f = vec![[[0.0; 2]; 2]; x.len()];
-    load.add_force(at(frame, x, v, &Frames::default()), &mut f);
+    load.add_force(at(frame, x, v, &RotationMaps::default()), &mut f);
     DVector::from_column_slice(f.as_flattened().as_flattened())
 }
 
-fn law(frame: &Frame, load: &Load) -> Outcome {
+fn law(frame: &Frame, load: &AppliedLoad) -> Outcome {
     let (x, v) = (&frame.x, &frame.v);
     let size = 4 * x.len();
     let mut damping = DMatrix::zeros(size, size);
@@ -79,7 +84,7 @@ fn law(frame: &Frame, load: &Load) -> Outcome {
         }
     };
     load.add_tangent(
-        at(frame, x, v, &Frames::default()),
+        at(frame, x, v, &RotationMaps::default()),
         &mut |_, _, _| {},
         &mut enter,
     );
@@ -98,7 +103,7 @@ fn law(frame: &Frame, load: &Load) -> Outcome {
     prop_assert!(lowest > -1e-12 * damping.amax());
     let moving = DVector::from_column_slice(v.as_flattened().as_flattened());
     let power = force(frame, load, x, v).dot(&moving);
-    let [supplied, dissipated] = load.power(at(frame, x, v, &Frames::default()));
+    let [supplied, dissipated] = load.power(at(frame, x, v, &RotationMaps::default()));
     within("power", (power - supplied + dissipated).abs(), 1e-10)?;
     prop_assert!(dissipated >= 0.0);
     Ok(())

@@ -2,7 +2,7 @@
 
 use flexbody::body::{Assembly, Chain, Links, Node, map_node, no_node};
 use flexbody::elements::cable::{Cable, Inertia, LineOf, Parameters};
-use flexbody::elements::{Element, Strain};
+use flexbody::elements::{Element, StrainMeasure};
 use flexbody::math::sparse::Matrix;
 
 /// Reference length over the length now, and the rate by which that grows, 1/s.
@@ -18,7 +18,7 @@ fn chain<const D: usize>(length: f64) -> Chain<Cable<D>, D> {
         line_density: 1.3,
         axial_damping_time: 0.02,
         bending_damping_time: 0.05,
-        strain: Strain::ThetaPrime,
+        strain: StrainMeasure::ThetaPrime,
         inertia: Inertia::Corrected,
     };
     Chain::new(vec![Cable::new(parameters, None); COUNT], 0)

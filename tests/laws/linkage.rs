@@ -1,9 +1,9 @@
 //! Random mechanisms of rigid bodies in space, and Newton's and Euler's equations of every body by itself with multipliers:
 //! dense, in global components, joints differentiated numerically along twists.
 
-use flexbody::body::{Frame, Marker, Node};
-use flexbody::system::joints::{Across, Joint, Perpendicular, Primitive};
-use flexbody::system::{Direction, End, Parts, State, System, Workspace};
+use flexbody::body::{Marker, Node, RigidBodyFrame};
+use flexbody::system::joints::{Across, JointEquations, Perpendicular, Primitive};
+use flexbody::system::{Attachment, Direction, Parts, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 use crate::laws::chance::Chance;
@@ -354,26 +354,26 @@ impl Mechanism {
         free + &root * least(&(jacobian * &root), &missing)
     }
 
-    pub fn end(&self, joint: &Held, i: usize, axis: usize) -> End<3> {
+    pub fn end(&self, joint: &Held, i: usize, axis: usize) -> Attachment<3> {
         match joint.bodies[i] {
-            Some(body) => End::Body(Marker::framed(
+            Some(body) => Attachment::Body(Marker::framed(
                 body,
                 2 * body,
                 joint.points[i].into(),
                 joint.axes[i].column(axis).into_owned().into(),
             )),
-            None => End::Ground(joint.points[i]),
+            None => Attachment::Ground(joint.points[i]),
         }
     }
 
     pub fn direction(&self, joint: &Held, i: usize, axis: usize) -> Direction<3> {
         match self.end(joint, i, axis) {
-            End::Body(marker) => Direction::Of(marker),
-            End::Ground(_) => Direction::Fixed(joint.axes[i].column(axis).into_owned()),
+            Attachment::Body(marker) => Direction::Of(marker),
+            Attachment::Ground(_) => Direction::Fixed(joint.axes[i].column(axis).into_owned()),
         }
     }
 
-    pub fn joint(&self, joint: &Held) -> Joint<3> {
+    pub fn joint(&self, joint: &Held) -> JointEquations<3> {
         let ends = [self.end(joint, 0, 0), self.end(joint, 1, 0)];
         let right = |i: usize, j: usize| {
             Primitive::Perpendicular(Perpendicular {
@@ -401,7 +401,7 @@ impl Mechanism {
                 vec![across(0), across(1), right(0, 2), right(1, 2)]
             }
         };
-        Joint {
+        JointEquations {
             holds,
             ends,
             spring: None,
@@ -422,12 +422,16 @@ impl Mechanism {
 
     pub fn parts(&self) -> Parts<3> {
         let count = self.bodies.len();
-        let frames = self.bodies.iter().enumerate().map(|(i, body)| Frame {
-            node: 2 * i,
-            mass: body.mass,
-            moments: body.moments.into(),
-            places: [None; 3],
-        });
+        let frames = self
+            .bodies
+            .iter()
+            .enumerate()
+            .map(|(i, body)| RigidBodyFrame {
+                node: 2 * i,
+                mass: body.mass,
+                moments: body.moments.into(),
+                places: [None; 3],
+            });
         let mut parts = Parts {
             nodes: self.nodes(|body| (body.center, body.axes)),
             bodies: (0..count).map(|i| 2 * i..2 * i + 2).collect(),

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use flexbody::system::Model;
+use flexbody::system::DrivenSystem;
 
 use crate::laws::closed::{bodies, ground, hold, on, rigid, started};
 use crate::laws::mechanism::{Kind, Mechanism};
@@ -83,7 +83,7 @@ fn compare(count: usize, is_closed: bool) {
     for (i, rate) in moving.state.rates.iter_mut().enumerate() {
         *rate = (2.3 * i as f64).cos();
     }
-    let mut model = Model::new(&moving.system, &[], &mut moving.work, &moving.state);
+    let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &moving.state);
     assert!(model.project(&mut moving.state));
     let values = moving.evaluated();
     let residuals = values.residuals(&moving.system);

@@ -2,7 +2,7 @@
 //! Eqs. 23-34 do as printed is tested in the studies.
 
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::elements::{Element, Strain};
+use flexbody::elements::{Element, StrainMeasure};
 use flexbody::system::{Evaluation, Parts, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -22,7 +22,7 @@ fn beam(unit: f64) -> Chain {
         line_density: 9.972 * unit,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,
-        strain: Strain::ThetaPrime,
+        strain: StrainMeasure::ThetaPrime,
     };
     let node = |i: u8| [Vector2::new(f64::from(i) * length, 0.0), Vector2::x()];
     Chain {

@@ -1,6 +1,6 @@
 //! Laws of the planar cable.
 
-use flexbody::elements::{Element, Nodal, Strain};
+use flexbody::elements::{Element, Nodal, StrainMeasure};
 use nalgebra::SVector;
 
 use crate::laws::differences::{Outcome, apply, check, derivative, within};
@@ -56,11 +56,11 @@ fn strains_are_those_of_the_position_field() {
         elements::strains(&s, xi, |u, w| {
             let (stretch, turn) = (u.norm(), u.x * w.y - u.y * w.x);
             match measure {
-                Strain::ThetaPrime => (stretch - 1.0, turn / stretch.powi(2)),
-                Strain::GreenLagrangeFrenetKappa => {
+                StrainMeasure::ThetaPrime => (stretch - 1.0, turn / stretch.powi(2)),
+                StrainMeasure::GreenLagrangeFrenetKappa => {
                     (0.5 * (stretch * stretch - 1.0), turn / stretch.powi(3))
                 }
-                Strain::EngStrainFrenetKappa => (stretch - 1.0, turn / stretch.powi(3)),
+                StrainMeasure::EngStrainFrenetKappa => (stretch - 1.0, turn / stretch.powi(3)),
             }
         })
     });
@@ -191,7 +191,7 @@ fn a_constant_stretch_has_the_energy_of_a_rod() {
             along * stretch,
         ]);
         let strain = match p.strain {
-            Strain::GreenLagrangeFrenetKappa => 0.5 * (stretch * stretch - 1.0),
+            StrainMeasure::GreenLagrangeFrenetKappa => 0.5 * (stretch * stretch - 1.0),
             _ => stretch - 1.0,
         };
         let exact = 0.5 * p.axial_stiffness * p.length * strain * strain;

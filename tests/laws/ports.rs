@@ -7,9 +7,10 @@ use flexbody::math::function::Function;
 use flexbody::math::rotation;
 use flexbody::scene::Scene;
 use flexbody::simulation::Simulation;
-use flexbody::system::loads::{Couple, Force, Load, OrientationBushing};
+use flexbody::system::loads::{AppliedLoad, Force, OrientationBushing, SpatialMoment};
 use flexbody::system::{
-    Derivatives, Direction, End, Evaluation, Model, Parts, Signal, State, System, Workspace,
+    Attachment, Derivatives, Direction, DrivenSystem, Evaluation, Parts, Signal, State, System,
+    Workspace,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
 
@@ -34,14 +35,14 @@ fn ported(mut parts: Parts<3>, places: &[Place]) -> Parts<3> {
     for (port, place) in places.iter().enumerate() {
         let signal = |k: usize| Signal::Input(6 * port + k);
         let at = marker(*place, axis(0));
-        parts.loads.push(Load::Force(Force {
+        parts.loads.push(AppliedLoad::Force(Force {
             marker: at,
             follower: false,
             components: [0, 1, 2].map(signal),
             axes: [0, 1, 2].map(|k| marker(*place, axis(k))),
         }));
-        parts.loads.push(Load::Couple(Couple {
-            ends: [End::Ground(V::zeros()), End::Body(at)],
+        parts.loads.push(AppliedLoad::SpatialMoment(SpatialMoment {
+            ends: [Attachment::Ground(V::zeros()), Attachment::Body(at)],
             is_torque: false,
             parts: (0..3)
                 .map(|k| (signal(3 + k), Direction::Fixed(axis(k))))
@@ -187,10 +188,10 @@ fn held(value: f64) -> Signal {
 }
 
 /// Pulls a body towards an orientation.
-fn pulled(body: usize, towards: Rotation3<f64>, stiffness: f64) -> Load<3> {
+fn pulled(body: usize, towards: Rotation3<f64>, stiffness: f64) -> AppliedLoad<3> {
     let columns = [0, 1, 2].map(|k| towards.matrix().column(k).into_owned());
     let q = rotation::quaternion(&columns);
-    Load::OrientationBushing(Box::new(OrientationBushing {
+    AppliedLoad::OrientationBushing(Box::new(OrientationBushing {
         axes: [0, 1, 2].map(|k| marker((body, V::zeros()), axis(k))),
         stiffness,
         damping: 0.0,
@@ -256,7 +257,7 @@ fn what_pulls_towards_an_orientation_conserves_energy() {
             time: 0.5,
         };
         let mut method = RungeKutta::new(&RK4, system.coordinates(), 1e-9, 1e-9);
-        let mut model = Model::new(&system, &[], &mut work, &state);
+        let mut model = DrivenSystem::new(&system, &[], &mut work, &state);
         let (_, result) = advance(&mut method, &mut model, &mut state, 0.3, &tolerance);
         result.expect("a motion");
         let after = energy(&state, &mut work);

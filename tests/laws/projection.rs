@@ -1,7 +1,7 @@
 //! Back to the constraints by the shortest way, and initial configurations.
 
 use flexbody::body::Node;
-use flexbody::system::{Model, NotAssembled};
+use flexbody::system::{DrivenSystem, NotAssembled};
 use nalgebra::{Rotation2, Vector2};
 use proptest::prelude::*;
 
@@ -46,7 +46,7 @@ fn shortest(mechanism: &Mechanism) -> Outcome {
     let mut state = moving.state.clone();
     state.rates.iter_mut().zip(&dv).for_each(|(v, d)| *v += d);
     let disturbed = state.rates.clone();
-    let mut model = Model::new(&moving.system, &[], &mut moving.work, &state);
+    let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &state);
     prop_assert!(model.project(&mut state));
     let change = difference(&state.rates, &disturbed);
     let rank = 1e-4;
@@ -66,7 +66,7 @@ fn shortest(mechanism: &Mechanism) -> Outcome {
         .zip(&dq)
         .for_each(|(q, d)| *q += d);
     let disturbed = state.coordinates.clone();
-    let mut model = Model::new(&moving.system, &[], &mut moving.work, &state);
+    let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &state);
     prop_assert!(model.project(&mut state));
     let change = difference(&state.coordinates, &disturbed);
     if size(&change) > 1e-2 * size(&dq) {
@@ -86,7 +86,7 @@ fn shortest(mechanism: &Mechanism) -> Outcome {
     within("positions", missing, 1e-12)?;
     // What is on the constraints stays where it is.
     let before = moving.state.clone();
-    let mut model = Model::new(&moving.system, &[], &mut moving.work, &before);
+    let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &before);
     prop_assert!(model.project(&mut moving.state));
     let moved = difference(&moving.state.coordinates, &before.coordinates);
     within("twice", size(&moved) / moving.system.scale(), 1e-14)

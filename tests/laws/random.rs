@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::elements::{Nodal, Strain};
+use flexbody::elements::{Nodal, StrainMeasure};
 use nalgebra::Vector2;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -208,7 +208,7 @@ impl Builder {
                 line_density: self.dice.between(0.3, 2.0),
                 axial_damping_time: damping_time,
                 bending_damping_time: damping_time,
-                strain: Strain::ThetaPrime,
+                strain: StrainMeasure::ThetaPrime,
             };
             let shape = Nodal::from_columns(&[p, d, at, direction(heading)]);
             cables.push(Cable::new(parameters, Some(&shape)));

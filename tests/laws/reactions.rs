@@ -1,8 +1,8 @@
 //! Forces of connectivity and joints, against the augmented equations with multipliers.
 
 use flexbody::elements::{Element, Nodal};
-use flexbody::system::loads::{Force, Load, Moment};
-use flexbody::system::{End, Evaluation, Parts, Signal, State, System, Workspace};
+use flexbody::system::loads::{AppliedLoad, Force, Moment};
+use flexbody::system::{Attachment, Evaluation, Parts, Signal, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
 
@@ -54,14 +54,17 @@ fn case(chain: &Chain) -> Case {
     let places = [place(numbers[0]), place(numbers[1])];
     let marker = |node: usize| chain.marker(node);
     let loads = vec![
-        Load::Force(Force {
+        AppliedLoad::Force(Force {
             marker: marker(places[0]),
             follower: false,
             components: [Signal::Input(0), Signal::Input(1)],
             axes: [marker(places[0]); 2],
         }),
-        Load::Moment(Moment {
-            ends: [End::Ground(Vector2::zeros()), End::Body(marker(places[1]))],
+        AppliedLoad::Moment(Moment {
+            ends: [
+                Attachment::Ground(Vector2::zeros()),
+                Attachment::Body(marker(places[1])),
+            ],
             size: Signal::Input(2),
         }),
     ];

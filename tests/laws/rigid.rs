@@ -1,12 +1,13 @@
 //! Rigid bodies of space in random mechanisms, against Newton's and Euler's equations of every body by itself.
 
 use flexbody::body::{Marker, Node};
-use flexbody::integrators::{Method, RK4, Radau, RungeKutta, Tolerance, advance};
+use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, Tolerance, advance};
 use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
-use flexbody::system::loads::{Load, Spring};
+use flexbody::system::loads::{AppliedLoad, Spring};
 use flexbody::system::{
-    Derivatives, Dynamics, End, Evaluation, Model, Parts, Signal, State, System, Workspace,
+    Attachment, Derivatives, DrivenSystem, Dynamics, Evaluation, Parts, Signal, State, System,
+    Workspace,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -120,7 +121,7 @@ fn elimination_fits(
     chance: &mut Chance,
 ) {
     let n = system.coordinates();
-    let mut model = Model::new(system, &[], work, &state);
+    let mut model = DrivenSystem::new(system, &[], work, &state);
     model.renew_beyond(&mut state, 0.0);
     let (mut with, mut without) = (vec![0.0; n], vec![0.0; n]);
     let at = (&state.coordinates, &state.rates);
@@ -172,7 +173,7 @@ fn invariants(system: &System<3>, state: &State, work: &mut Workspace<3>) -> [f6
 }
 
 fn advanced(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     (system, state, work): (&System<3>, &mut State, &mut Workspace<3>),
     until: f64,
     tolerance: f64,
@@ -182,7 +183,7 @@ fn advanced(
         position: system.scale(),
         time: 0.5,
     };
-    let mut model = Model::new(system, &[], work, state);
+    let mut model = DrivenSystem::new(system, &[], work, state);
     let (counts, result) = advance(method, &mut model, state, until, &tolerance);
     result.unwrap_or_else(|error| panic!("{error:?} at {} s", state.time));
     counts.steps
@@ -216,7 +217,7 @@ fn free_mechanisms_keep_energy_momentum_and_angular_momentum() {
         } else {
             1e-9
         };
-        let methods: [&mut dyn Method; 2] = [
+        let methods: [&mut dyn OneStepMethod; 2] = [
             &mut RungeKutta::new(&RK4, n, 1e-9, 1e-9),
             &mut Radau::new(n),
         ];
@@ -309,8 +310,8 @@ fn tethered(mechanism: &Mechanism, chance: &mut Chance) -> Parts<3> {
         let at = chance.vector();
         let marker = Marker::framed(body, 2 * body, at.into(), [1.0, 0.0, 0.0]);
         let point = mechanism.bodies[body].point(&at) + chance.vector() + V::new(sign, 0.0, 0.0);
-        parts.loads.push(Load::Spring(Spring {
-            ends: [End::Ground(point), End::Body(marker)],
+        parts.loads.push(AppliedLoad::Spring(Spring {
+            ends: [Attachment::Ground(point), Attachment::Body(marker)],
             stiffness: 50.0,
             damping: 0.0,
             length: Signal::Function(Function::constant(0.4)),
@@ -364,7 +365,7 @@ pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Par
     state.rates.fill(0.0);
     let n = system.coordinates();
     let rest = vec![0.0; n];
-    let mut model = Model::new(&system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(&system, &[], &mut work, &state);
     model.renew_beyond(&mut state, 0.0);
     let mut tangents = Vec::new();
     for k in 0..n {
@@ -374,7 +375,7 @@ pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Par
         model.apply_stiffness(&mut unit);
         tangents.push(unit);
     }
-    let at = |model: &mut Model<'_, 3>, k: usize, h: f64| {
+    let at = |model: &mut DrivenSystem<'_, 3>, k: usize, h: f64| {
         let mut q = state.coordinates.clone();
         let mut way = vec![0.0; n];
         way[k] = 1.0;

@@ -2,8 +2,8 @@
 
 use flexbody::body::{Jacobian, Tangent, add_node};
 use flexbody::elements::{Element, Nodal};
-use flexbody::system::loads::{Force, Load, Moment};
-use flexbody::system::{Dynamics, End, Model, Signal, System, fastest};
+use flexbody::system::loads::{AppliedLoad, Force, Moment};
+use flexbody::system::{Attachment, DrivenSystem, Dynamics, Signal, System, fastest};
 use nalgebra::{Complex, DMatrix, DVector, Rotation2, Vector2};
 use proptest::prelude::*;
 
@@ -25,7 +25,7 @@ struct Dense {
     damping: DMatrix<f64>,
 }
 
-fn dense(chain: &Chain, loads: Vec<Load>) -> Dense {
+fn dense(chain: &Chain, loads: Vec<AppliedLoad>) -> Dense {
     let system = chain.loaded(loads);
     let q = chain.coordinates(&system, 0.25);
     let v = chain.coordinates(&system, 1.0);
@@ -70,7 +70,7 @@ const SHARE: f64 = 0.3;
 fn real_solve(chain: &Chain, s: f64) -> Outcome {
     let dense = dense(chain, Vec::new());
     let (state, mut work) = state(&dense.system, &dense.q, &dense.v);
-    let mut model = Model::new(&dense.system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(&dense.system, &[], &mut work, &state);
     model.linearize(0.0, &dense.q, &dense.v);
     let n = dense.q.len();
     let s = s * frequency(&dense.system);
@@ -116,7 +116,7 @@ fn real_factors_invert_the_shifted_tangent() {
 fn complex_solve(chain: &Chain, size: f64) -> Outcome {
     let dense = dense(chain, Vec::new());
     let (state, mut work) = state(&dense.system, &dense.q, &dense.v);
-    let mut model = Model::new(&dense.system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(&dense.system, &[], &mut work, &state);
     model.linearize(0.0, &dense.q, &dense.v);
     let n = dense.q.len();
     // The angle of Radau's eigenvalues.
@@ -179,7 +179,7 @@ fn turned_solve(chain: &Chain, angle: f64) -> Outcome {
     let (s, rest) = (2.0 * frequency(system), vec![0.0; n]);
     let complex = Complex::new(s, s);
     let complex = [complex * complex, complex];
-    let mut model = Model::new(system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(system, &[], &mut work, &state);
     let right = random(&free, n, 7).as_slice().to_vec();
     model.linearize(0.0, &there, &rest);
     prop_assert!(model.factor([s * s, s]) && model.factor_complex(complex));
@@ -218,13 +218,13 @@ fn solves_of_turned_stages_turn_along() {
 fn model_tangent(chain: &Chain) -> Outcome {
     let last = chain.elements.len();
     let moment = |node: usize, input: usize| {
-        let end = End::Body(chain.marker(node));
-        Load::Moment(Moment {
-            ends: [End::Ground(Vector2::zeros()), end],
+        let end = Attachment::Body(chain.marker(node));
+        AppliedLoad::Moment(Moment {
+            ends: [Attachment::Ground(Vector2::zeros()), end],
             size: Signal::Input(input),
         })
     };
-    let force = Load::Force(Force {
+    let force = AppliedLoad::Force(Force {
         marker: chain.marker(0),
         follower: false,
         components: [Signal::Input(1), Signal::Input(2)],
@@ -248,13 +248,14 @@ fn model_tangent(chain: &Chain) -> Outcome {
             let moved = place[usize::from(by_rate)].iter_mut();
             moved.zip(&direction).for_each(|(x, d)| *x += t * d);
             let (mut a, [q, v]) = (vec![0.0; n], place);
-            Model::new(&system, &inputs, &mut work, &state).acceleration(0.0, &q, &v, &mut a);
+            DrivenSystem::new(&system, &inputs, &mut work, &state)
+                .acceleration(0.0, &q, &v, &mut a);
             DVector::from_vec(a)
         })
     };
     let stiff = -slope(&q, &rest, false, step);
     let damp = -slope(&q, &v, true, 1.0);
-    let mut model = Model::new(&system, &inputs, &mut work, &state);
+    let mut model = DrivenSystem::new(&system, &inputs, &mut work, &state);
     model.linearize(0.0, &q, &rest);
     // Compressed and twisted bodies are not stable: the shift must outweigh that.
     let shifts = [1.0, 2.0, 4.0, 8.0].map(|factor| factor * frequency(&system));

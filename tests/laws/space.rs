@@ -1,8 +1,10 @@
 //! Chains of cables in space: what bodies of the plane promise holds for any dimension.
 
-use flexbody::body::{Assembly, Chain, Elimination, Jacobian, Links, Node, Row, Tangent, map_node};
+use flexbody::body::{
+    Assembly, Chain, ConnectivityRow, Elimination, Jacobian, Links, Node, Tangent, map_node,
+};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::elements::{Element, Nodal, Strain};
+use flexbody::elements::{Element, Nodal, StrainMeasure};
 use flexbody::math::sparse::Matrix;
 use nalgebra::{Complex, DMatrix, DVector, Rotation3, SMatrix, Vector3};
 use proptest::collection::vec;
@@ -22,7 +24,7 @@ type Spatial = Chain<Cable<3>, 3>;
 struct Case {
     chain: Spatial,
     elimination: Elimination<3>,
-    rows: Vec<Row<3>>,
+    rows: Vec<ConnectivityRow<3>>,
     /// Nodal coordinates of a deformed shape, and numbers for anybody.
     x: Vec<Node<3>>,
     noise: Vec<Nodal<3>>,
@@ -48,7 +50,7 @@ fn case((elements, joints, noise): Numbers) -> Case {
             line_density: *line_density,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,
-            strain: Strain::ThetaPrime,
+            strain: StrainMeasure::ThetaPrime,
         };
         Cable::new(parameters, None)
     };
@@ -65,7 +67,7 @@ fn case((elements, joints, noise): Numbers) -> Case {
         let node = (place * chain.node_count() as f64) as usize;
         let other = (node + 1) % chain.node_count();
         let mut push = |terms| {
-            rows.push(Row {
+            rows.push(ConnectivityRow {
                 terms,
                 is_driven: false,
             });

@@ -1,7 +1,7 @@
 //! Laws of the spatial cable, straight without stress.
 
 use flexbody::elements::cable::Cable;
-use flexbody::elements::{Element, Nodal, Strain};
+use flexbody::elements::{Element, Nodal, StrainMeasure};
 
 use crate::laws::differences::{apply, check, scaled, within};
 use crate::laws::elements;
@@ -53,11 +53,11 @@ fn strains_are_those_of_the_position_field() {
         elements::strains(&s, xi, |u, w| {
             let (stretch, turn) = (u.norm(), u.cross(w).norm());
             match measure {
-                Strain::ThetaPrime => (stretch - 1.0, turn / stretch.powi(2)),
-                Strain::GreenLagrangeFrenetKappa => {
+                StrainMeasure::ThetaPrime => (stretch - 1.0, turn / stretch.powi(2)),
+                StrainMeasure::GreenLagrangeFrenetKappa => {
                     (0.5 * (stretch * stretch - 1.0), turn / stretch.powi(3))
                 }
-                Strain::EngStrainFrenetKappa => (stretch - 1.0, turn / stretch.powi(3)),
+                StrainMeasure::EngStrainFrenetKappa => (stretch - 1.0, turn / stretch.powi(3)),
             }
         })
     });

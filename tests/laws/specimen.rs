@@ -1,7 +1,7 @@
 //! Random cables: material, size, unstressed shape, deformed state and rates.
 
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::elements::{Nodal, Strain};
+use flexbody::elements::{Nodal, StrainMeasure};
 use nalgebra::{SMatrix, SVector};
 use proptest::array::uniform12;
 use proptest::prelude::*;
@@ -44,11 +44,11 @@ pub fn noise<const D: usize>() -> impl Strategy<Value = Nodal<D>> {
 }
 
 /// Strain measures.
-pub fn strains() -> impl Strategy<Value = Strain> {
+pub fn strains() -> impl Strategy<Value = StrainMeasure> {
     prop_oneof![
-        Just(Strain::ThetaPrime),
-        Just(Strain::GreenLagrangeFrenetKappa),
-        Just(Strain::EngStrainFrenetKappa),
+        Just(StrainMeasure::ThetaPrime),
+        Just(StrainMeasure::GreenLagrangeFrenetKappa),
+        Just(StrainMeasure::EngStrainFrenetKappa),
     ]
 }
 

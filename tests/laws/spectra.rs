@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use flexbody::elements::Strain;
+use flexbody::elements::StrainMeasure;
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::system::{Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies};
 use nalgebra::Complex;
@@ -207,7 +207,7 @@ fn beam(elements: usize, axial_stiffness: f64, damping_time: f64, clamped: bool)
         line_density: 1.0,
         axial_damping_time: damping_time,
         bending_damping_time: damping_time,
-        strain: Strain::ThetaPrime,
+        strain: StrainMeasure::ThetaPrime,
         inertia: Inertia::Corrected,
     };
     let mut made = bodies(&[]);

@@ -3,9 +3,11 @@
 
 use flexbody::body::Marker;
 use flexbody::math::function::Function;
-use flexbody::system::joints::{Coupler, Joint, Primitive};
-use flexbody::system::loads::{JointLimit, JointSpring, Load, SixBushing};
-use flexbody::system::{Angle, AxisTurn, Coordinate, Direction, Drive, End, Parts, Translation};
+use flexbody::system::joints::{Coupler, JointEquations, Primitive};
+use flexbody::system::loads::{AppliedLoad, JointLimit, JointSpring, SixBushing};
+use flexbody::system::{
+    Angle, Attachment, AxisTurn, Coordinate, Direction, Drive, Parts, Translation,
+};
 use nalgebra::{DVector, Matrix3, Rotation3};
 
 use crate::laws::chance::Chance;
@@ -122,20 +124,22 @@ impl Sprung {
         }
     }
 
-    pub fn load(&self, mechanism: &Mechanism, parts: &mut Parts<3>) -> Load<3> {
+    pub fn load(&self, mechanism: &Mechanism, parts: &mut Parts<3>) -> AppliedLoad<3> {
         match self {
-            Self::Spring(of, [stiffness, damping, rest]) => Load::JointSpring(JointSpring {
+            Self::Spring(of, [stiffness, damping, rest]) => AppliedLoad::JointSpring(JointSpring {
                 coordinate: Box::new(mechanism.coordinate(*of, parts)),
                 stiffness: *stiffness,
                 damping: *damping,
                 rest: *rest,
             }),
-            Self::JointLimit(of, [stiffness, damping], limits) => Load::JointLimit(JointLimit {
-                coordinate: Box::new(mechanism.coordinate(*of, parts)),
-                limits: *limits,
-                stiffness: *stiffness,
-                damping: *damping,
-            }),
+            Self::JointLimit(of, [stiffness, damping], limits) => {
+                AppliedLoad::JointLimit(JointLimit {
+                    coordinate: Box::new(mechanism.coordinate(*of, parts)),
+                    limits: *limits,
+                    stiffness: *stiffness,
+                    damping: *damping,
+                })
+            }
             Self::Bushing(bushing) => {
                 let marker = |i: usize, k: usize| {
                     let axis = bushing.axes[i].column(k).into_owned();
@@ -149,10 +153,10 @@ impl Sprung {
                     Err(axis) => Direction::Fixed(axis),
                 };
                 let end = |i: usize, k: usize| match marker(i, k) {
-                    Ok(marker) => End::Body(marker),
-                    Err(_) => End::Ground(bushing.points[i]),
+                    Ok(marker) => Attachment::Body(marker),
+                    Err(_) => Attachment::Ground(bushing.points[i]),
                 };
-                Load::SixBushing(Box::new(SixBushing {
+                AppliedLoad::SixBushing(Box::new(SixBushing {
                     ways: std::array::from_fn(|k| Translation {
                         ends: [end(0, k), end(1, k)],
                         direction: direction(0, k),
@@ -316,10 +320,10 @@ impl Mechanism {
         (first, second): (Of, Of),
         [ratio, offset]: [f64; 2],
         parts: &mut Parts<3>,
-    ) -> Joint<3> {
+    ) -> JointEquations<3> {
         let [a, b] = [first, second].map(|of| self.coordinate(of, parts));
         let ends = b.ends();
-        Joint {
+        JointEquations {
             holds: vec![Primitive::Coupler(Coupler {
                 terms: vec![(-ratio, a), (1.0, b)],
                 offset,

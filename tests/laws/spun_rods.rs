@@ -1,9 +1,9 @@
 //! Free rods that spin: energy and angular momentum are kept as the step allows, with the order of the method. Without the gyroscopic
 //! force of spin energy alone would be.
 
-use flexbody::integrators::{Attempt, Method, RK4, RungeKutta, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, RK4, RungeKutta, Tolerance};
 use flexbody::scene::{Assembled, Scene};
-use flexbody::system::{Dynamics, Evaluation, Model, State, System, Workspace};
+use flexbody::system::{DrivenSystem, Dynamics, Evaluation, State, System, Workspace};
 use nalgebra::Vector3;
 use serde_json::json;
 
@@ -57,7 +57,7 @@ fn changes(element: &str, steps: u32) -> [f64; 2] {
     let mut most = [0.0_f64; 2];
     for step in 0..steps {
         let time = h * f64::from(step);
-        let mut model = Model::new(system, &[], &mut work, &state);
+        let mut model = DrivenSystem::new(system, &[], &mut work, &state);
         method.begin(&mut model, time, &state.coordinates, &state.rates);
         let from = (time, &state.coordinates[..], &state.rates[..]);
         let attempt = method.attempt(&mut model, from, h, &tolerance);

@@ -4,7 +4,7 @@
 use std::cell::Cell;
 
 use flexbody::body::Node;
-use flexbody::system::{Dynamics, Evaluation, Model, System, linearized};
+use flexbody::system::{DrivenSystem, Dynamics, Evaluation, System, linearized};
 use nalgebra::{Complex, DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -59,7 +59,7 @@ fn tangent(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
     seen.set(seen.get() + u32::from(system.constraints() > 0));
     let free = DMatrix::identity(n, n) - &held * held.transpose();
     let (q, rest) = (moving.state.coordinates.clone(), vec![0.0; n]);
-    let mut model = Model::new(system, &[], &mut moving.work, &moving.state);
+    let mut model = DrivenSystem::new(system, &[], &mut moving.work, &moving.state);
     let mut slope = |by_rate: bool, i: usize, step: f64| {
         derivative(step, |t| {
             let mut at = [q.clone(), rest.clone()];
@@ -185,7 +185,7 @@ fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
                 .iter_mut()
                 .zip(basis.column(column).iter())
                 .for_each(|(x, b)| *x += t * b);
-            let mut model = Model::new(system, &[], &mut work, &moving.state);
+            let mut model = DrivenSystem::new(system, &[], &mut work, &moving.state);
             if !by_rate {
                 assert!(model.project(&mut state));
             }

@@ -5,7 +5,7 @@
 
 use flexbody::integrators::{Radau, Tolerance, advance};
 use flexbody::scene::{Assembled, Scene, assemble};
-use flexbody::system::{Evaluation, Model, Workspace};
+use flexbody::system::{DrivenSystem, Evaluation, Workspace};
 use nalgebra::{Matrix2, Rotation3, Vector2, Vector3};
 use serde_json::json;
 
@@ -123,7 +123,7 @@ fn off(string: &String, nodes: &[Point], system: &Assembled<3>, time: f64) -> f6
         time: 1.0 / string.rate,
     };
     let mut method = Radau::new(system.coordinates());
-    let mut model = Model::new(system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(system, &[], &mut work, &state);
     let (_, result) = advance(&mut method, &mut model, &mut state, time, &tolerance);
     result.expect("a step");
     let mut values = Evaluation::new(system);

@@ -1,7 +1,7 @@
 //! Error control: tolerances are followed, communication points met, the impossible refused.
 
 use flexbody::integrators::{
-    Attempt, Method, Methods, RK4, Radau, RungeKutta, StepError, Tolerance, advance,
+    Attempt, Methods, OneStepMethod, RK4, Radau, RungeKutta, StepError, Tolerance, advance,
 };
 use flexbody::system::{DenseStep, Dynamics, State};
 use nalgebra::{Matrix2, Vector2};
@@ -205,9 +205,9 @@ fn a_sudden_push_is_not_overlooked() {
 }
 
 /// A method that takes no step from a time on.
-struct Weary(Box<dyn Method>, f64);
+struct Weary(Box<dyn OneStepMethod>, f64);
 
-impl Method for Weary {
+impl OneStepMethod for Weary {
     fn name(&self) -> &'static str {
         "weary"
     }
@@ -249,7 +249,7 @@ fn what_one_of_two_methods_cannot_do_the_other_does() {
         ..TIGHT
     };
     let row = &ROWS[0];
-    let weary = |until| -> Box<dyn Method> { Box::new(Weary((row.make)(), until)) };
+    let weary = |until| -> Box<dyn OneStepMethod> { Box::new(Weary((row.make)(), until)) };
     let (mut problem, mut state) = (row.problem(), started());
     let mut methods = Methods::two(weary(2.0), Box::new(Radau::new(2)));
     let (_, result) = methods.advance(&mut problem, &mut state, 5.0, &tolerance);
@@ -267,7 +267,7 @@ fn what_one_of_two_methods_cannot_do_the_other_does() {
 /// A method whose stage equations cannot be solved for steps longer than this, s.
 struct Short(Radau, f64);
 
-impl Method for Short {
+impl OneStepMethod for Short {
     fn name(&self) -> &'static str {
         "short"
     }

@@ -7,7 +7,7 @@ mod trees;
 mod work;
 
 use flexbody::integrators::{
-    Attempt, Coefficients, DOPRI853, Method, Nystrom, RK4, RKN43, RKN64, Radau, RungeKutta,
+    Attempt, Coefficients, DOPRI853, Nystrom, OneStepMethod, RK4, RKN43, RKN64, Radau, RungeKutta,
     Tolerance, VERLET,
 };
 use nalgebra::{Matrix2, Vector2};
@@ -17,7 +17,7 @@ use problem::Problem;
 struct Row {
     name: &'static str,
     order: f64,
-    make: fn() -> Box<dyn Method>,
+    make: fn() -> Box<dyn OneStepMethod>,
     steps: [u32; 3],
     /// Whether it takes accelerations that depend on rates, and counts work.
     rates: bool,
@@ -123,7 +123,7 @@ impl Row {
 
 /// One step of a given length, whatever its error; returns the estimate of it.
 fn force(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     problem: &mut Problem,
     (time, state): (f64, &mut [Vec<f64>; 2]),
     h: f64,
@@ -210,7 +210,7 @@ fn oscillator(frequency: f64, ratio: f64) -> Problem {
 }
 
 /// Growth of the largest deflection of an oscillator over many steps of `h` = 1, from its first to its second half.
-fn growth(method: &mut dyn Method, frequency: f64, ratio: f64) -> f64 {
+fn growth(method: &mut dyn OneStepMethod, frequency: f64, ratio: f64) -> f64 {
     let mut problem = oscillator(frequency, ratio);
     let mut state = [vec![1.0, 0.0], vec![0.0, 0.0]];
     let mut largest = [0.0_f64; 2];

@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use flexbody::scene::{Interpolation, Scene};
-use flexbody::simulation::{Budget, Given, InputTable, Plan, Simulation, courses, plan_for};
+use flexbody::simulation::{
+    Budget, InputTable, Plan, Simulation, TrialConditions, courses, plan_for,
+};
 use serde_json::{Value, json};
 
 use super::{BEAM, edited};
@@ -19,14 +21,14 @@ fn pushed(edit: impl Fn(&mut Value)) -> Result<Scene, String> {
     })
 }
 
-fn planned_for(scene: &Scene, given: &Given) -> Result<(Scene, Plan), String> {
+fn planned_for(scene: &Scene, given: &TrialConditions) -> Result<(Scene, Plan), String> {
     let planned = plan_for(scene, given, &Budget::default(), &mut |_, _, _| ());
     let (scene, planned) = planned.map_err(|error| error.to_string())?;
     Ok((scene, planned.numbers.expect("a plan")))
 }
 
 fn planned(scene: &Scene) -> (Scene, Plan) {
-    planned_for(scene, &Given::default()).expect("a plan")
+    planned_for(scene, &TrialConditions::default()).expect("a plan")
 }
 
 /// The table of what inputs do: its names, and its rows of numbers.
@@ -183,7 +185,7 @@ fn a_plan_is_for_what_is_given() {
     let sag = |modulus: f64| 5.0 * 0.78 * 9.81 / (384.0 * modulus * 1e-9);
     for modulus in [2e11, 5e10] {
         let set = vec![("rod.youngs_modulus".to_owned(), modulus)];
-        let given = Given { set, inputs: None };
+        let given = TrialConditions { set, inputs: None };
         let (scene, plan) = planned_for(&heavy, &given).expect("a plan");
         assert!(
             (plan.outputs[0].scale / sag(modulus) - 1.0).abs() < 1e-3,
@@ -205,9 +207,9 @@ fn a_plan_is_for_what_is_given() {
         let text = format!("time,rod.middle.force[2]\n0,{force}\n0.05,{force}\n");
         let curve = Interpolation::Linear;
         let inputs = Some(InputTable { text, curve });
-        let given = Given {
+        let given = TrialConditions {
             inputs,
-            ..Given::default()
+            ..TrialConditions::default()
         };
         let (_, plan) = planned_for(&still, &given).expect("a plan");
         assert_eq!(plan.held, ["rod.middle.force[1]"]);
@@ -255,7 +257,7 @@ fn what_cannot_be_given_is_refused_with_its_place() {
         assert!(told.starts_with(expected), "{told}");
     }
     let scene = pushed(|_| ()).expect("a scene");
-    let set = |name: &str| Given {
+    let set = |name: &str| TrialConditions {
         set: vec![(name.to_owned(), 1.0)],
         inputs: None,
     };
@@ -278,9 +280,9 @@ fn what_cannot_be_given_is_refused_with_its_place() {
     }
     let text = "time,rod.middle.force[2]\n0,0\n0.04,1\n".to_owned();
     let curve = Interpolation::Linear;
-    let given = Given {
+    let given = TrialConditions {
         inputs: Some(InputTable { text, curve }),
-        ..Given::default()
+        ..TrialConditions::default()
     };
     let told = planned_for(&scene, &given).expect_err("too short");
     assert!(

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use flexbody::scene::{Chosen, Scene, remarks};
-use flexbody::simulation::{self, Budget, Damped, Given, Plan, Planned, Settles};
+use flexbody::simulation::{self, Budget, Damped, Plan, Planned, Settles, TrialConditions};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::inputs::{Inputs, signals};
@@ -70,14 +70,14 @@ pub struct Planning {
 
 /// Reads a scene, and plans it where it leaves elements or numbers to the planner.
 pub fn planned(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
-    planned_for(path, &read(path)?, &Given::default(), within)
+    planned_for(path, &read(path)?, &TrialConditions::default(), within)
 }
 
 /// Plans a scene that was read from a file for given parameters and inputs, where it leaves something to the planner.
 pub fn planned_for(
     path: &Path,
     scene: &Scene,
-    given: &Given,
+    given: &TrialConditions,
     within: &Within,
 ) -> Result<(Scene, Planned)> {
     let found = planned_quietly(path, scene, given, within)?;
@@ -96,7 +96,7 @@ pub fn planned_for(
 fn planned_quietly(
     path: &Path,
     scene: &Scene,
-    given: &Given,
+    given: &TrialConditions,
     within: &Within,
 ) -> Result<(Scene, Planned)> {
     tell_remarks(scene);
@@ -135,7 +135,7 @@ pub fn plan(arguments: &Planning) -> Result<()> {
         let variables = simulation::variables(&scene);
         signals((table, path), &variables, scene.experiment.stop_time)?;
     }
-    let given = Given {
+    let given = TrialConditions {
         set: assignments(&scene, &arguments.set)?,
         inputs: table.map(|(table, _)| table),
     };

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow, bail};
 use flexbody::scene::{Experiment, Interpolation};
 use flexbody::simulation::{
-    Causality, Doubtful, Given, InputTable, NEARLY, Redundant, Report, Signals, Simulation,
-    Singular,
+    Causality, Doubtful, InputTable, NEARLY, RedundantNames, Report, Signals, Simulation, Singular,
+    TrialConditions,
 };
 use fmu_package::bar;
 use indicatif::ProgressBar;
@@ -94,7 +94,7 @@ impl Cost {
     }
 
     /// One line of JSON; CPU time in seconds. Names of variables and joints need no escapes.
-    fn json(&self, calculated: &[(String, f64)], redundant: &Redundant) -> String {
+    fn json(&self, calculated: &[(String, f64)], redundant: &RedundantNames) -> String {
         let pair = |(name, value): &(String, f64)| format!("\"{name}\": {value:?}");
         let calculated: Vec<String> = calculated.iter().map(pair).collect();
         let quoted = |name: &String| format!("\"{name}\"");
@@ -137,7 +137,7 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
         scene.experiment = Experiment { stop_time, step };
     }
     let table = arguments.inputs.table()?;
-    let given = Given {
+    let given = TrialConditions {
         set: assignments(&scene, &arguments.set)?,
         inputs: table.as_ref().map(|(table, _)| table.clone()),
     };

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use flexbody::page;
 use flexbody::scene::Scene;
-use flexbody::simulation::{Given, courses};
-use flexbody::view::{Limits, Recording, Table, gltf, vtk};
+use flexbody::simulation::{TrialConditions, courses};
+use flexbody::view::{Limits, OutputTable, Recording, gltf, vtk};
 
 use crate::inputs::Inputs;
 use crate::planning::{Within, planned_for};
@@ -99,7 +99,7 @@ fn page_of_table(arguments: &View) -> Result<String> {
     }
     let file = &arguments.file;
     let text = fs::read_to_string(file).map_err(|error| at(file, error))?;
-    let table = Table::from_csv(&text).map_err(|error| at(file, error))?;
+    let table = OutputTable::from_csv(&text).map_err(|error| at(file, error))?;
     let title = file.file_stem().unwrap_or_default().to_string_lossy();
     Ok(page::moving_table(&title, &table))
 }
@@ -109,9 +109,9 @@ fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
     let file = &arguments.file;
     let scene = read(file)?;
     let inputs = arguments.inputs.table()?.map(|(table, _)| table);
-    let given = Given {
+    let given = TrialConditions {
         inputs: inputs.clone(),
-        ..Given::default()
+        ..TrialConditions::default()
     };
     let (scene, inputs) = match is_fmu(file) {
         true => (scene, inputs),

@@ -7,7 +7,7 @@ mod parallelogram;
 use std::process::Command;
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Redundant, Simulation, Singular};
+use flexbody::simulation::{RedundantNames, Simulation, Singular};
 use serde_json::{Value, json};
 
 use parallelogram::{NEAR, flat, four_bars, three_cranks};
@@ -39,7 +39,11 @@ fn shipped(place: &str) -> Simulation {
 fn a_singular_position_on_the_way_is_told_once_by_name() {
     for (longer, off) in [(0.0, NEAR), (0.0, 0.0), (1e-9, NEAR)] {
         let mut simulation = started(&four_bars(0.25, longer));
-        assert_eq!(simulation.redundant(), Redundant::default(), "{longer}");
+        assert_eq!(
+            simulation.redundant(),
+            RedundantNames::default(),
+            "{longer}"
+        );
         let [first, second] = flat(0.25);
         assert_eq!(told(&mut simulation, first - 0.05), [], "{longer}");
         let [near] = &told(&mut simulation, first + off)[..] else {
@@ -81,7 +85,7 @@ fn a_restored_state_is_told_of_where_nobody_was() {
 fn what_nearly_repeats_others_is_told_apart_at_the_start() {
     for turned in [0.0, 1e-4] {
         let scene = three_cranks(turned);
-        let Redundant { exactly, nearly } = started(&scene).redundant();
+        let RedundantNames { exactly, nearly } = started(&scene).redundant();
         let is_near = turned > 0.0;
         let expected = [usize::from(!is_near), usize::from(is_near)];
         assert_eq!(
@@ -100,7 +104,7 @@ fn linkages_that_hold_what_they_hold_exactly_are_not_told_of() {
         ("four_bars_in_space", 40, 0.01),
     ] {
         let mut simulation = shipped(place);
-        let Redundant { exactly, nearly } = simulation.redundant();
+        let RedundantNames { exactly, nearly } = simulation.redundant();
         assert!(!exactly.is_empty(), "{place}");
         assert_eq!(nearly, [""; 0], "{place}");
         for point in 1..=points {
@@ -252,7 +256,7 @@ fn a_link_of_hardly_any_mass_is_held_by_its_joints() {
             "outputs": [{"kind": "position", "marker": "bob.c"}],
             "experiment": {"stop_time": 0.05, "step": 0.05}});
         let mut simulation = started(&scene);
-        assert_eq!(simulation.redundant(), Redundant::default(), "{mass}");
+        assert_eq!(simulation.redundant(), RedundantNames::default(), "{mass}");
         assert_eq!(told(&mut simulation, 0.05), [], "{mass}");
         let mut variables = simulation.variables().iter();
         let height = variables.position(|v| v.name == "bob.c.position[3]");
@@ -278,7 +282,7 @@ fn joints_that_hold_directions_in_the_plane_hold_nothing_twice() {
         let mut simulation = started(&json!({
             "name": "pair", "dimension": 2, "bodies": [body("a", 0.0), body("b", 0.4)], "joints": [joint]
         }));
-        assert_eq!(simulation.redundant(), Redundant::default(), "{kind}");
+        assert_eq!(simulation.redundant(), RedundantNames::default(), "{kind}");
         assert_eq!(told(&mut simulation, 0.1), [], "{kind}");
     }
 }

@@ -9,7 +9,7 @@ use flexbody::elements::{beam, rod};
 use flexbody::math::eigen;
 use flexbody::math::lanes::{self, PACK};
 use flexbody::scene::{Scene, assemble};
-use flexbody::system::{Dynamics, Model, State, System, Workspace};
+use flexbody::system::{DrivenSystem, Dynamics, State, System, Workspace};
 use nalgebra::Complex;
 
 const MESHES: [u32; 4] = [1, 10, 100, 1000];
@@ -43,7 +43,7 @@ impl<const D: usize> Bench<D> {
         let system = assembled.system;
         let mut work = Workspace::new(&system);
         let state = system.blank_state(0.0);
-        let mut model = Model::new(&system, &[], &mut work, &state);
+        let mut model = DrivenSystem::new(&system, &[], &mut work, &state);
         let (q, v) = (&state.coordinates, &state.rates);
         model.linearize(0.0, q, v);
         let s = Complex::new(1.0, 1.0) / STEP;
@@ -62,9 +62,9 @@ impl<const D: usize> Bench<D> {
         &mut self,
         group: &mut BenchmarkGroup<'_, M>,
         name: &str,
-        call: impl Fn(&mut Model<'_, D>, &State, &mut [Vec<f64>; 3]),
+        call: impl Fn(&mut DrivenSystem<'_, D>, &State, &mut [Vec<f64>; 3]),
     ) {
-        let mut model = Model::new(&self.system, &[], &mut self.work, &self.state);
+        let mut model = DrivenSystem::new(&self.system, &[], &mut self.work, &self.state);
         let right = vec![1e-3; self.system.coordinates()];
         let mut vectors = [right.clone(), right.clone(), right];
         group.bench_function(name, |bench| {

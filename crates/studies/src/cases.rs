@@ -8,7 +8,7 @@ use std::path::Path;
 use cases_runner::{Step, Verdict, check_all, find, table};
 use flexbody::integrators::advance;
 use flexbody::simulation::Simulation;
-use flexbody::system::Model;
+use flexbody::system::DrivenSystem;
 
 use crate::failures::support::named;
 use crate::integrate::tolerance;
@@ -26,7 +26,7 @@ fn partitioning(path: &Path, simulation: &Simulation) -> Result<Step, String> {
     Ok(Box::new(move |simulation, until| {
         let mut snapshot = simulation.snapshot();
         let (state, work) = (&mut snapshot.state, &mut start.work);
-        let model = Model::new(&start.assembled.system, &start.inputs, work, state);
+        let model = DrivenSystem::new(&start.assembled.system, &start.inputs, work, state);
         let mut probe = Probe::new(model, None).partitioned(state);
         let (_, done) = advance(&mut *method, &mut probe, state, until, &tolerance);
         done.map_err(|stop| format!("{stop:?} at {} s", state.time))?;

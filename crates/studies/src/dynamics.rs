@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::path::PathBuf;
 
 use flexbody::scene::assemble;
-use flexbody::system::{Dynamics as _, Model, Workspace};
+use flexbody::system::{DrivenSystem, Dynamics as _, Workspace};
 use serde_json::json;
 
 use crate::accelerate::median;
@@ -27,7 +27,7 @@ pub fn dynamics(arguments: &Dynamics) -> Outcome<()> {
     let system = &assembled.system;
     let mut work = Workspace::new(system);
     let state = system.blank_state(0.0);
-    let mut model = Model::new(system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(system, &[], &mut work, &state);
     let mut a = vec![0.0; system.coordinates()];
     let time = median(arguments.repeat, || {
         model.acceleration(0.0, black_box(&state.coordinates), &state.rates, &mut a);

@@ -5,10 +5,12 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use flexbody::integrators::{Attempt, Counts, Method, StepError, Tolerance, advance};
+use flexbody::integrators::{Attempt, Counts, OneStepMethod, StepError, Tolerance, advance};
 use flexbody::math::switches::grain;
 use flexbody::scene::Experiment;
-use flexbody::system::{Dynamics, Evaluation, Model, State, StepOutcome, natural_frequencies};
+use flexbody::system::{
+    DrivenSystem, Dynamics, Evaluation, State, StepOutcome, natural_frequencies,
+};
 
 use crate::integrators::{self, Build, Probe, Tally};
 use crate::outputs::Outputs;
@@ -101,7 +103,7 @@ pub fn integrate(arguments: &Integrate) -> Outcome<()> {
     let points = experiment.steps() as u64;
     for point in 1..=points {
         let until = (point as f64 * arguments.every).min(arguments.stop_time);
-        let model = Model::new(system, inputs, &mut work, &state);
+        let model = DrivenSystem::new(system, inputs, &mut work, &state);
         let mut probe = Probe::new(model, watches.then(|| nodes.clone()));
         if partitioned {
             probe = probe.partitioned(&state);
@@ -132,7 +134,7 @@ pub fn integrate(arguments: &Integrate) -> Outcome<()> {
 
 /// Steps of equal length from one output or jump to the next.
 fn fixed(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     (until, step): (f64, f64),
@@ -174,7 +176,7 @@ fn fixed(
 
 /// One step to a time, in halves where the iteration does not converge.
 fn whole(
-    method: &mut dyn Method,
+    method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     (target, tolerance): (f64, &Tolerance),

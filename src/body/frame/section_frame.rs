@@ -14,7 +14,7 @@
 use nalgebra::Vector3;
 
 use super::lean::Lean;
-use super::{Axes, Frames, axes_at, combined, set_axes_at, spin_at, turned};
+use super::{Axes, RotationMaps, axes_at, combined, set_axes_at, spin_at, turned};
 use crate::body::connectivity::Node;
 use crate::body::stages::rotated;
 use crate::math::jet::Number;
@@ -237,7 +237,7 @@ impl SectionFrame {
     }
 }
 
-impl Frames {
+impl RotationMaps {
     /// Those that rods carry.
     pub fn carried(&self) -> &[SectionFrame] {
         &self.carried
@@ -385,7 +385,7 @@ impl Frames {
     ) {
         for frame in &self.carried {
             let axes = frame.axes(x);
-            let moment = super::Frame::moment(&axes, &frame.axes(f));
+            let moment = super::RigidBodyFrame::moment(&axes, &frame.axes(f));
             let on_center = f[frame.node][0];
             f[frame.node] = [[N::of(0.0); D]; 2];
             f[frame.node + 1] = [[N::of(0.0); D]; 2];

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::section_frame::angular;
-use super::{Axes, Frame, Frames, SectionFrame, axes_at, turned};
+use super::{Axes, RigidBodyFrame, RotationMaps, SectionFrame, axes_at, turned};
 use crate::body::assembly::{NodeBlock, no_block};
 use crate::body::connectivity::Node;
 
@@ -58,7 +58,7 @@ fn add_transposed<const D: usize>(block: &mut NodeBlock<D>) {
     }
 }
 
-impl Frames {
+impl RotationMaps {
     /// Second derivatives by nodal coordinates become those by the coordinates of bodies, added pair by pair of the nodes that
     /// have these; what a pair of nodes has both ways that stand for one is in it.
     pub fn pull_block<const D: usize>(
@@ -154,7 +154,11 @@ impl Frames {
 
     /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,
     /// symmetric where the forces have no moment.
-    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> Matrix3<f64> {
+    pub fn geometric<const D: usize>(
+        frame: &RigidBodyFrame,
+        f: &[Node<D>],
+        x: &[Node<D>],
+    ) -> Matrix3<f64> {
         Self::geometric_at(&frame.axes(x), &frame.axes(f))
     }
 
@@ -163,7 +167,7 @@ impl Frames {
         Matrix3::from_diagonal_element(along.trace()) - along
     }
 
-    /// [`Frames::partials`] of a node of a carried frame.
+    /// [`RotationMaps::partials`] of a node of a carried frame.
     pub(super) fn partials_of_carried<const D: usize>(
         &self,
         node: usize,

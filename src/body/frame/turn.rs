@@ -3,13 +3,13 @@
 
 use nalgebra::Vector3;
 
-use super::{Frame, Frames};
+use super::{RigidBodyFrame, RotationMaps};
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, normalized, product};
 
 /// How a body has turned from the frame that the state holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Turn {
+pub struct RotationIncrement {
     /// Rotation, rad.
     pub rotation: Vector3<f64>,
     /// Its rate, rad/s.
@@ -28,7 +28,7 @@ pub(super) fn rate_of<N: Number>(p: &Vector3<N>, spin: &Vector3<N>) -> Vector3<N
     spin + p.cross(spin) * N::of(0.5) + p * (N::of(0.25) * p.dot(spin))
 }
 
-impl Turn {
+impl RotationIncrement {
     /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body turned.
     pub(super) fn quaternion(&self, from: &Quaternion) -> Quaternion {
         let half = self.rotation * 0.5;
@@ -53,9 +53,9 @@ impl Turn {
     }
 }
 
-impl Frame {
+impl RigidBodyFrame {
     /// The spin, or rate of it, about axes without inertia, for which the rotation about them stays zero.
-    fn complete(&self, turn: &Turn, spin: &mut Vector3<f64>, by_rate: bool) {
+    fn complete(&self, turn: &RotationIncrement, spin: &mut Vector3<f64>, by_rate: bool) {
         let (p, w) = (turn.rotation, turn.spin);
         for k in (0..3).filter(|k| self.places[*k].is_none()) {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -68,10 +68,10 @@ impl Frame {
     }
 
     /// How it has turned at these coordinates.
-    pub(super) fn turn(&self, q: &[f64]) -> Turn {
-        Turn {
+    pub(super) fn turn(&self, q: &[f64]) -> RotationIncrement {
+        RotationIncrement {
             rotation: self.read(q),
-            ..Turn::default()
+            ..RotationIncrement::default()
         }
     }
 
@@ -84,10 +84,10 @@ impl Frame {
     }
 }
 
-impl Frames {
+impl RotationMaps {
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
     /// angular velocities rates.
-    pub fn to_rotations(&self, turns: &[Turn], q: &mut [f64]) {
+    pub fn to_rotations(&self, turns: &[RotationIncrement], q: &mut [f64]) {
         for (frame, turn) in self.list.iter().zip(turns) {
             let mut spin = frame.read(q);
             frame.complete(turn, &mut spin, false);
@@ -95,8 +95,8 @@ impl Frames {
         }
     }
 
-    /// The way back of [`Frames::to_rotations`].
-    pub fn to_spins(&self, turns: &[Turn], q: &mut [f64]) {
+    /// The way back of [`RotationMaps::to_rotations`].
+    pub fn to_spins(&self, turns: &[RotationIncrement], q: &mut [f64]) {
         for (frame, turn) in self.list.iter().zip(turns) {
             let spin = turn.spin_of(&frame.read(q));
             frame.write(&spin, q);
@@ -104,7 +104,7 @@ impl Frames {
     }
 
     /// Angular accelerations become second derivatives of rotations.
-    pub fn to_second(&self, turns: &[Turn], a: &mut [f64]) {
+    pub fn to_second(&self, turns: &[RotationIncrement], a: &mut [f64]) {
         for (frame, turn) in self.list.iter().zip(turns) {
             let mut rate = frame.read(a);
             frame.complete(turn, &mut rate, true);

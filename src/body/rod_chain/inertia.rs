@@ -6,7 +6,7 @@ use super::loaded::add_moment;
 use super::{RodChain, part, plane};
 use crate::body::assembly::{Assembly, no_block};
 use crate::body::connectivity::Node;
-use crate::body::frame::{Frames, SectionFrame};
+use crate::body::frame::{RotationMaps, SectionFrame};
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
@@ -17,7 +17,7 @@ impl RodChain {
         &self,
         j: usize,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> [[N; 3]; 3] {
         self.momenta_of(j, &self.rates(j, motion, frames))
     }
@@ -43,7 +43,7 @@ impl RodChain {
     pub fn for_each_momentum<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
         mut each: impl FnMut(&SectionFrame, [N; 3]),
     ) {
         // In the plane they are those of inertia at the nodes.
@@ -58,7 +58,7 @@ impl RodChain {
     pub fn planar_momentum<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> N {
         let inside = |j: usize| self.momenta(j, motion, frames)[1][plane::PARTS.start];
         (0..self.elements.len()).fold(N::of(0.0), |sum, j| sum + inside(j))
@@ -68,7 +68,7 @@ impl RodChain {
     pub fn spin_energy<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> N {
         let mut sum = N::of(0.0);
         for j in 0..self.elements.len() {
@@ -87,7 +87,7 @@ impl RodChain {
     pub fn add_gyroscopic<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
         force: &mut [Node<D, N>],
     ) {
         self.for_each_momentum(motion, frames, |frame, momentum| {
@@ -99,7 +99,7 @@ impl RodChain {
     pub fn add_spin_inertia<const D: usize>(
         &self,
         (x, dx): (&[Node<D>], &[Node<D>]),
-        frames: &Frames,
+        frames: &RotationMaps,
         force: &mut [Node<D>],
     ) {
         for j in 0..self.elements.len() {
@@ -156,7 +156,7 @@ impl RodChain {
         &self,
         j: usize,
         [x, v, a]: [&[Node<D, N>]; 3],
-        (rotation, frames): ([f64; 3], &Frames),
+        (rotation, frames): ([f64; 3], &RotationMaps),
     ) -> Force<N> {
         let (section, _) = &self.elements[j];
         let rates = self.rates(j, (x, v), frames);

@@ -6,11 +6,11 @@ use super::{AHEAD, RodChain, SpinInertia, plane};
 use crate::body::assembly::Assembly;
 use crate::body::chain::both;
 use crate::body::connectivity::Node;
-use crate::body::frame::Frames;
+use crate::body::frame::RotationMaps;
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::rod::{self, Rod, Tangent};
-use crate::elements::section::{Section, SectionPack, rod_at, rod_rates};
+use crate::elements::section::{SectionElement, SectionPack, rod_at, rod_rates};
 use crate::math::lanes::{PACK, Simd, Vectorized, vectorized};
 use crate::math::sparse::Matrix;
 
@@ -22,15 +22,15 @@ pub(super) struct Packed {
 }
 
 /// Runs of elements that are alike.
-pub(super) fn packs(elements: &[(Section, SpinInertia)]) -> Vec<Packed> {
+pub(super) fn packs(elements: &[(SectionElement, SpinInertia)]) -> Vec<Packed> {
     let (mut packs, mut start) = (Vec::new(), 0);
     while start < elements.len() {
         let rest = elements[start..].iter().map(|(section, _)| section);
         let alike = rest.take_while(|section| elements[start].0.goes_with(section));
-        let alike: Vec<&Section> = alike.take(PACK).collect();
+        let alike: Vec<&SectionElement> = alike.take(PACK).collect();
         packs.push(Packed {
             elements: start..start + alike.len(),
-            kernel: Section::pack(&alike),
+            kernel: SectionElement::pack(&alike),
         });
         start += alike.len();
     }
@@ -43,10 +43,10 @@ impl RodChain {
     pub fn add_force<const D: usize>(
         &self,
         motion_of: (&[Node<D>], &[Node<D>]),
-        frames: &Frames,
+        frames: &RotationMaps,
         out: (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
-        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
+        let (mut place, mut rate) = (SectionNodePack::straight(), SectionNodePack::straight());
         let (zero, mut power) = ([0.0; PACK], 0.0);
         let mut force = Force {
             e: [[zero; 3]; 4],
@@ -74,7 +74,7 @@ impl RodChain {
     pub fn add_tangent<const D: usize>(
         &self,
         motion: (&[Node<D>], &[Node<D>]),
-        frames: &Frames,
+        frames: &RotationMaps,
         assembly: &Assembly<D>,
         matrices: [&mut Matrix<f64>; 2],
     ) {
@@ -92,10 +92,10 @@ impl RodChain {
     pub fn for_each_tangent<const D: usize>(
         &self,
         motion_of: (&[Node<D>], &[Node<D>]),
-        frames: &Frames,
+        frames: &RotationMaps,
         mut each: impl FnMut(Tangent, usize, &ElementMatrix),
     ) {
-        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
+        let (mut place, mut rate) = (SectionNodePack::straight(), SectionNodePack::straight());
         let mut out = [[[0.0; PACK]; VELOCITIES]; VELOCITIES];
         let count = if self.is_damped { 2 } else { 1 };
         for kind in [Tangent::Stiffness, Tangent::Damping]
@@ -130,9 +130,9 @@ impl RodChain {
     fn read<const D: usize>(
         &self,
         (x, v): (&[Node<D>], &[Node<D>]),
-        frames: Option<&Frames>,
+        frames: Option<&RotationMaps>,
         elements: &Range<usize>,
-        pack: &mut NodePack,
+        pack: &mut SectionNodePack,
     ) {
         let from = if frames.is_some() { v } else { x };
         for (lane, k) in (elements.start..=elements.end).enumerate() {
@@ -228,13 +228,13 @@ fn of_lane(lanes: &ElementMatrix<[f64; PACK]>, lane: usize) -> ElementMatrix {
 
 /// Every coordinate of the nodes of a pack side by side: positions and slopes, or their rates; axes of sections (the second, the first,
 /// the third), or of the first of these in its place spins; coordinates inside elements.
-struct NodePack {
+struct SectionNodePack {
     line: [[[f64; PACK + 1]; 3]; 2],
     turn: [[[f64; PACK + 1]; 3]; 3],
     inner: [[f64; PACK]; 3],
 }
 
-impl NodePack {
+impl SectionNodePack {
     /// A straight line of nodes along the first axis, for lanes without an element.
     #[inline(always)]
     fn straight() -> Self {
@@ -292,19 +292,19 @@ impl NodePack {
 }
 
 /// Coordinates of the nodes of a pack, and rates where it is damped.
-type Motion<'a> = (&'a NodePack, Option<&'a NodePack>);
+type PackMotion<'a> = (&'a SectionNodePack, Option<&'a SectionNodePack>);
 
 /// Something to compute in lanes. None of these knows the dimension: that would compile them twice.
 struct InLanes<'a, K, O> {
     kernel: &'a K,
-    motion: Motion<'a>,
+    motion: PackMotion<'a>,
     kind: Tangent,
     out: &'a mut O,
     power: &'a mut f64,
 }
 
 /// Forces of a pack of rods, and the power that damping takes out, W.
-fn rod_force(kernel: &rod::Pack, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64 {
+fn rod_force(kernel: &rod::Pack, motion: PackMotion<'_>, force: &mut Force<[f64; PACK]>) -> f64 {
     let zero = [0.0; PACK];
     let (mut power, mut out) = (
         0.0,
@@ -337,7 +337,7 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
 }
 
 /// The same of beams, in space or in the plane.
-fn beam_force<K>(kernel: &K, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64
+fn beam_force<K>(kernel: &K, motion: PackMotion<'_>, force: &mut Force<[f64; PACK]>) -> f64
 where
     for<'a> InLanes<'a, K, Force<[f64; PACK]>>: Vectorized,
 {
@@ -355,7 +355,7 @@ where
 impl Vectorized for InLanes<'_, beam::Pack, Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(NodePack::rates);
+        let rates = self.motion.1.map(SectionNodePack::rates);
         let motion = (&self.motion.0.at(), rates.as_ref());
         *self.power += Beam::pack_force(simd, self.kernel, motion, self.out);
     }
@@ -364,7 +364,7 @@ impl Vectorized for InLanes<'_, beam::Pack, Force<[f64; PACK]>> {
 /// Tangent of a pack of rods.
 fn rod_tangent(
     kernel: &rod::Pack,
-    motion: Motion<'_>,
+    motion: PackMotion<'_>,
     kind: Tangent,
     whole: &mut ElementMatrix<[f64; PACK]>,
 ) {
@@ -393,7 +393,7 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
 /// The same of beams.
 fn beam_tangent<K>(
     kernel: &K,
-    motion: Motion<'_>,
+    motion: PackMotion<'_>,
     kind: Tangent,
     out: &mut ElementMatrix<[f64; PACK]>,
 ) where
@@ -411,7 +411,7 @@ fn beam_tangent<K>(
 impl Vectorized for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(NodePack::rates);
+        let rates = self.motion.1.map(SectionNodePack::rates);
         let motion = (&self.motion.0.at(), rates.as_ref());
         Beam::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
@@ -420,7 +420,7 @@ impl Vectorized for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
 impl Vectorized for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(NodePack::rates);
+        let rates = self.motion.1.map(SectionNodePack::rates);
         let motion = (&self.motion.0.at(), rates.as_ref());
         *self.power += Planar::pack_force(simd, self.kernel, motion, self.out);
     }
@@ -429,7 +429,7 @@ impl Vectorized for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
 impl Vectorized for InLanes<'_, planar::Pack, ElementMatrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(NodePack::rates);
+        let rates = self.motion.1.map(SectionNodePack::rates);
         let motion = (&self.motion.0.at(), rates.as_ref());
         Planar::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }

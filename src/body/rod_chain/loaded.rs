@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::{RodChain, plane};
 use crate::body::connectivity::Node;
-use crate::body::frame::{Frame, Frames, axes_at};
+use crate::body::frame::{RigidBodyFrame, RotationMaps, axes_at};
 use crate::elements::beam::{Force, Rates};
 use crate::elements::section::Vectors;
 use crate::math::jet::Number;
@@ -64,7 +64,7 @@ impl RodChain {
         &self,
         (j, force): (usize, &Force<N>),
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> N {
         product(force, &self.rates(j, motion, frames))
     }
@@ -110,7 +110,7 @@ pub(super) fn add_moment<const D: usize, N: Number>(
     if D == 2 {
         return plane::turn(&x[frame][1], moment, &mut out[frame][1]);
     }
-    let [first, second, third] = Frame::on_axes(&axes_at(frame, x), &(*moment).into());
+    let [first, second, third] = RigidBodyFrame::on_axes(&axes_at(frame, x), &(*moment).into());
     add(&mut out[frame][1], &first);
     add(&mut out[frame + 1][0], &second);
     add(&mut out[frame + 1][1], &third);

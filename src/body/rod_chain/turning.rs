@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 
 use super::RodChain;
 use crate::body::connectivity::Node;
-use crate::body::frame::{Frames, SectionFrame};
+use crate::body::frame::{RotationMaps, SectionFrame};
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 
@@ -29,7 +29,7 @@ impl RodChain {
         j: usize,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         rotation: Rotation,
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> Force<N> {
         let rates = self.rates(j, (x, v), frames);
         let ends = [j, j + 1].map(|k| self.frame(k, frames));
@@ -79,7 +79,7 @@ impl RodChain {
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
         rotation: Rotation,
-        frames: &Frames,
+        frames: &RotationMaps,
         force: &mut [Node<D, N>],
     ) {
         // In the plane directions of sections have inertia as other directions have.
@@ -98,7 +98,7 @@ impl RodChain {
         &self,
         x: &[Node<D, N>],
         rotation: Rotation,
-        frames: &Frames,
+        frames: &RotationMaps,
     ) -> N {
         let mut sum = N::of(0.0);
         for j in (0..self.count()).filter(|_| D > 2) {

@@ -10,13 +10,13 @@ use crate::math::space::{Vector, components, vector};
 
 /// The sections of beams: nodes of their lines with the first of their frames, and axes where the tangent was made and at the stages.
 #[derive(Clone, Debug)]
-pub(super) struct Sections {
+pub(super) struct StageSections {
     nodes: Vec<(usize, usize)>,
     base: Vec<Axes>,
     turned: [Vec<Axes>; super::STAGES],
 }
 
-impl Sections {
+impl StageSections {
     pub fn new(nodes: &[(usize, usize)]) -> Self {
         let axes = vec![Axes::default(); nodes.len()];
         Self {

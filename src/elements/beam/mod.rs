@@ -47,7 +47,7 @@ use crate::elements::rod::geometry::{Geometry, POINTS};
 use crate::elements::rod::read;
 use crate::elements::rod::vectors::{Vector, plus};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::Point;
+use crate::math::quadrature::QuadraturePoint;
 use kernel::Kernel;
 
 pub use crate::elements::rod::Tangent;
@@ -169,7 +169,7 @@ impl Beam {
 
     /// Strains at `xi` in [0, 1], those of the unstressed shape included: axial and shear, twist and curvatures (1/m).
     pub fn strains<N: Real>(&self, at: &At<N>, xi: f64) -> [N; 6] {
-        let point = sample(Point {
+        let point = sample(QuadraturePoint {
             at: xi,
             weight: 0.0,
         });

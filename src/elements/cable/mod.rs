@@ -18,7 +18,9 @@ mod tests;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape};
+use super::{
+    BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, StrainMeasure, shape,
+};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{GAUSS_3, GAUSS_5};
@@ -59,7 +61,7 @@ pub struct Parameters {
     /// The same of bending, s.
     pub bending_damping_time: f64,
     /// Strain measure.
-    pub strain: Strain,
+    pub strain: StrainMeasure,
     /// Mass matrix.
     pub inertia: Inertia,
 }

@@ -5,7 +5,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{Inertia, Parameters};
-use crate::elements::{Along, shape};
+use crate::elements::{ElementPolynomial, shape};
 use crate::math::quadrature::GAUSS_5;
 
 /// What the stiffnesses and the mass of [`Parameters`] are multiplied by along an element, one everywhere by default, and the
@@ -13,23 +13,23 @@ use crate::math::quadrature::GAUSS_5;
 #[derive(Clone, Copy, Debug)]
 pub struct SectionVariation {
     /// Of axial stiffness.
-    pub axial: Along,
+    pub axial: ElementPolynomial,
     /// Of bending stiffness.
-    pub bending: Along,
+    pub bending: ElementPolynomial,
     /// Of mass per reference length.
-    pub density: Along,
+    pub density: ElementPolynomial,
     /// Mass per reference length of the fluid that moves along, kg/m; none by default. It has inertia and no weight.
-    pub added: Along,
+    pub added: ElementPolynomial,
 }
 
 impl Default for SectionVariation {
     fn default() -> Self {
-        let [axial, bending, density] = [Along::from(1.0); 3];
+        let [axial, bending, density] = [ElementPolynomial::from(1.0); 3];
         Self {
             axial,
             bending,
             density,
-            added: Along::from(0.0),
+            added: ElementPolynomial::from(0.0),
         }
     }
 }

@@ -12,7 +12,7 @@ const ROPE: Parameters = Parameters {
     line_density: 1.3,
     axial_damping_time: 0.0,
     bending_damping_time: 0.0,
-    strain: Strain::ThetaPrime,
+    strain: StrainMeasure::ThetaPrime,
     inertia: Inertia::Corrected,
 };
 

@@ -7,7 +7,7 @@ use super::vectors::{Vector, across, add, carry, cross, plus, unit};
 use super::{Force, Rates};
 use crate::elements::line::{Sample, combine, dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{GAUSS_3, GAUSS_5, Point};
+use crate::math::quadrature::{GAUSS_3, GAUSS_5, QuadraturePoint};
 
 /// Points that strains are sampled at.
 pub(in crate::elements) const POINTS: [Sample; 3] =
@@ -23,7 +23,7 @@ pub(in crate::elements) const LOADED: [Sample; GAUSS_5.len()] = [
 ];
 
 /// Weights of the three vectors in the slope at the middle.
-pub(in crate::elements) const MIDDLE: [f64; 3] = sample(Point {
+pub(in crate::elements) const MIDDLE: [f64; 3] = sample(QuadraturePoint {
     at: 0.5,
     weight: 0.0,
 })

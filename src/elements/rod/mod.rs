@@ -48,7 +48,7 @@ pub(in crate::elements) mod vectors;
 use crate::elements::constitutive::Law;
 use crate::elements::line::{dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::Point;
+use crate::math::quadrature::QuadraturePoint;
 use geometry::{Geometry, POINTS};
 use kernel::Kernel;
 use stretch::{Axial, Coupled};
@@ -200,7 +200,7 @@ impl Rod {
 
     /// Strains at `xi` in [0, 1], those of the unstressed shape included, 1/m.
     pub fn strains<N: Real>(&self, at: &At<N>, xi: f64) -> [N; 3] {
-        let point = sample(Point {
+        let point = sample(QuadraturePoint {
             at: xi,
             weight: 0.0,
         });

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 use super::tests::{moved, section};
 use super::*;
 use crate::elements::cable::{self, Cable, Inertia, LineOf};
-use crate::elements::{Element, Nodal, Strain};
+use crate::elements::{Element, Nodal, StrainMeasure};
 
 type V = Vector3<f64>;
 
@@ -61,7 +61,7 @@ impl Chain {
             line_density: 1.0,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,
-            strain: Strain::ThetaPrime,
+            strain: StrainMeasure::ThetaPrime,
             inertia: Inertia::Consistent,
         };
         let mut chain = Self {

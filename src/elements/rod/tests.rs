@@ -447,7 +447,7 @@ fn plane_bending_is_that_of_a_cable() {
         line_density: 1.0,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,
-        strain: crate::elements::Strain::ThetaPrime,
+        strain: crate::elements::StrainMeasure::ThetaPrime,
         inertia: Inertia::Consistent,
     };
     let cable = Cable::<3>::new(cable, None);

@@ -17,15 +17,15 @@ pub struct Cholesky {
     roots: Vec<f64>,
     inverse_roots: Vec<f64>,
     /// For every step of the pattern.
-    pieces: Vec<Piece>,
+    pieces: Vec<StepColumns>,
 }
 
 /// The columns of one step of the pattern.
 #[derive(Clone, Debug)]
-struct Piece {
+struct StepColumns {
     columns: Range<usize>,
     /// The columns of a run where it is isotropic, else nothing; and the first of their variables.
-    links: Vec<Link>,
+    links: Vec<NodeColumn>,
     start: usize,
     /// Variables of a column.
     size: usize,
@@ -44,7 +44,7 @@ pub struct Reach {
 
 /// A column of L: two vectors of a node, `p` and `s`, and those of the next one.
 #[derive(Clone, Copy, Debug)]
-struct Link {
+struct NodeColumn {
     /// `s` by `p`.
     own: f64,
     /// Those of the next node by `p` and by `s`.
@@ -54,7 +54,7 @@ struct Link {
     direct: [f64; 2],
 }
 
-impl Link {
+impl NodeColumn {
     /// From the blocks of a column over two vectors, unless they depend on the direction.
     fn new<const B: usize>([diagonal, below]: &[[[f64; B]; B]; 2]) -> Option<Self> {
         let dimension = B / 2;
@@ -132,7 +132,7 @@ impl Cholesky {
     fn forward_piece(
         &self,
         pattern: &Pattern,
-        (piece, step): (&Piece, &Step),
+        (piece, step): (&StepColumns, &Step),
         skipped: usize,
         x: &mut [f64],
     ) {
@@ -218,7 +218,7 @@ impl Cholesky {
     }
 }
 
-fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
+fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<StepColumns> {
     let mut first = 0;
     let piece = |step: &Step| {
         let (count, links, start, size) = match step {
@@ -231,9 +231,9 @@ fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
                 let links = of_size!(size, B => {
                     let blocks = factors.values[values.clone()].as_chunks::<B>().0;
                     let columns = blocks.as_chunks::<B>().0.as_chunks::<2>().0;
-                    let links = columns.iter().map(Link::new);
+                    let links = columns.iter().map(NodeColumn::new);
                     // Two vectors a node.
-                    B.is_multiple_of(2).then(|| links.collect::<Option<Vec<Link>>>()).flatten()
+                    B.is_multiple_of(2).then(|| links.collect::<Option<Vec<NodeColumn>>>()).flatten()
                 });
                 let count = variables.len() / size;
                 (count, links, variables.start, *size)
@@ -245,7 +245,7 @@ fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
             Step::Column(j) => is_identity(&pattern.columns[*j], &factors.values),
             Step::Chain { .. } => false,
         };
-        Piece {
+        StepColumns {
             columns,
             links: links.unwrap_or_default(),
             start,
@@ -284,7 +284,7 @@ fn less<const D: usize>(a: [f64; D], k: f64, b: [f64; D]) -> [f64; D] {
 // component, a sweep takes nearly twice the instructions.
 
 /// `x <- L^-1 x` over a run; `x` starts with its variables.
-fn forward_links<const D: usize>(links: &[Link], x: &mut [f64]) {
+fn forward_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
     let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;
@@ -303,7 +303,7 @@ fn forward_links<const D: usize>(links: &[Link], x: &mut [f64]) {
 }
 
 /// `x <- L^-T x`.
-fn backward_links<const D: usize>(links: &[Link], x: &mut [f64]) {
+fn backward_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
     let nodes = &mut nodes::<D>(x)[..links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
     let Some(last) = nodes.next() else {
@@ -321,7 +321,7 @@ fn backward_links<const D: usize>(links: &[Link], x: &mut [f64]) {
 }
 
 /// `x <- L x`.
-fn multiply_links<const D: usize>(links: &[Link], x: &mut [f64]) {
+fn multiply_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
     let nodes = &mut nodes::<D>(x)[..links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
     let Some(mut next) = nodes.next() else {
@@ -341,7 +341,7 @@ fn multiply_links<const D: usize>(links: &[Link], x: &mut [f64]) {
 }
 
 /// `x <- L^T x`.
-fn multiply_links_transposed<const D: usize>(links: &[Link], x: &mut [f64]) {
+fn multiply_links_transposed<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
     let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;

@@ -19,7 +19,7 @@ mod tests;
 pub use cholesky::{Cholesky, Reach};
 pub use general::{Factors, General};
 pub use order::{graph, parts};
-pub use pattern::{Component, Pattern, Slot};
+pub use pattern::{GraphComponent, Pattern, Slot};
 
 use std::ops::{Add, Div, Mul, Sub};
 

@@ -15,12 +15,12 @@ pub struct Pattern {
     pub(super) column_of: Vec<usize>,
     component_of: Vec<usize>,
     order: Vec<usize>,
-    components: Vec<Component>,
+    components: Vec<GraphComponent>,
     pub(super) columns: Vec<Column>,
     /// All columns, in the order they are eliminated.
     pub(super) steps: Vec<Step>,
     /// Blocks below the diagonal, column by column, from the first to the last in the order.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<PatternRow>,
     /// For every column and every pair (a, b), b <= a, of its rows: where in the values the block
     /// stands that their product changes; pair (a, b) is number a (a + 1) / 2 + b of the column.
     pub(super) targets: Vec<usize>,
@@ -31,7 +31,7 @@ pub struct Pattern {
 /// A part of the graph that no edge leaves. Vertices without variables couple nothing, so each is
 /// a component of its own.
 #[derive(Clone, Debug)]
-pub struct Component {
+pub struct GraphComponent {
     /// Where the variables stand in every vector.
     pub variables: Range<usize>,
     /// Where the vertices stand in [`Pattern::order`].
@@ -142,7 +142,7 @@ pub(super) struct Column {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub(super) struct PatternRow {
     pub column: usize,
     pub start: usize,
     pub size: usize,
@@ -282,7 +282,7 @@ impl Pattern {
             let mut below = below.clone();
             below.sort_unstable_by_key(|&w| self.column_of[w]);
             for w in below {
-                self.rows.push(Row {
+                self.rows.push(PatternRow {
                     column: self.column_of[w],
                     start: self.ranges[w].start,
                     size: sizes[w],
@@ -335,7 +335,7 @@ impl Pattern {
             vertices = vertices.end..vertices.end + part.len();
             let size: usize = part.iter().map(|&v| self.ranges[v].len()).sum();
             variables = variables.end..variables.end + size;
-            self.components.push(Component {
+            self.components.push(GraphComponent {
                 variables: variables.clone(),
                 vertices: vertices.clone(),
             });
@@ -391,7 +391,7 @@ impl Pattern {
     }
 
     /// The components, in the order of their lowest vertices; each is contiguous.
-    pub fn components(&self) -> &[Component] {
+    pub fn components(&self) -> &[GraphComponent] {
         &self.components
     }
 

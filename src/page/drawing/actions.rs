@@ -11,7 +11,7 @@ use crate::system::Signal;
 const ARROWS: u32 = 7;
 
 /// A load or an input that is drawn as an arrow.
-pub(super) struct Action<'a> {
+pub(super) struct DrawnAction<'a> {
     pub action: &'a scene::Action<'a>,
     /// What is written beside it.
     pub label: &'a str,
@@ -20,9 +20,9 @@ pub(super) struct Action<'a> {
 }
 
 /// All loads and inputs of a scene, those of ports included, but not those of springs.
-pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
+pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<DrawnAction<'a>> {
     let input = |input: &'a Input<'a>, label: Option<&'a str>| match &input.kind {
-        InputKind::Action(action) => Some(Action {
+        InputKind::Action(action) => Some(DrawnAction {
             action,
             label: label.unwrap_or(action.kind.words()[0]),
             components: at_start(action, &input.start),
@@ -31,7 +31,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
     };
     let inputs = resolved.inputs.iter().filter_map(|own| input(own, None));
     let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Action { action, .. } => Some(Action {
+        LoadKind::Action { action, .. } => Some(DrawnAction {
             action,
             label: load.name,
             components: at_start(action, &[]),
@@ -85,7 +85,7 @@ fn way(components: &[f64]) -> Point {
     direction([across, -up])
 }
 
-impl<'a> Action<'a> {
+impl<'a> DrawnAction<'a> {
     /// The marker that it acts on, or the second one of a joint; none on a cable as a whole.
     pub(super) fn marker(&self) -> Option<Marker<'a>> {
         match self.action.on {
@@ -145,7 +145,7 @@ impl<'a> Picture<'a> {
         symbols::turn(&mut self.canvas, at, self.unit, symbols::LOAD);
     }
 
-    fn force(&mut self, action: &Action<'a>, marker: Marker<'a>) {
+    fn force(&mut self, action: &DrawnAction<'a>, marker: Marker<'a>) {
         let place = self.place(marker);
         let along = action.way(place.direction);
         let tail = symbols::force(&mut self.canvas, place.point, along, self.unit);

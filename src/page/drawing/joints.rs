@@ -1,6 +1,6 @@
 //! Joints, springs, driven motions, and ports that motions come into.
 
-use super::picture::{Picture, Place};
+use super::picture::{MarkerInImage, Picture};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{
@@ -8,7 +8,7 @@ use crate::scene::{
 };
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
-fn outward(place: &Place<'_>) -> [f64; 2] {
+fn outward(place: &MarkerInImage<'_>) -> [f64; 2] {
     match place.on {
         On::Along(_, s) if s < 0.5 => place.direction.map(|part| -part),
         On::Along(..) | On::Point(..) => place.direction,

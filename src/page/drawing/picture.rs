@@ -17,7 +17,7 @@ pub(super) const FAINT: &str = "#8a929b";
 
 /// A marker in the image.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(super) struct MarkerInImage<'a> {
     pub(super) on: On<'a>,
     /// Where it is, pixels.
     pub(super) point: Point,
@@ -92,9 +92,9 @@ impl<'a> Picture<'a> {
     }
 
     /// A marker in the image.
-    pub(super) fn place(&self, marker: Marker<'a>) -> Place<'a> {
+    pub(super) fn place(&self, marker: Marker<'a>) -> MarkerInImage<'a> {
         let [across, up] = self.seen(marker.direction);
-        Place {
+        MarkerInImage {
             on: marker.place,
             point: self.at(marker.position),
             direction: [across, -up],

@@ -7,16 +7,16 @@ use crate::body::{Marker, axes_at};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
 use crate::scene::resolved::{self, Action, Hold, Pivot, Place, Turning};
 use crate::system::joints::{Across, Clamp, Perpendicular, Primitive};
-use crate::system::loads::{Couple, Load};
-use crate::system::{AxisTurn, Direction, End, reach};
+use crate::system::loads::{AppliedLoad, SpatialMoment};
+use crate::system::{Attachment, AxisTurn, Direction, reach};
 
 /// The axis of the plane.
 const THIRD: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl<const D: usize> Builder<'_, D> {
     /// A direction at the start, fixed in the body of an end; of a cable its own.
-    pub(super) fn fixed(&self, end: &End<D>, direction: Vector<D>) -> Direction<D> {
-        let End::Body(marker) = end else {
+    pub(super) fn fixed(&self, end: &Attachment<D>, direction: Vector<D>) -> Direction<D> {
+        let Attachment::Body(marker) = end else {
             return Direction::Fixed(direction);
         };
         if !marker.is_framed() {
@@ -43,14 +43,18 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A moment on a rigid body: in global axes, or in those of its frame.
-    pub(super) fn moment_on(&self, marker: resolved::Marker<'_>, action: &Action<'_>) -> Load<D> {
+    pub(super) fn moment_on(
+        &self,
+        marker: resolved::Marker<'_>,
+        action: &Action<'_>,
+    ) -> AppliedLoad<D> {
         let axes = self.frame_axes(marker);
         let about = |k: usize| match action.follower {
             true => Direction::Of(axes[k]),
             false => Direction::Fixed(axis(k)),
         };
         let parts = action.components.iter().enumerate();
-        Load::Couple(Couple {
+        AppliedLoad::SpatialMoment(SpatialMoment {
             ends: self.on_marker(marker),
             is_torque: false,
             parts: parts.map(|(k, size)| (size.clone(), about(k))).collect(),
@@ -58,11 +62,11 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A torque about the axis of a joint.
-    pub(super) fn torque(&self, pivot: Pivot<'_>, action: &Action<'_>) -> Load<D> {
+    pub(super) fn torque(&self, pivot: Pivot<'_>, action: &Action<'_>) -> AppliedLoad<D> {
         let ends = self.ends(pivot.ends);
         let about = self.fixed(&ends[0], super::unit(pivot.axis.unwrap_or(THIRD)));
         let sizes = action.components.iter();
-        Load::Couple(Couple {
+        AppliedLoad::SpatialMoment(SpatialMoment {
             ends,
             is_torque: true,
             parts: sizes.map(|size| (size.clone(), about)).collect(),
@@ -94,7 +98,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A direction of the first body across one of the second.
-    pub(super) fn right_angle(&self, ends: [End<D>; 2], of: [Vector<D>; 2]) -> Primitive<D> {
+    pub(super) fn right_angle(&self, ends: [Attachment<D>; 2], of: [Vector<D>; 2]) -> Primitive<D> {
         let [first, second] = of.map(|direction| direction.normalize());
         Primitive::Perpendicular(Perpendicular {
             direction: self.fixed(&ends[0], first),
@@ -103,7 +107,11 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The way between both ends across a direction of the first body.
-    pub(super) fn across_way(&self, ends: [End<D>; 2], direction: Vector<D>) -> Primitive<D> {
+    pub(super) fn across_way(
+        &self,
+        ends: [Attachment<D>; 2],
+        direction: Vector<D>,
+    ) -> Primitive<D> {
         Primitive::Perpendicular(Perpendicular {
             direction: self.fixed(&ends[0], direction),
             across: Across::Translation(ends, self.size_of(&ends)),
@@ -111,13 +119,13 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// What residuals of ways between these ends are relative to, m.
-    pub(super) fn size_of(&self, ends: &[End<D>; 2]) -> f64 {
+    pub(super) fn size_of(&self, ends: &[Attachment<D>; 2]) -> f64 {
         let size = reach(ends).max(self.distance_at_start(ends));
         if size > 0.0 { size } else { 1.0 }
     }
 
     /// The second end on a line of the first body.
-    pub(super) fn on_line(&self, ends: [End<D>; 2], along: [f64; 3]) -> Vec<Primitive<D>> {
+    pub(super) fn on_line(&self, ends: [Attachment<D>; 2], along: [f64; 3]) -> Vec<Primitive<D>> {
         let along = super::unit(along);
         let normals = normals(&along);
         normals
@@ -126,7 +134,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// An axis of the second body along that of the first.
-    pub(super) fn along_axis(&self, ends: [End<D>; 2], axis: [f64; 3]) -> Vec<Primitive<D>> {
+    pub(super) fn along_axis(&self, ends: [Attachment<D>; 2], axis: [f64; 3]) -> Vec<Primitive<D>> {
         let axis = super::unit(axis);
         let normals = normals(&axis);
         normals
@@ -153,7 +161,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// How both bodies stand to each other; the direction of a cable across two axes of a rigid body.
-    pub(super) fn standing(&self, ends: [End<D>; 2]) -> Vec<Primitive<D>> {
+    pub(super) fn standing(&self, ends: [Attachment<D>; 2]) -> Vec<Primitive<D>> {
         let nodes = &self.parts.nodes;
         let cable = ends.iter().position(|end| !end.is_rigid());
         let along: Vector<D> = match cable {

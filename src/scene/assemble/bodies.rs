@@ -2,18 +2,20 @@
 
 use super::Builder;
 
-use crate::body::{Frame, Marker, Node, RodChain, carried_nodes, middle, planar_axes, untwisted};
+use crate::body::{
+    Marker, Node, RigidBodyFrame, RodChain, carried_nodes, middle, planar_axes, untwisted,
+};
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam};
 use crate::elements::cable::{self, Inertia, LineOf};
 use crate::elements::rod::{self, Rod as RodElement};
-use crate::elements::section::{Section, SpinInertia, planar_inertia, rod_at, spin_inertia};
-use crate::elements::{self, Along, Nodal};
+use crate::elements::section::{SectionElement, SpinInertia, planar_inertia, rod_at, spin_inertia};
+use crate::elements::{self, ElementPolynomial, Nodal};
 use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
 use crate::scene::{Error, LineBody, RigidBody, SectionNumbers, Sections, Strain};
-use crate::system::{LineChain, LumpedMass, Rod};
+use crate::system::{LineChain, LumpedMass, RigidRod};
 
 /// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
 const STEPS: u32 = 256;
@@ -89,7 +91,7 @@ impl<const D: usize> Builder<'_, D> {
         let node = self.parts.nodes.len();
         // What rounding left of the moment of a thin rod about itself is none.
         let rounded = |moment| if moment > 1e-9 * largest { moment } else { 0.0 };
-        self.parts.frames.push(Frame {
+        self.parts.frames.push(RigidBodyFrame {
             node,
             mass: solid.mass,
             moments: solid.moments.map(rounded),
@@ -187,7 +189,7 @@ impl<const D: usize> Builder<'_, D> {
                     damping_times: [axial_time, time, time, time, time, time],
                 };
                 let beam = Beam::new(parameters, &shape);
-                return (Section::Beam(Box::new(beam)), inertia);
+                return (SectionElement::Beam(Box::new(beam)), inertia);
             }
             let axial = rod.is_coupled_axially().then(|| rod::Stretch {
                 stiffness: GAUSS_3.map(|point| rod.axial_stiffness_of(&numbers(point.at))),
@@ -201,7 +203,7 @@ impl<const D: usize> Builder<'_, D> {
                 axial,
             };
             let rod = RodElement::new(parameters, &rod_at(&shape));
-            (Section::Rod(Box::new(rod)), inertia)
+            (SectionElement::Rod(Box::new(rod)), inertia)
         });
         let chain = RodChain::new::<D>(elements.collect(), first, carried);
         self.parts.nodes.extend(axes);
@@ -220,7 +222,7 @@ impl<const D: usize> Builder<'_, D> {
         let mass = cable.line_density_of(&section) * length;
         let added = self.resolved.added_mass(index, &section) * length;
         let [x, y, _] = cable.shape.tangent(0.5);
-        self.parts.rods.push(Rod {
+        self.parts.rods.push(RigidRod {
             node: self.parts.nodes.len(),
             length,
             mass: self.parts.lumped_masses.len(),
@@ -275,7 +277,7 @@ impl<const D: usize> Builder<'_, D> {
                 Marker::along(body, chain, s * chain.length())
             }
             Form::Rod(rod) => {
-                let Rod { node, length, .. } = self.parts.rods[rod];
+                let RigidRod { node, length, .. } = self.parts.rods[rod];
                 Marker::rigid(body, node, [(s - 0.5) * length, 0.0])
             }
         }
@@ -287,7 +289,7 @@ fn planar_beam(
     beam: &LineBody,
     (shape, length): (&At<f64>, f64),
     (axial_time, numbers): (f64, &dyn Fn(f64) -> SectionNumbers),
-) -> (Section, SpinInertia) {
+) -> (SectionElement, SpinInertia) {
     let time = beam.material.damping_time;
     let ends = [[shape.e[0], shape.e[1]], [shape.e[2], shape.e[3]]];
     let (sin, cos) = middle([&ends[0], &ends[1]], length)[0][0].sin_cos();
@@ -303,7 +305,7 @@ fn planar_beam(
     // Against turns about the first axis, which is across the plane.
     let inertia = planar_inertia(length, |xi| beam.rotary_inertia_of(&numbers(xi))[(1, 1)]);
     let beam = Planar::new(parameters, &shape);
-    (Section::Planar(Box::new(beam)), inertia)
+    (SectionElement::Planar(Box::new(beam)), inertia)
 }
 
 /// Axes of the section at a node of a rod or beam, from the nodes that hold them.
@@ -335,9 +337,9 @@ fn build_elements<const D: usize>(
 ) -> Vec<cable::Cable<D>> {
     let material = &body.material;
     let strain = match body.strain {
-        Strain::ThetaPrime => elements::Strain::ThetaPrime,
-        Strain::GreenLagrangeFrenetKappa => elements::Strain::GreenLagrangeFrenetKappa,
-        Strain::EngStrainFrenetKappa => elements::Strain::EngStrainFrenetKappa,
+        Strain::ThetaPrime => elements::StrainMeasure::ThetaPrime,
+        Strain::GreenLagrangeFrenetKappa => elements::StrainMeasure::GreenLagrangeFrenetKappa,
+        Strain::EngStrainFrenetKappa => elements::StrainMeasure::EngStrainFrenetKappa,
     };
     let end = |s: f64| [body.shape.point(s), body.shape.tangent(s)].map(vector);
     let build = |s: &[f64]| {
@@ -366,17 +368,17 @@ fn build_elements<const D: usize>(
         let added = |xi: f64| added(&numbers_along(body, s)(xi));
         let mut taper = cable::SectionVariation {
             added: match body.stations.is_empty() {
-                true => Along::from(added(0.5)),
-                false => Along::through(added),
+                true => ElementPolynomial::from(added(0.5)),
+                false => ElementPolynomial::through(added),
             },
             ..cable::SectionVariation::default()
         };
         if !body.stations.is_empty() {
-            taper.axial = Along::through(|xi| stretching(xi) / stretching(0.5));
-            taper.density = Along::through(|xi| density(xi) / density(0.5));
+            taper.axial = ElementPolynomial::through(|xi| stretching(xi) / stretching(0.5));
+            taper.density = ElementPolynomial::through(|xi| density(xi) / density(0.5));
         }
         if !body.stations.is_empty() && bending(0.5) > 0.0 {
-            taper.bending = Along::through(|xi| bending(xi) / bending(0.5));
+            taper.bending = ElementPolynomial::through(|xi| bending(xi) / bending(0.5));
         }
         let [a, b]: [[Vector<D>; 2]; 2] = [end(s[0]), end(s[1])];
         let e = Nodal::from_columns(&[a[0], a[1], b[0], b[1]]);

@@ -7,20 +7,20 @@ use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
 use crate::scene::description::Surface;
 use crate::scene::resolved::{By, Cable, Contact, Form};
-use crate::system::Rod;
-use crate::system::loads::{self, Load, PANELS, Place};
+use crate::system::RigidRod;
+use crate::system::loads::{self, AppliedLoad, ContactPoint, PANELS};
 
 impl<const D: usize> Builder<'_, D> {
-    pub(super) fn contact(&self, contact: &Contact<'_>) -> Load<D> {
+    pub(super) fn contact(&self, contact: &Contact<'_>) -> AppliedLoad<D> {
         let places = match contact.by {
-            By::Marker(marker) => vec![Place {
+            By::Marker(marker) => vec![ContactPoint {
                 marker: self.marker(marker),
                 weight: 1.0,
             }],
             By::Cable(cable) => self.places(cable),
         };
         let [stiffness, damping] = contact.sizes;
-        Load::Contact(Box::new(loads::Contact {
+        AppliedLoad::Contact(Box::new(loads::Contact {
             places,
             surface: surface(&contact.surface),
             stiffness,
@@ -31,14 +31,14 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The Gauss points of the elements of a cable, or of even parts of one that does not bend.
-    fn places(&self, cable: Cable<'_>) -> Vec<Place> {
+    fn places(&self, cable: Cable<'_>) -> Vec<ContactPoint> {
         let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {
                 let chain = &self.parts.chains[chain];
                 let elements = chain.elements().iter().enumerate();
                 let places = elements.flat_map(|(j, element)| {
-                    GAUSS_5.map(|point| Place {
+                    GAUSS_5.map(|point| ContactPoint {
                         marker: Marker::within(body, chain, j, point.at),
                         weight: point.weight * element.length(),
                     })
@@ -46,12 +46,12 @@ impl<const D: usize> Builder<'_, D> {
                 places.collect()
             }
             Form::Rod(rod) => {
-                let Rod { node, length, .. } = self.parts.rods[rod];
+                let RigidRod { node, length, .. } = self.parts.rods[rod];
                 let part = length / PANELS as f64;
                 let places = (0..PANELS).flat_map(|panel| {
                     GAUSS_5.map(|point| {
                         let arm = (panel as f64 + point.at) * part - 0.5 * length;
-                        Place {
+                        ContactPoint {
                             marker: Marker::rigid(body, node, [arm, 0.0]),
                             weight: point.weight * part,
                         }
@@ -63,14 +63,14 @@ impl<const D: usize> Builder<'_, D> {
     }
 }
 
-fn surface<const D: usize>(of: &Surface) -> loads::Surface<D> {
+fn surface<const D: usize>(of: &Surface) -> loads::ContactSurface<D> {
     match of {
-        Surface::Plane { point, normal } => loads::Surface::Plane {
+        Surface::Plane { point, normal } => loads::ContactSurface::Plane {
             point: vector(point.full()),
             normal: unit(normal.full()),
         },
         Surface::Circle { center, radius } | Surface::Sphere { center, radius } => {
-            loads::Surface::Round {
+            loads::ContactSurface::Round {
                 center: vector(center.full()),
                 axis: None,
                 radius: *radius,
@@ -80,7 +80,7 @@ fn surface<const D: usize>(of: &Surface) -> loads::Surface<D> {
             point,
             axis,
             radius,
-        } => loads::Surface::Round {
+        } => loads::ContactSurface::Round {
             center: vector(point.full()),
             axis: Some(unit(axis.full())),
             radius: *radius,

@@ -4,8 +4,8 @@ use super::{Builder, unit};
 use crate::math::space::{Vector, axis, vector};
 use crate::scene::resolved::{self, First, Gear, JointCoordinate, Pivot, Slider, Turning};
 use crate::system::joints::{Coupler, Primitive};
-use crate::system::loads::{JointLimit, JointSpring, Load, SixBushing};
-use crate::system::{Angle, Coordinate, Direction, End, Translation};
+use crate::system::loads::{AppliedLoad, JointLimit, JointSpring, SixBushing};
+use crate::system::{Angle, Attachment, Coordinate, Direction, Translation};
 
 impl<const D: usize> Builder<'_, D> {
     /// The way along the line of a joint.
@@ -13,7 +13,7 @@ impl<const D: usize> Builder<'_, D> {
         let ends = self.ends(slider.ends);
         let still = [0.0, 1.0];
         let (direction, turn) = match (slider.ends.first, &ends[0]) {
-            (First::Marker(_), End::Body(marker)) if D == 2 => {
+            (First::Marker(_), Attachment::Body(marker)) if D == 2 => {
                 let [cos, sin] = [0, 1].map(|k| unit::<D>(slider.direction)[k]);
                 (Direction::Of(*marker), [sin, cos])
             }
@@ -53,8 +53,8 @@ impl<const D: usize> Builder<'_, D> {
         coordinate: Coordinate<D>,
         [stiffness, damping]: [f64; 2],
         rest: Option<f64>,
-    ) -> Load<D> {
-        Load::JointSpring(JointSpring {
+    ) -> AppliedLoad<D> {
+        AppliedLoad::JointSpring(JointSpring {
             rest: rest.unwrap_or_else(|| self.at_start(&coordinate)),
             coordinate: Box::new(coordinate),
             stiffness,
@@ -67,8 +67,8 @@ impl<const D: usize> Builder<'_, D> {
         on: &JointCoordinate<'_>,
         [stiffness, damping]: [f64; 2],
         [lower, upper]: [Option<f64>; 2],
-    ) -> Load<D> {
-        Load::JointLimit(JointLimit {
+    ) -> AppliedLoad<D> {
+        AppliedLoad::JointLimit(JointLimit {
             coordinate: Box::new(self.coordinate(on)),
             limits: [
                 lower.unwrap_or(f64::NEG_INFINITY),
@@ -79,7 +79,7 @@ impl<const D: usize> Builder<'_, D> {
         })
     }
 
-    pub(super) fn bushing(&self, bushing: &resolved::Bushing<'_>) -> Load<D> {
+    pub(super) fn bushing(&self, bushing: &resolved::Bushing<'_>) -> AppliedLoad<D> {
         let ends = self.ends(bushing.ends);
         let first = match bushing.ends.first {
             First::Marker(marker) => self.frame_axes(marker).map(Direction::Of),
@@ -97,7 +97,7 @@ impl<const D: usize> Builder<'_, D> {
             direction,
             turn: [0.0, 1.0],
         });
-        Load::SixBushing(Box::new(SixBushing {
+        AppliedLoad::SixBushing(Box::new(SixBushing {
             rest: ways.map(|way| way.value(nodes)),
             ways,
             axes: [three(&first), three(&second)],

@@ -6,7 +6,7 @@ use crate::math::space::vector;
 use crate::scene::Error;
 use crate::scene::description::SectionNumbers;
 use crate::scene::resolved::{Cable, Fluid, Form, LoadKind, Resolved};
-use crate::system::loads::{self, FluidSegment, Line, Load, PANELS};
+use crate::system::loads::{self, AppliedLoad, FluidSegment, LoadedLine, PANELS};
 
 impl Resolved<'_> {
     /// Mass of all fluids that move along with a body at a section, kg/m.
@@ -44,14 +44,14 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    pub(super) fn line(&self, cable: Cable<'_>) -> Line {
+    pub(super) fn line(&self, cable: Cable<'_>) -> LoadedLine {
         match cable.id.form {
-            Form::Chain(chain) => Line::Chain(chain),
-            Form::Rod(rod) => Line::Rod(self.parts.rods[rod]),
+            Form::Chain(chain) => LoadedLine::Chain(chain),
+            Form::Rod(rod) => LoadedLine::Rod(self.parts.rods[rod]),
         }
     }
 
-    pub(super) fn fluid(&self, fluid: &Fluid<'_>, path: &str) -> Result<Load<D>, Error> {
+    pub(super) fn fluid(&self, fluid: &Fluid<'_>, path: &str) -> Result<AppliedLoad<D>, Error> {
         let cable = fluid.on;
         let mut strips = Vec::new();
         for ends in self.stretches(cable)?.windows(2) {
@@ -68,7 +68,7 @@ impl<const D: usize> Builder<'_, D> {
         let mut current = uniform(&fluid.current);
         let path = format!("{path}.current");
         self.fill(cable, (&fluid.along, &path), &mut current.along)?;
-        Ok(Load::Fluid(Box::new(loads::Fluid {
+        Ok(AppliedLoad::Fluid(Box::new(loads::Fluid {
             on: self.line(cable),
             strips,
             current,

@@ -11,7 +11,7 @@ use crate::scene::{Error, InitialMotion};
 
 /// Motion of a body at the start.
 #[derive(Clone, Debug)]
-struct Moving<const D: usize> {
+struct InitialVelocity<const D: usize> {
     nodes: Range<usize>,
     /// Those that hold axes alone.
     axes: Vec<usize>,
@@ -28,7 +28,7 @@ struct Moving<const D: usize> {
 /// Motions of all bodies at the start.
 #[derive(Clone, Debug, Default)]
 pub struct Motions<const D: usize = 2> {
-    bodies: Vec<Moving<D>>,
+    bodies: Vec<InitialVelocity<D>>,
     /// Rates of deformation of all nodes.
     deformation: Vec<Node<D>>,
 }
@@ -43,7 +43,7 @@ impl<const D: usize> Motions<D> {
         arm: [f64; 3],
     ) {
         self.deformation.resize(nodes.end, no_node());
-        self.bodies.push(Moving {
+        self.bodies.push(InitialVelocity {
             nodes,
             axes,
             still,
@@ -63,7 +63,7 @@ impl<const D: usize> Motions<D> {
     ) -> Result<(), Error> {
         let read = |text: &String| Expression::of(text, "s").map_err(|e| Error::new("bodies", e));
         let field = field.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let Some(Moving { nodes, axes, .. }) = self.bodies.last() else {
+        let Some(InitialVelocity { nodes, axes, .. }) = self.bodies.last() else {
             return Ok(());
         };
         let points = match axes.first() {
@@ -83,15 +83,16 @@ impl<const D: usize> Motions<D> {
 
     /// Whether any body moves.
     pub fn is_none(&self) -> bool {
-        let rests =
-            |body: &Moving<D>| body.velocity == Vector::<D>::zeros() && body.spin == [0.0; 3];
+        let rests = |body: &InitialVelocity<D>| {
+            body.velocity == Vector::<D>::zeros() && body.spin == [0.0; 3]
+        };
         self.bodies.iter().all(rests) && self.deformation.iter().all(|d| *d == no_node())
     }
 
     /// Rates of nodes at these coordinates.
     pub fn rates(&self, x: &[Node<D>]) -> Vec<Node<D>> {
         let mut rates = self.deformation.clone();
-        for Moving {
+        for InitialVelocity {
             nodes,
             axes,
             still,

@@ -7,7 +7,7 @@ use crate::math::quadrature::GAUSS_5;
 use crate::scene::Error;
 use crate::scene::resolved::{Action, Cable, InputKind, LoadKind, On, Spring};
 use crate::system::Signal;
-use crate::system::loads::{self, DistributedMoment, LineLoad, Load};
+use crate::system::loads::{self, AppliedLoad, DistributedMoment, LineLoad};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn loads(&mut self) -> Result<(), Error> {
@@ -37,10 +37,10 @@ impl<const D: usize> Builder<'_, D> {
         Ok(())
     }
 
-    fn spring(&self, spring: &Spring<'_>) -> Load<D> {
+    fn spring(&self, spring: &Spring<'_>) -> AppliedLoad<D> {
         let ends = self.ends(spring.ends);
         let now = || Signal::Function(Function::Constant(self.distance_at_start(&ends)));
-        Load::Spring(loads::Spring {
+        AppliedLoad::Spring(loads::Spring {
             ends,
             stiffness: spring.stiffness,
             damping: spring.damping,
@@ -48,16 +48,16 @@ impl<const D: usize> Builder<'_, D> {
         })
     }
 
-    fn action(&self, action: &Action<'_>) -> Load<D> {
+    fn action(&self, action: &Action<'_>) -> AppliedLoad<D> {
         let components = &action.components;
         let moment = |ends| {
-            Load::Moment(loads::Moment {
+            AppliedLoad::Moment(loads::Moment {
                 ends,
                 size: components[0].clone(),
             })
         };
         match action.on {
-            On::Marker(marker) if action.kind.is_force() => Load::Force(loads::Force {
+            On::Marker(marker) if action.kind.is_force() => AppliedLoad::Force(loads::Force {
                 marker: self.marker(marker),
                 follower: action.follower,
                 components: each(components),
@@ -68,7 +68,7 @@ impl<const D: usize> Builder<'_, D> {
             On::Marker(marker) => moment(self.on_marker(marker)),
             On::Joint(pivot) => moment(self.ends(pivot.ends)),
             On::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
-            On::Cable(cable) => Load::DistributedForce(loads::DistributedForce {
+            On::Cable(cable) => AppliedLoad::DistributedForce(loads::DistributedForce {
                 on: self.line(cable),
                 density: uniform(components),
             }),
@@ -76,12 +76,12 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A moment along a rod or beam.
-    fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> Load<D> {
+    fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> AppliedLoad<D> {
         let end = self.along(cable, 0.0);
         let first = |chain: &RodChain| chain.frames().next();
         let mut firsts = self.parts.rod_chains.iter().filter_map(first);
         let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
-        Load::DistributedMoment(Box::new(DistributedMoment {
+        AppliedLoad::DistributedMoment(Box::new(DistributedMoment {
             // What has sections is among them.
             on: on.unwrap_or(0),
             end,
@@ -97,15 +97,15 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The same with what changes along a body, which is parsed at every place where it is known.
-    fn action_along(&self, action: &Action<'_>, path: &str) -> Result<Load<D>, Error> {
+    fn action_along(&self, action: &Action<'_>, path: &str) -> Result<AppliedLoad<D>, Error> {
         let mut load = self.action(action);
         if let On::Cable(cable) = action.on {
             let (along, path) = (&action.along[..], format!("{path}.value"));
             match &mut load {
-                Load::DistributedForce(on) => {
+                AppliedLoad::DistributedForce(on) => {
                     self.fill(cable, (along, &path), &mut on.density.along)?;
                 }
-                Load::DistributedMoment(on) => {
+                AppliedLoad::DistributedMoment(on) => {
                     // In the plane the third alone.
                     let first = if D == 2 { 2 } else { 0 };
                     self.fill(cable, (along, &path), &mut on.density.along[first..])?;

@@ -25,9 +25,10 @@ use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
-use crate::system::joints::{Joint, Primitive};
+use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, SectionPoint, State, System,
+    Angle, Attachment, AxisTurn, BuildError, Coordinate, LumpedMass, Parts, State, StressPoint,
+    System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -56,7 +57,7 @@ pub struct Assembled<const D: usize = 2> {
     /// Place there of the first load of the scene: springs of hinges come before.
     first_load: usize,
     /// Points of sections whose stress is read.
-    points: Vec<SectionPoint>,
+    points: Vec<StressPoint>,
 }
 
 impl<const D: usize> Assembled<D> {
@@ -103,7 +104,7 @@ impl<const D: usize> Assembled<D> {
     }
 
     /// A point of a section whose stress is read.
-    pub fn point(&self, id: PointId) -> &SectionPoint {
+    pub fn point(&self, id: PointId) -> &StressPoint {
         &self.points[id.index()]
     }
 
@@ -281,38 +282,38 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The ends of something; the ground where the second one is at the start, or at its point.
-    fn ends(&self, ends: Ends<'_>) -> [End<D>; 2] {
+    fn ends(&self, ends: Ends<'_>) -> [Attachment<D>; 2] {
         let second = self.marker(ends.second);
         let first = match ends.first {
             First::Ground(point) => {
                 let here = second.position(&self.parts.nodes);
-                End::Ground(point.map_or(here, vector))
+                Attachment::Ground(point.map_or(here, vector))
             }
-            First::Marker(marker) => End::Body(self.marker(marker)),
-            First::Cable(cable) => End::Body(self.along(cable, 0.5)),
+            First::Marker(marker) => Attachment::Body(self.marker(marker)),
+            First::Cable(cable) => Attachment::Body(self.along(cable, 0.5)),
         };
-        [first, End::Body(second)]
+        [first, Attachment::Body(second)]
     }
 
     /// A marker, seen from the ground.
-    fn on_marker(&self, marker: resolved::Marker<'_>) -> [End<D>; 2] {
-        let ground = End::Ground(Vector::zeros());
-        [ground, End::Body(self.marker(marker))]
+    fn on_marker(&self, marker: resolved::Marker<'_>) -> [Attachment<D>; 2] {
+        let ground = Attachment::Ground(Vector::zeros());
+        [ground, Attachment::Body(self.marker(marker))]
     }
 
-    fn turning(&self, turning: &Turning<'_>) -> [End<D>; 2] {
+    fn turning(&self, turning: &Turning<'_>) -> [Attachment<D>; 2] {
         match turning {
             Turning::Marker(marker) => self.on_marker(*marker),
             Turning::Pivot(pivot) => self.ends(pivot.ends),
         }
     }
 
-    fn distance_at_start(&self, ends: &[End<D>; 2]) -> f64 {
+    fn distance_at_start(&self, ends: &[Attachment<D>; 2]) -> f64 {
         let nodes = &self.parts.nodes;
         (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
 
-    fn count_angle(&mut self, ends: [End<D>; 2], turn: Option<AxisTurn<D>>) -> usize {
+    fn count_angle(&mut self, ends: [Attachment<D>; 2], turn: Option<AxisTurn<D>>) -> usize {
         self.parts.angles.push(Angle { ends, turn });
         self.parts.angles.len() - 1
     }
@@ -324,8 +325,8 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    fn hold(&mut self, primitive: Primitive<D>, ends: [End<D>; 2]) {
-        self.parts.joints.push(Joint {
+    fn hold(&mut self, primitive: Primitive<D>, ends: [Attachment<D>; 2]) {
+        self.parts.joints.push(JointEquations {
             holds: vec![primitive],
             ends,
             spring: None,
@@ -353,7 +354,7 @@ impl<const D: usize> Builder<'_, D> {
             let turn = self.turn_of(joint);
             let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));
             let spring = spring.last();
-            self.parts.joints.push(Joint {
+            self.parts.joints.push(JointEquations {
                 holds,
                 ends,
                 spring,
@@ -365,7 +366,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// From the direction of the first end to that of the second at the start, where none is given.
-    fn angle(&self, ends: [End<D>; 2], given: Option<f64>) -> f64 {
+    fn angle(&self, ends: [Attachment<D>; 2], given: Option<f64>) -> f64 {
         let turn = None;
         given.unwrap_or_else(|| Angle { ends, turn }.value(&self.parts.nodes, 0.0))
     }
@@ -375,9 +376,9 @@ impl<const D: usize> Builder<'_, D> {
         &self,
         hold: &Hold,
         joint: &resolved::Joint<'_>,
-        ends: [End<D>; 2],
+        ends: [Attachment<D>; 2],
     ) -> Vec<Primitive<D>> {
-        let is_framed = ends.iter().any(End::is_framed);
+        let is_framed = ends.iter().any(Attachment::is_framed);
         match *hold {
             Hold::Line(direction) if D == 3 && !joint.ends.is_grounded() => {
                 self.on_line(ends, direction)
@@ -397,7 +398,7 @@ impl<const D: usize> Builder<'_, D> {
         &self,
         hold: &Hold,
         joint: &resolved::Joint<'_>,
-        ends: [End<D>; 2],
+        ends: [Attachment<D>; 2],
     ) -> Option<Primitive<D>> {
         Some(match *hold {
             Hold::Position => Primitive::Coincident,
@@ -420,7 +421,7 @@ impl<const D: usize> Builder<'_, D> {
     fn spring_of(
         &mut self,
         hold: &Hold,
-        ends: [End<D>; 2],
+        ends: [Attachment<D>; 2],
         turn: Option<AxisTurn<D>>,
     ) -> Option<usize> {
         let Hold::Spring {

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::scene::resolved::{Coupling, Port, PortKind};
 use crate::system::Signal;
-use crate::system::loads::{self, Load, OrientationBushing, RotationalBushing};
+use crate::system::loads::{self, AppliedLoad, OrientationBushing, RotationalBushing};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn ports(&mut self) {
@@ -27,7 +27,7 @@ impl<const D: usize> Builder<'_, D> {
 
     fn couple_position(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
         let signal = |k| Signal::Input(coupling.first + k);
-        self.couple(Load::Bushing(loads::Bushing {
+        self.couple(AppliedLoad::Bushing(loads::Bushing {
             marker: self.marker(port.marker),
             stiffness: coupling.stiffness,
             damping: coupling.damping,
@@ -38,7 +38,7 @@ impl<const D: usize> Builder<'_, D> {
 
     fn couple_angle(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
         let counted = self.count_angle(self.on_marker(port.marker), None);
-        self.couple(Load::RotationalBushing(RotationalBushing {
+        self.couple(AppliedLoad::RotationalBushing(RotationalBushing {
             marker: self.marker(port.marker),
             counted,
             stiffness: coupling.stiffness,
@@ -58,10 +58,10 @@ impl<const D: usize> Builder<'_, D> {
             quaternion: std::array::from_fn(signal),
             velocity: std::array::from_fn(|k| signal(4 + k)),
         };
-        self.couple(Load::OrientationBushing(Box::new(bushing)));
+        self.couple(AppliedLoad::OrientationBushing(Box::new(bushing)));
     }
 
-    fn couple(&mut self, load: Load<D>) {
+    fn couple(&mut self, load: AppliedLoad<D>) {
         self.couplings.push(self.parts.loads.len());
         self.parts.loads.push(load);
     }

@@ -7,7 +7,7 @@ use crate::scene::Inertia;
 use crate::scene::resolved::{Place, Resolved, Rigid};
 
 /// A rigid body of space that turns, with all that moves with it.
-pub(super) struct Solid {
+pub(super) struct RotatingSolid {
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass in the body's frame, m.
@@ -23,7 +23,7 @@ fn parallel(mass: f64, way: &Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * way.norm_squared() - way * way.transpose()) * mass
 }
 
-impl Solid {
+impl RotatingSolid {
     /// A point of the body, in its frame, along the principal axes from the centre of mass, m.
     pub fn along(&self, point: [f64; 3]) -> [f64; 3] {
         self.directed((Vector3::from(point) - self.center).into())
@@ -37,7 +37,7 @@ impl Solid {
 
 impl Resolved<'_> {
     /// A rigid body of space with the masses at its markers.
-    pub(super) fn solid(&self, rigid: Rigid<'_>) -> Solid {
+    pub(super) fn solid(&self, rigid: Rigid<'_>) -> RotatingSolid {
         let body = rigid.body;
         let lumped: Vec<(f64, Vector3<f64>)> = (self.masses.iter())
             .filter_map(|mass| match mass.marker.place {
@@ -60,7 +60,7 @@ impl Resolved<'_> {
             }
         };
         let (moments, axes) = inertia.principal();
-        Solid {
+        RotatingSolid {
             mass,
             center,
             moments,

@@ -2,22 +2,22 @@
 
 use super::Builder;
 use crate::scene::resolved;
-use crate::system::SectionPoint;
+use crate::system::StressPoint;
 
 impl<const D: usize> Builder<'_, D> {
     /// All of them, as the scene numbers them.
-    pub(super) fn section_points(&self) -> Vec<SectionPoint> {
+    pub(super) fn section_points(&self) -> Vec<StressPoint> {
         let points = self.resolved.points.iter();
         points.map(|point| self.section_point(point)).collect()
     }
 
-    fn section_point(&self, given: &resolved::SectionPoint<'_>) -> SectionPoint {
+    fn section_point(&self, given: &resolved::SectionPoint<'_>) -> StressPoint {
         let section = given.cable.body.section_after(given.at);
         let [y, z] = given.point;
         // On the line of what does not bend there is no more than the force.
         let over = |way: f64, moment: f64| if way == 0.0 { 0.0 } else { way / moment };
         let [first, second] = section.second_moments;
-        SectionPoint {
+        StressPoint {
             marker: self.marker(given.marker),
             by_force: section.area.recip(),
             by_moments: match D {

@@ -1,6 +1,6 @@
 //! The account of a search: what was chosen, and why.
 
-use super::experiment::Run;
+use super::experiment::TrialRun;
 use super::ladder::Choice;
 use super::outputs::{Difference, RelativeTo};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
@@ -89,7 +89,7 @@ impl Search<'_, '_> {
 
     fn estimated(
         &self,
-        chosen: Option<&Run>,
+        chosen: Option<&TrialRun>,
         in_space: &[Difference],
         in_time: &[Difference],
     ) -> Vec<PlannedOutput> {

@@ -1,7 +1,7 @@
 //! What is compared between runs, and which tolerance a run needs to be believed.
 
-use super::experiment::Run;
-use super::outputs::{Group, Measure, RelativeTo, shown};
+use super::experiment::TrialRun;
+use super::outputs::{Measure, OutputGroup, RelativeTo, shown};
 use super::response;
 use super::search::{Search, TIGHTEST};
 
@@ -35,12 +35,12 @@ impl Search<'_, '_> {
     }
 
     /// Outputs that count, in the order in which they are compared.
-    pub fn outputs(&self) -> &[Group] {
+    pub fn outputs(&self) -> &[OutputGroup] {
         &self.groups[..self.counting]
     }
 
     /// The loosest tolerance at which a run resolves what its outputs show: the error wanted of the displacements that they follow from.
-    pub fn believed(&self, run: &Run) -> f64 {
+    pub fn believed(&self, run: &TrialRun) -> f64 {
         let counting = self.outputs().iter().enumerate();
         let shown = counting.filter_map(|(index, group)| shown((group, index), run));
         let least = shown.fold(f64::INFINITY, f64::min);
@@ -62,7 +62,7 @@ impl Search<'_, '_> {
             let cable = self.scene.bodies[*body].cable();
             cable.is_some_and(|cable| cable.bending_stiffness() == 0.0)
         };
-        let of_output = |group: &Group| match group.measure {
+        let of_output = |group: &OutputGroup| match group.measure {
             _ if group.bodies.iter().any(is_limp) => f64::INFINITY,
             Measure::Elastic => OF_FORCES,
             _ => OF_DISPLACEMENTS,
@@ -73,7 +73,7 @@ impl Search<'_, '_> {
     }
 
     /// Whether inputs are held while an output that counts does not change.
-    pub fn is_at_rest(&self, run: &Run) -> bool {
+    pub fn is_at_rest(&self, run: &TrialRun) -> bool {
         let mut scales = run.scales[..self.counting].iter();
         self.tunes() && scales.any(|(_, of)| *of == RelativeTo::Scene)
     }

@@ -27,7 +27,7 @@ pub(super) const RATES: [[&str; 3]; 4] = [
 ];
 
 /// A column of the table: an input with a course, or a rate that follows from one.
-struct Column {
+struct InputColumn {
     name: String,
     /// Place of the course.
     course: usize,
@@ -36,11 +36,11 @@ struct Column {
 }
 
 /// Columns of the table: inputs with a course, and the rates of driven motions that follow from it.
-fn columns(courses: &[InputCourse], variables: &[Variable]) -> Vec<Column> {
-    let mut found: Vec<Column> = Vec::new();
+fn columns(courses: &[InputCourse], variables: &[Variable]) -> Vec<InputColumn> {
+    let mut found: Vec<InputColumn> = Vec::new();
     for (place, course) in courses.iter().enumerate() {
         let mut add = |name: String, order: usize| {
-            found.push(Column {
+            found.push(InputColumn {
                 name,
                 course: place,
                 order,

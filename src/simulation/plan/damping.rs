@@ -36,7 +36,7 @@ pub struct Damped {
 }
 
 /// A mode as a body sees it: its frequency (rad/s) and `w^T K_e w` (1/s^2).
-type Found = (f64, f64);
+type ModeOfBody = (f64, f64);
 
 /// The scene with the damping times that its damping ratios make, and where they come from.
 ///
@@ -93,7 +93,7 @@ fn swinging(scene: &Scene) -> Result<Scene, Error> {
 }
 
 /// The first mode of every one of these bodies.
-fn modes_of(scene: &Scene, open: &[usize]) -> Result<Vec<Found>, Error> {
+fn modes_of(scene: &Scene, open: &[usize]) -> Result<Vec<ModeOfBody>, Error> {
     let scene = swinging(scene)?;
     let place = |index: usize| format!("bodies[{index}].material.damping_ratio");
     let refused = |told: String| {
@@ -129,7 +129,7 @@ fn modes_of(scene: &Scene, open: &[usize]) -> Result<Vec<Found>, Error> {
             .map(|mode| (mode.way, mode.square))
             .unzip();
         let others = still.damping_along(&state, &inputs.values, &ways);
-        let found: Vec<Option<Found>> = damped
+        let found: Vec<Option<ModeOfBody>> = damped
             .iter_mut()
             .map(|engine| {
                 let whole = engine.damping_along(&state, &inputs.values, &ways);

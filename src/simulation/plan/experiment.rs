@@ -1,8 +1,8 @@
 //! Runs of the default experiment.
 
 use super::courses::RATES;
-use super::given::Given;
-use super::motion::Motion;
+use super::given::TrialConditions;
+use super::motion::LargestDisplacements;
 use super::outputs::RelativeTo;
 use super::response::Responses;
 use crate::scene::{Error, Scene};
@@ -15,7 +15,7 @@ const SPENT: f64 = 0.999;
 
 /// A run: what is computed, at communication points.
 #[derive(Clone, Debug)]
-pub(super) struct Run {
+pub(super) struct TrialRun {
     pub times: Vec<f64>,
     /// One value a computed variable, in their order, at every time.
     pub rows: Vec<Vec<f64>>,
@@ -51,8 +51,8 @@ pub(super) enum Unfinished {
 }
 
 /// The experiment that is planned for.
-pub(super) struct Experiment {
-    given: Given,
+pub(super) struct PlannedExperiment {
+    given: TrialConditions,
     /// What inputs do.
     moved: Option<InputTable>,
     /// Communication steps.
@@ -67,12 +67,12 @@ pub(super) struct Experiment {
     asked: Vec<String>,
 }
 
-impl Experiment {
+impl PlannedExperiment {
     /// The default experiment of a scene.
     ///
     /// # Errors
     /// A course of what is no input.
-    pub fn new(scene: &Scene, given: &Given) -> Result<Self, Error> {
+    pub fn new(scene: &Scene, given: &TrialConditions) -> Result<Self, Error> {
         let steps = scene.experiment.steps() as u64;
         let moved = given.moved(scene)?;
         let held = held(scene, moved.as_ref());
@@ -95,7 +95,7 @@ impl Experiment {
         scene: Scene,
         responses: Option<Responses>,
         (most_work, is_over): (f64, &dyn Fn() -> bool),
-    ) -> Result<Run, Unfinished> {
+    ) -> Result<TrialRun, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
         let mut simulation = Simulation::new(scene);
         let set = self.given.set(&mut simulation);
@@ -112,11 +112,11 @@ impl Experiment {
         }
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| failed(error.to_string()))?;
-        let mut run = Run::begun(self, &mut simulation, responses);
+        let mut run = TrialRun::begun(self, &mut simulation, responses);
         let variables = simulation.variables().iter().enumerate();
         let computed = variables.filter(|(_, variable)| variable.is_computed());
         let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
-        let mut motion = Motion::new(&simulation);
+        let mut motion = LargestDisplacements::new(&simulation);
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
             while simulation.time() < until {
@@ -180,10 +180,10 @@ impl Experiment {
     }
 }
 
-impl Run {
+impl TrialRun {
     /// At the start of a simulation that has been initialized.
     fn begun(
-        experiment: &Experiment,
+        experiment: &PlannedExperiment,
         simulation: &mut Simulation,
         responses: Option<Responses>,
     ) -> Self {

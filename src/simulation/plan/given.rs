@@ -9,7 +9,7 @@ const TOLERANCE: &str = "relative_tolerance";
 
 /// What is given for the runs of a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Given {
+pub struct TrialConditions {
     /// Values of parameters and inputs, by their names.
     pub set: Vec<(String, f64)>,
     /// What inputs do, in place of `accuracy.input_profiles`.
@@ -21,7 +21,7 @@ fn is_planned(variable: &Variable) -> bool {
     variable.is_integer() || variable.name == TOLERANCE
 }
 
-impl Given {
+impl TrialConditions {
     /// Refuses a name that is no parameter or input of a scene, and a number of elements or the tolerance, which are what is planned.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), Error> {
         let variables = variables(scene);

@@ -24,7 +24,7 @@ mod time;
 pub use courses::courses;
 pub use damping::Damped;
 pub(super) use damping::damp;
-pub use given::Given;
+pub use given::TrialConditions;
 pub use outputs::RelativeTo;
 pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settled, Settles};
 
@@ -87,7 +87,7 @@ pub fn plan(
     budget: &Budget<'_>,
     progress: Progress<'_>,
 ) -> Result<(Scene, Planned), Error> {
-    plan_for(scene, &Given::default(), budget, progress)
+    plan_for(scene, &TrialConditions::default(), budget, progress)
 }
 
 /// The same where parameters and inputs are given, as a run will have them. The planned scene keeps its own values.
@@ -96,7 +96,7 @@ pub fn plan(
 /// As [`plan`]; what is given is not what the scene has, or is a number of elements or the tolerance.
 pub fn plan_for(
     scene: &Scene,
-    given: &Given,
+    given: &TrialConditions,
     budget: &Budget<'_>,
     progress: Progress<'_>,
 ) -> Result<(Scene, Planned), Error> {

@@ -10,7 +10,7 @@ const LEAST: u32 = 4;
 const MOST: u32 = 64;
 
 /// The largest displacements of bodies so far.
-pub(super) struct Motion {
+pub(super) struct LargestDisplacements {
     drawn: Vec<Vec<[f64; 3]>>,
     /// Places among the bodies of those along lines.
     lines: Vec<usize>,
@@ -26,7 +26,7 @@ fn parts(elements: usize) -> u32 {
     elements.saturating_mul(AN_ELEMENT).clamp(LEAST, MOST)
 }
 
-impl Motion {
+impl LargestDisplacements {
     /// Of a simulation that has been initialized.
     pub fn new(simulation: &Simulation) -> Self {
         let drawn = simulation.drawn_outlines(parts);

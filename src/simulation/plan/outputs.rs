@@ -1,6 +1,6 @@
 //! Outputs that are compared between runs, and by what their differences are measured: the largest change of each.
 
-use super::experiment::Run;
+use super::experiment::TrialRun;
 use crate::math::vector::norm;
 use crate::scene::{Error, Scene, did_you_mean};
 use crate::simulation::quantities::{self, Evaluated};
@@ -41,7 +41,7 @@ pub enum RelativeTo {
 
 /// An output with all its components.
 #[derive(Clone, Debug)]
-pub(super) struct Group {
+pub(super) struct OutputGroup {
     pub name: String,
     /// Indices of its components among the computed variables.
     pub members: Vec<usize>,
@@ -94,9 +94,9 @@ pub(super) fn are_kept(now: &[Difference], before: &[Difference], limits: &[f64]
 ///
 /// # Errors
 /// A name in `accuracy.of` that no output bears; no output that counts.
-pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>, Error> {
+pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<OutputGroup>, Error> {
     let wanted = &scene.accuracy.of;
-    let mut groups: Vec<Group> = Vec::new();
+    let mut groups: Vec<OutputGroup> = Vec::new();
     for (index, variable) in variables.iter().filter(|v| v.is_computed()).enumerate() {
         let Some((measure, is_dynamic, counts)) = nature(variable.source) else {
             continue;
@@ -105,7 +105,7 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>
         let counts = wanted.iter().any(|of| of == name) || wanted.is_empty() && counts;
         match groups.iter_mut().find(|group| group.name == name) {
             Some(group) => group.members.push(index),
-            None => groups.push(Group {
+            None => groups.push(OutputGroup {
                 name: name.to_owned(),
                 members: vec![index],
                 measure,
@@ -203,18 +203,18 @@ impl Measure {
 }
 
 /// Components of an output at a point of a run.
-fn at(group: &Group, run: &Run, point: usize) -> Vec<f64> {
+fn at(group: &OutputGroup, run: &TrialRun, point: usize) -> Vec<f64> {
     let row = &run.rows[point];
     group.members.iter().map(|member| row[*member]).collect()
 }
 
 /// Points of a run at which an output is compared.
-fn points(group: &Group, run: &Run) -> std::ops::Range<usize> {
+fn points(group: &OutputGroup, run: &TrialRun) -> std::ops::Range<usize> {
     usize::from(group.is_dynamic && run.rows.len() > 1)..run.rows.len()
 }
 
 /// The largest change of an output over a run, in its unit.
-fn own(group: &Group, run: &Run) -> f64 {
+fn own(group: &OutputGroup, run: &TrialRun) -> f64 {
     let change = |point| {
         let mut values = at(group, run, point);
         if group.measure.is_change() {
@@ -227,9 +227,9 @@ fn own(group: &Group, run: &Run) -> f64 {
 }
 
 /// Of sizes of outputs that of one, or a thousandth of the largest of like outputs of its body where that is more.
-pub(super) fn like(groups: &[Group], index: usize, sizes: &[f64]) -> f64 {
+pub(super) fn like(groups: &[OutputGroup], index: usize, sizes: &[f64]) -> f64 {
     let group = &groups[index];
-    let is_like = |(_, other): &(usize, &Group)| {
+    let is_like = |(_, other): &(usize, &OutputGroup)| {
         let shares = other.bodies.iter().any(|body| group.bodies.contains(body));
         shares && other.unit == group.unit && other.measure == group.measure
     };
@@ -239,9 +239,9 @@ pub(super) fn like(groups: &[Group], index: usize, sizes: &[f64]) -> f64 {
 }
 
 /// What the errors of every output are measured by in a run, in its unit, and what that is.
-pub(super) fn scales(groups: &[Group], run: &Run) -> Vec<(f64, RelativeTo)> {
+pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, RelativeTo)> {
     let changes: Vec<f64> = groups.iter().map(|group| own(group, run)).collect();
-    let scale = |(index, group): (usize, &Group)| {
+    let scale = |(index, group): (usize, &OutputGroup)| {
         let natural = group.members.iter().map(|m| run.natural[*m]);
         let natural = natural.fold(0.0, f64::max);
         let deformed = run.deformed.iter().copied().fold(0.0, f64::max);
@@ -260,9 +260,9 @@ pub(super) fn scales(groups: &[Group], run: &Run) -> Vec<(f64, RelativeTo)> {
 
 /// What an output changes from a run to one that is closer to the truth; `limit` is asked for.
 pub(super) fn difference(
-    (group, index): (&Group, usize),
-    run: &Run,
-    closer: &Run,
+    (group, index): (&OutputGroup, usize),
+    run: &TrialRun,
+    closer: &TrialRun,
     limit: f64,
 ) -> Difference {
     let size = closer.scales[index].0;
@@ -283,7 +283,7 @@ pub(super) fn difference(
 }
 
 /// Displacement that an output follows from, and that a run must resolve to be believed, m; nothing where it shows none.
-pub(super) fn shown((group, index): (&Group, usize), run: &Run) -> Option<f64> {
+pub(super) fn shown((group, index): (&OutputGroup, usize), run: &TrialRun) -> Option<f64> {
     let of_bodies = |displacements: &[f64]| {
         let all = displacements.iter().enumerate();
         let own = all.filter(|(body, found)| group.bodies.contains(body) && **found > 0.0);

@@ -3,13 +3,13 @@
 
 use std::f64::consts::PI;
 
-use super::outputs::{Group, like};
+use super::outputs::{OutputGroup, like};
 use crate::math::vector::norm;
 use crate::simulation::dimension::AnyEngine;
 use crate::simulation::engine::Engine;
 use crate::simulation::inputs::Inputs;
 use crate::simulation::{Quantity, Simulation, Source};
-use crate::system::{Model, State, slow_response};
+use crate::system::{DrivenSystem, State, slow_response};
 
 /// Most natural frequencies that are compared.
 const MODES: usize = 12;
@@ -69,15 +69,15 @@ impl Responses {
         &self,
         closer: &Self,
         (input, components): (usize, &[usize]),
-        groups: &[Group],
+        groups: &[OutputGroup],
     ) -> f64 {
         let (Some(own), Some(fine)) = (self.inputs.get(input), closer.inputs.get(input)) else {
             return 0.0;
         };
-        let values = |group: &Group, all: &[f64]| -> Vec<f64> {
+        let values = |group: &OutputGroup, all: &[f64]| -> Vec<f64> {
             group.members.iter().map(|member| all[*member]).collect()
         };
-        let largest = |group: &Group| {
+        let largest = |group: &OutputGroup| {
             let answers = components.iter().filter_map(|k| closer.inputs.get(*k));
             let sizes = answers.map(|answer| norm(&values(group, answer)));
             sizes.fold(0.0, f64::max)
@@ -138,7 +138,7 @@ impl<const D: usize> Engine<D> {
         let system = &self.assembled.system;
         let at = still(state);
         let mut way = vec![0.0; state.coordinates.len()];
-        let mut model = Model::new(system, inputs, &mut self.work, &at);
+        let mut model = DrivenSystem::new(system, inputs, &mut self.work, &at);
         model.accelerate(at.time, &at.coordinates, &at.rates, &mut way);
         let solved = slow_response(system, inputs, &mut self.work, &at, rate, &mut way);
         solved.then(|| norm(&way) / (system.size() * system.mass().sqrt()))
@@ -174,7 +174,7 @@ impl<const D: usize> Engine<D> {
             values[place] += sign * change;
             let values = Inputs::at_rest(values);
             let system = &self.assembled.system;
-            if !Model::new(system, &values.values, &mut self.work, &at).project(&mut at) {
+            if !DrivenSystem::new(system, &values.values, &mut self.work, &at).project(&mut at) {
                 return None;
             }
             self.forget();
@@ -206,7 +206,7 @@ impl<const D: usize> Engine<D> {
             let mut values = inputs.to_vec();
             values[place] += sign * change;
             let mut at = still(state);
-            let mut model = Model::new(system, &values, &mut self.work, &at);
+            let mut model = DrivenSystem::new(system, &values, &mut self.work, &at);
             if !model.project(&mut at) {
                 return None;
             }

@@ -1,9 +1,9 @@
 //! The search for meshes and a tolerance.
 
-use super::experiment::{Experiment, Run, Unfinished};
-use super::given::Given;
+use super::experiment::{PlannedExperiment, TrialRun, Unfinished};
+use super::given::TrialConditions;
 use super::ladder::Choice;
-use super::outputs::{Difference, Group, difference, groups, scales};
+use super::outputs::{Difference, OutputGroup, difference, groups, scales};
 use super::report::Plan;
 use super::response::Responses;
 use super::shear::{Beam, Sheared};
@@ -27,14 +27,14 @@ const MOST_RUNS: usize = if cfg!(fuzzing) { 4 } else { 40 };
 pub(super) struct Search<'a, 'p> {
     pub scene: &'a Scene,
     /// Outputs: first those that count.
-    pub groups: Vec<Group>,
+    pub groups: Vec<OutputGroup>,
     /// Number of outputs that count.
     pub(super) counting: usize,
-    pub experiment: Experiment,
+    pub experiment: PlannedExperiment,
     /// Error wanted.
     pub error: f64,
     /// Runs so far, and the work of all of them.
-    pub runs: Vec<(Choice, Result<Run, Unfinished>)>,
+    pub runs: Vec<(Choice, Result<TrialRun, Unfinished>)>,
     pub work: f64,
     /// As few elements of every cable as there can be while it bends, or as many as are given; none of one that is said
     /// to be rigid.
@@ -91,7 +91,7 @@ impl<'a, 'p> Search<'a, 'p> {
     /// A name in `accuracy` that the scene does not have; what is not valid.
     pub fn new(
         scene: &'a Scene,
-        given: &Given,
+        given: &TrialConditions,
         beams: Vec<Beam>,
         budget: &Budget<'a>,
         progress: Progress<'p>,
@@ -101,7 +101,7 @@ impl<'a, 'p> Search<'a, 'p> {
             beams,
             counting: groups.iter().filter(|group| group.counts).count(),
             groups,
-            experiment: Experiment::new(scene, given)?,
+            experiment: PlannedExperiment::new(scene, given)?,
             error: scene.error(),
             scene,
             runs: Vec::new(),
@@ -216,16 +216,16 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 
     /// The run with a choice, if it was made and finished.
-    pub fn known(&self, choice: &Choice) -> Option<&Run> {
+    pub fn known(&self, choice: &Choice) -> Option<&TrialRun> {
         self.finished(self.place(choice)?).ok()
     }
 
-    fn finished(&self, place: usize) -> Result<&Run, Unfinished> {
+    fn finished(&self, place: usize) -> Result<&TrialRun, Unfinished> {
         self.runs[place].1.as_ref().map_err(Clone::clone)
     }
 
     /// The run with a choice; one that was made before is not made again.
-    pub fn run(&mut self, choice: &Choice) -> Result<&Run, Unfinished> {
+    pub fn run(&mut self, choice: &Choice) -> Result<&TrialRun, Unfinished> {
         let place = match self.place(choice) {
             Some(place) => place,
             None => {
@@ -254,7 +254,7 @@ impl<'a, 'p> Search<'a, 'p> {
         self.most_work = self.most_work.max(self.work) + part * self.most_work;
     }
 
-    fn make(&mut self, choice: &Choice) -> Result<Run, Unfinished> {
+    fn make(&mut self, choice: &Choice) -> Result<TrialRun, Unfinished> {
         let elements = choice.elements.iter().sum();
         (self.progress)(self.runs.len() + 1, elements, choice.tolerance);
         let left = self.most_work - self.work;

@@ -1,6 +1,6 @@
 //! The start of a scene, tried with coarse meshes before anything is planned: what no mesh mends is told at once.
 
-use super::given::Given;
+use super::given::TrialConditions;
 use super::search::{cables, fewest};
 use crate::scene::{Accuracy, Error, Model, Scene};
 use crate::simulation::{Error as Reason, InputTable, Simulation};
@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-4;
 ///
 /// # Errors
 /// The reason why it has none.
-pub(super) fn check_start(scene: &Scene, given: &Given) -> Result<(), Error> {
+pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), Error> {
     let coarsest = fewest(scene)?;
     let is_free: Vec<bool> = cables(scene)
         .map(|(_, cable)| cable.elements.is_none() && cable.model != Model::Rigid)
@@ -50,7 +50,7 @@ pub(super) fn check_start(scene: &Scene, given: &Given) -> Result<(), Error> {
 fn tried(
     scene: &Scene,
     elements: &[u32],
-    (given, moved): (&Given, Option<&InputTable>),
+    (given, moved): (&TrialConditions, Option<&InputTable>),
 ) -> Result<(), Reason> {
     // Spectra are outputs, and ask for finer meshes.
     let mut scene = scene.clone().without_outputs();
@@ -129,7 +129,10 @@ mod tests {
     /// A rigid link of one metre does not reach over two, whatever the mesh of a cable beside it.
     #[test]
     fn bodies_that_do_not_fit_are_told_before_any_run() {
-        assert_eq!(check_start(&cable(1.0, HELD), &Given::default()), Ok(()));
+        assert_eq!(
+            check_start(&cable(1.0, HELD), &TrialConditions::default()),
+            Ok(())
+        );
         let scene = cable(2.0, HELD);
         let mut runs = 0;
         let found = plan(&scene, &Budget::default(), &mut |_, _, _| runs += 1);
@@ -169,7 +172,7 @@ mod tests {
             let scene = Scene::from_json(&text).expect("a valid scene");
             if scene.is_to_be_planned() {
                 assert_eq!(
-                    check_start(&scene, &Given::default()),
+                    check_start(&scene, &TrialConditions::default()),
                     Ok(()),
                     "{}",
                     path.display()

@@ -10,7 +10,7 @@ use crate::simulation::quantities::{Evaluated, needs};
 
 /// How many numbers an output is.
 #[derive(Clone, Copy)]
-enum Shape {
+enum OutputShape {
     /// One.
     Scalar,
     /// One an axis.
@@ -55,14 +55,14 @@ enum Read {
 }
 
 /// Key, meaning (`{}`: what it is read at), unit, shape, what is read.
-type Row = (&'static str, &'static str, Option<Unit>, Shape, Read);
+type OutputRow = (&'static str, &'static str, Option<Unit>, OutputShape, Read);
 
 /// What an output of a kind lists.
 #[rustfmt::skip] // a table
-fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
+fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
     use OutputKind as Kind;
     use Quantity::*;
-    use Shape::{List, Matrix, Points as AtPoints, Quaternion as Four, Scalar, Turn, Vector};
+    use OutputShape::{List, Matrix, Points as AtPoints, Quaternion as Four, Scalar, Turn, Vector};
     match kind {
         Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
@@ -131,10 +131,10 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
 
 /// What gears and loads exert.
 #[rustfmt::skip] // a table
-fn exerted(kind: OutputKind) -> Vec<Row> {
+fn exerted(kind: OutputKind) -> Vec<OutputRow> {
     use OutputKind as Kind;
     use Quantity::*;
-    use Shape::{Scalar, Turn, Vector};
+    use OutputShape::{Scalar, Turn, Vector};
     match kind {
         Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
         Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
@@ -144,18 +144,18 @@ fn exerted(kind: OutputKind) -> Vec<Row> {
 }
 
 #[rustfmt::skip] // a table
-fn energies(resolved: &Resolved<'_>) -> Vec<Row> {
+fn energies(resolved: &Resolved<'_>) -> Vec<OutputRow> {
     use Quantity::*;
     let gravity = if !resolved.scene.turns() {
         "Potential energy of gravity, zero at the origin"
     } else {
         "Potential energy of gravity and of the centrifugal force, zero at the origin"
     };
-    let mut rows: Vec<Row> = vec![
-        ("energy.kinetic", "Kinetic energy", Some(JOULE), Shape::Scalar, Read::Scene(|_| KineticEnergy)),
-        ("energy.strain", "Strain energy", Some(JOULE), Shape::Scalar, Read::Scene(|_| StrainEnergy)),
-        ("energy.gravity", gravity, Some(JOULE), Shape::Scalar, Read::Scene(|_| GravityEnergy)),
-        ("energy.spring", "Energy in springs, hinges and couplings", Some(JOULE), Shape::Scalar, Read::Scene(|_| SpringEnergy)),
+    let mut rows: Vec<OutputRow> = vec![
+        ("energy.kinetic", "Kinetic energy", Some(JOULE), OutputShape::Scalar, Read::Scene(|_| KineticEnergy)),
+        ("energy.strain", "Strain energy", Some(JOULE), OutputShape::Scalar, Read::Scene(|_| StrainEnergy)),
+        ("energy.gravity", gravity, Some(JOULE), OutputShape::Scalar, Read::Scene(|_| GravityEnergy)),
+        ("energy.spring", "Energy in springs, hinges and couplings", Some(JOULE), OutputShape::Scalar, Read::Scene(|_| SpringEnergy)),
     ];
     if !has_springs(resolved) {
         rows.pop();
@@ -191,13 +191,13 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             of => format!("{of}.{key}"),
         };
         let what = match shape {
-            Shape::List => what.to_owned(),
+            OutputShape::List => what.to_owned(),
             _ => what.replace("{}", &place),
         };
         let shape = match (shape, output.of) {
             // A joint has one axis, in space too.
-            (Shape::Turn, Of::Turning(Turning::Pivot(_))) => Shape::Scalar,
-            (Shape::Vector, Of::Sliding(_)) => Shape::Scalar,
+            (OutputShape::Turn, Of::Turning(Turning::Pivot(_))) => OutputShape::Scalar,
+            (OutputShape::Vector, Of::Sliding(_)) => OutputShape::Scalar,
             _ => shape,
         };
         let (name, what) = match (output.along, output.of) {
@@ -312,31 +312,32 @@ fn add_port_force(list: &mut List, port: &Port<'_>) {
         port.marker.name, port.name
     );
     let dimension = list.dimension;
-    let mut add = |key: &str, unit: Unit, shape: Shape, quantity: &dyn Fn(usize) -> Quantity| {
-        let name = format!("{}.{}", port.name, key.to_lowercase());
-        let what = format!("{key} {what}");
-        let source = |axis| Source::Output(quantity(axis));
-        list.shaped((&name, &what), Some(unit), (shape, dimension), source);
-    };
+    let mut add =
+        |key: &str, unit: Unit, shape: OutputShape, quantity: &dyn Fn(usize) -> Quantity| {
+            let name = format!("{}.{}", port.name, key.to_lowercase());
+            let what = format!("{key} {what}");
+            let source = |axis| Source::Output(quantity(axis));
+            list.shaped((&name, &what), Some(unit), (shape, dimension), source);
+        };
     let (force, moment) = (("Force", NEWTON), ("Moment", NEWTON_METRE));
     match &port.kind {
         PortKind::Force { .. } => {}
         PortKind::Motion { position, angle } => {
-            add(force.0, force.1, Shape::Vector, &|axis| {
+            add(force.0, force.1, OutputShape::Vector, &|axis| {
                 MotionForce(position.holder, axis)
             });
             if let Some(angle) = angle {
-                add(moment.0, moment.1, Shape::Turn, &|axis| {
+                add(moment.0, moment.1, OutputShape::Turn, &|axis| {
                     MotionMoment(angle.holder, axis)
                 });
             }
         }
         PortKind::Coupling { position, angle } => {
-            add(force.0, force.1, Shape::Vector, &|axis| {
+            add(force.0, force.1, OutputShape::Vector, &|axis| {
                 CouplingForce(position.id, axis)
             });
             if let Some(angle) = angle {
-                add(moment.0, moment.1, Shape::Turn, &|axis| {
+                add(moment.0, moment.1, OutputShape::Turn, &|axis| {
                     CouplingMoment(angle.id, axis)
                 });
             }
@@ -373,23 +374,23 @@ impl List {
         &mut self,
         (name, what): (&str, &str),
         unit: Option<Unit>,
-        (shape, count): (Shape, usize),
+        (shape, count): (OutputShape, usize),
         source: impl Fn(usize) -> Source,
     ) {
         match (shape, count) {
-            (Shape::Scalar, _) => self.output(name.into(), what.into(), unit, source(0)),
-            (Shape::Turn, 2) => self.output(name.into(), what.into(), unit, source(2)),
-            (Shape::Matrix, _) => (0..9).for_each(|k| {
+            (OutputShape::Scalar, _) => self.output(name.into(), what.into(), unit, source(0)),
+            (OutputShape::Turn, 2) => self.output(name.into(), what.into(), unit, source(2)),
+            (OutputShape::Matrix, _) => (0..9).for_each(|k| {
                 let what = format!("{what}, {} of the {} axis", AXES[k / 3], AXES[k % 3]);
                 self.output(component(name, k), what, unit, source(k));
             }),
-            (Shape::Quaternion, _) => (0..4).for_each(|k| {
+            (OutputShape::Quaternion, _) => (0..4).for_each(|k| {
                 let what = format!("{what}, {}", PARTS[k]);
                 self.output(component(name, k), what, unit, source(k));
             }),
             _ => (0..count).for_each(|k| {
                 let what = match shape {
-                    Shape::List => what.replace("{}", &(k + 1).to_string()),
+                    OutputShape::List => what.replace("{}", &(k + 1).to_string()),
                     _ => format!("{what}, component {}", AXES[k]),
                 };
                 self.output(component(name, k), what, unit, source(k));

@@ -9,7 +9,7 @@ use crate::scene::{
 };
 
 /// Key, meaning, unit, what it stands for, start value.
-type Row<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
+type ParameterRow<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
 
 /// Adds the parameters of a scene.
 pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
@@ -71,7 +71,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
     let numbers = body.section.numbers();
     let elements = f64::from(body.elements.unwrap_or(1));
     #[rustfmt::skip] // a table
-    let mut rows: Vec<Row<'_>> = vec![
+    let mut rows: Vec<ParameterRow<'_>> = vec![
         ("youngs_modulus", "Young's modulus", Some(PASCAL), YoungsModulus(i), material.young()),
         ("density", "Density", Some(DENSITY), LineLoad(i), material.density.unwrap_or_default()),
         ("damping_time", "Kelvin-Voigt damping time", Some(SECOND), DampingTime(i), material.damping_time),
@@ -335,7 +335,7 @@ impl List {
         self.add(name, what, unit, source, Some(start));
     }
 
-    fn parameters(&mut self, of: &str, preposition: &str, rows: &[Row<'_>]) {
+    fn parameters(&mut self, of: &str, preposition: &str, rows: &[ParameterRow<'_>]) {
         for (key, what, unit, parameter, start) in rows {
             let name = format!("{of}.{key}");
             let what = format!("{what} {preposition} {of}");

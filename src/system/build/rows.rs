@@ -1,14 +1,16 @@
 //! Which rows and constraints parts make, and what they couple.
 
 use super::Parts;
-use crate::body::{Frame, Links, Node, RodChain, Row, no_node, tied_with, untwisted};
+use crate::body::{
+    ConnectivityRow, Links, Node, RigidBodyFrame, RodChain, no_node, tied_with, untwisted,
+};
 use crate::math::space::Vector;
 use crate::system::Winch;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 use crate::system::joints::{
     Constraint, ConstraintKind, Linear, LinearConstraint, Release, Target, UnitLength,
 };
-use crate::system::loads::{ConvectiveInertia, Load};
+use crate::system::loads::{AppliedLoad, ConvectiveInertia};
 
 /// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
 const TIED: usize = 8;
@@ -17,7 +19,7 @@ const TIED: usize = 8;
 pub(super) fn free_ends<const D: usize>(parts: &mut Parts<D>) {
     let mut used = vec![false; parts.nodes.len()];
     let joints = parts.joints.iter().flat_map(|joint| joint.ends);
-    let ends = joints.chain(parts.loads.iter().flat_map(Load::ends));
+    let ends = joints.chain(parts.loads.iter().flat_map(AppliedLoad::ends));
     let lumped_masses = parts
         .lumped_masses
         .iter()
@@ -81,7 +83,7 @@ fn still<const D: usize>((node, part, axis): (usize, usize, usize), value: f64) 
     coefficients[part][axis] = 1.0;
     Linear {
         joint: None,
-        row: Row {
+        row: ConnectivityRow {
             terms: vec![(node, coefficients)],
             is_driven: false,
         },
@@ -92,7 +94,7 @@ fn still<const D: usize>((node, part, axis): (usize, usize, usize), value: f64) 
 
 /// The second node of a rigid body of space has no coordinates of its own, nor has the first a rotation about an axis without
 /// inertia.
-fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear<D>>) {
+fn rest<const D: usize>(parts: &Parts<D>, frame: &RigidBodyFrame, linear: &mut Vec<Linear<D>>) {
     let second = unplaced(&parts.nodes[frame.node]);
     for (part, vector) in second.iter().enumerate() {
         let held = vector.iter().enumerate();
@@ -146,12 +148,13 @@ fn release_rows<const D: usize>(
     linear: &mut Vec<Linear<D>>,
     nonlinear: &mut Vec<Constraint<D>>,
 ) {
-    let rows: Vec<&Row<D>> = linear.iter().map(|linear| &linear.row).collect();
+    let rows: Vec<&ConnectivityRow<D>> = linear.iter().map(|linear| &linear.row).collect();
     let tied = tied_with(parts.nodes.len(), &rows);
     let paid_out = paid_out(parts);
     let is_released = |index: usize| {
         let joint = &parts.joints[index];
-        let is_held = |end: &End<D>| end.is_framed() || end.nodes().any(|node| paid_out[node]);
+        let is_held =
+            |end: &Attachment<D>| end.is_framed() || end.nodes().any(|node| paid_out[node]);
         if joint.release.is_some() || joint.ends.iter().any(is_held) {
             return true;
         }
@@ -168,7 +171,7 @@ fn release_rows<const D: usize>(
             return true;
         };
         let mut row = LinearConstraint::new(linear, parts.joints[index].ends);
-        let nodes = parts.joints[index].ends.iter().flat_map(End::nodes);
+        let nodes = parts.joints[index].ends.iter().flat_map(Attachment::nodes);
         row.is_constant &= !nodes.into_iter().any(|node| paid_out[node]);
         nonlinear.push(Constraint::of(index, ConstraintKind::LinearConstraint(row)));
         false
@@ -198,7 +201,7 @@ pub(super) fn winches<const D: usize>(parts: &mut Parts<D>) -> Vec<Winch<D>> {
     let winches: Vec<Winch<D>> = parts.winches.iter().map(of).collect();
     let transports = winches.iter().enumerate();
     let transports = transports.map(|(winch, of)| {
-        Load::ConvectiveInertia(ConvectiveInertia {
+        AppliedLoad::ConvectiveInertia(ConvectiveInertia {
             winch,
             chain: of.chain,
         })
@@ -263,7 +266,9 @@ pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>
         }
     };
     for load in parts.loads.iter().chain(&parts.initial_loads) {
-        tie(&owners(load.ends().iter().flat_map(End::nodes).collect()));
+        tie(&owners(
+            load.ends().iter().flat_map(Attachment::nodes).collect(),
+        ));
     }
     let mut joint = None;
     for constraint in nonlinear {

@@ -5,9 +5,9 @@
 //! `body/frame/section_frame.rs`.
 
 use super::{Linear, Target};
-use crate::body::{Marker, Node, Row, no_node};
+use crate::body::{ConnectivityRow, Marker, Node, no_node};
 use crate::math::space::{Vector, axis, normals};
-use crate::system::end::End;
+use crate::system::end::Attachment;
 
 /// A section that the ground holds.
 #[derive(Clone, Copy, Debug)]
@@ -29,19 +29,19 @@ impl Clamp {
         nodes: &[Node<D>],
     ) -> Vec<Linear<D>> {
         let none = Vector::zeros();
-        let row = |terms: Row<D>, value: f64| Linear {
+        let row = |terms: ConnectivityRow<D>, value: f64| Linear {
             joint: None,
             row: terms,
             target: Target::Fixed(value),
             on_ends: [[none; 2]; 2],
         };
-        let blank = || Row {
+        let blank = || ConnectivityRow {
             terms: Vec::new(),
             is_driven: false,
         };
         let on_line = |position: Vector<D>, direction: Vector<D>| {
             let mut terms = blank();
-            End::Body(self.line).add_terms(position, direction, &mut terms);
+            Attachment::Body(self.line).add_terms(position, direction, &mut terms);
             terms
         };
         let places = (0..D).map(|k| row(on_line(axis(k), none), ground[k]));

@@ -7,7 +7,7 @@
 use super::{Gradient, View};
 use crate::math::jet::Number;
 use crate::system::coordinate::Coordinate;
-use crate::system::end::{Add, End};
+use crate::system::end::{Add, Attachment};
 
 /// A relation between coordinates.
 #[derive(Clone, Debug)]
@@ -64,7 +64,7 @@ impl<const D: usize> Coupler<D> {
     }
 
     /// The ends that it joins.
-    pub fn ends(&self) -> Vec<End<D>> {
+    pub fn ends(&self) -> Vec<Attachment<D>> {
         self.terms.iter().flat_map(|(_, of)| of.ends()).collect()
     }
 

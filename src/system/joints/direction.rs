@@ -9,13 +9,13 @@ use nalgebra::SMatrix;
 use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, normals, perpendicular, turned};
-use crate::system::end::{Add, End, bilinear};
+use crate::system::end::{Add, Attachment, bilinear};
 
 /// A direction at an angle from another: `(R(angle) u1) x u2 = 0`.
 #[derive(Clone, Debug)]
 pub struct AngleBetween<const D: usize> {
     /// The two directions.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// Fixed angle, rad.
     pub angle: f64,
     /// Driven coordinate to add to it.
@@ -31,13 +31,13 @@ pub(super) fn hold<const D: usize>(
     let direction: Vector<D> = turned(axis(0), angle.sin_cos());
     let [first, second] = rows.ends;
     match (first, second.is_rigid()) {
-        (End::Ground(_), true) => {
+        (Attachment::Ground(_), true) => {
             for (k, value) in direction.iter().enumerate() {
                 rows.push([none; 2], [none, axis(k)], Target::Fixed(*value));
             }
         }
-        (End::Ground(_), false) => return clamp(rows, &direction),
-        (End::Body(_), true) if first.is_rigid() => {
+        (Attachment::Ground(_), false) => return clamp(rows, &direction),
+        (Attachment::Body(_), true) if first.is_rigid() => {
             for k in 0..D {
                 let back = turned(axis(k), (-angle).sin_cos());
                 rows.push([none, back], [none, axis(k)], Target::Fixed(0.0));
@@ -129,7 +129,7 @@ impl<const D: usize> AngleBetween<D> {
     }
 
     pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
-        let [End::Body(first), End::Body(second)] = &self.ends else {
+        let [Attachment::Body(first), Attachment::Body(second)] = &self.ends else {
             return;
         };
         let theta = self.drive.map_or(0.0, |i| view.drives[i][0]);

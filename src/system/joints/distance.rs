@@ -3,13 +3,13 @@
 use super::{ConstraintKind, Gradient, Rows, View};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::end::{Add, End, isotropic};
+use crate::system::end::{Add, Attachment, isotropic};
 
 /// Two ends at a fixed distance.
 #[derive(Clone, Debug)]
 pub struct Distance<const D: usize> {
     /// The ends.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// Length, m.
     pub length: f64,
 }

@@ -15,7 +15,7 @@ use crate::math::rotation::{
     Quaternion, carried, inverse, product, quaternion, rotation_vector, unit_with_rates,
 };
 use crate::math::space::{Vector, components, vector};
-use crate::system::end::End;
+use crate::system::end::Attachment;
 
 /// One of the three conditions of a driven orientation.
 #[derive(Clone, Debug)]
@@ -102,8 +102,8 @@ impl DrivenOrientation {
         let pairs = self.weights(view, 0).into_iter().zip(self.axes);
         pairs.map(move |(weight, axis)| Gradient {
             ends: [
-                (End::Ground(none), [none; 2]),
-                (End::Body(axis.lift()), [none, weight]),
+                (Attachment::Ground(none), [none; 2]),
+                (Attachment::Body(axis.lift()), [none, weight]),
             ],
         })
     }
@@ -117,7 +117,10 @@ impl DrivenOrientation {
     }
 
     /// What it joins: the ground and the body.
-    pub fn ends<const D: usize>(&self) -> Vec<End<D>> {
-        vec![End::Ground(Vector::zeros()), End::Body(self.axes[0])]
+    pub fn ends<const D: usize>(&self) -> Vec<Attachment<D>> {
+        vec![
+            Attachment::Ground(Vector::zeros()),
+            Attachment::Body(self.axes[0]),
+        ]
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 use super::{Gradient, View};
 use crate::math::jet::Number;
 use crate::system::direction::{AxisTurn, Direction};
-use crate::system::end::{Add, End, bilinear};
+use crate::system::end::{Add, Attachment, bilinear};
 
 /// A driven turn.
 #[derive(Clone, Debug)]
@@ -55,7 +55,8 @@ impl<const D: usize> DrivenTurn<D> {
 
     pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         let (_, turned) = self.drive(view);
-        if let (End::Body(first), Direction::Of(second)) = (self.turn.turned(turned), &self.turn.of)
+        if let (Attachment::Body(first), Direction::Of(second)) =
+            (self.turn.turned(turned), &self.turn.of)
         {
             bilinear(
                 [(&first, 1), (second, 1)],
@@ -66,7 +67,7 @@ impl<const D: usize> DrivenTurn<D> {
     }
 
     /// What it joins.
-    pub fn ends(&self) -> Vec<End<D>> {
+    pub fn ends(&self) -> Vec<Attachment<D>> {
         vec![self.turn.across[0].end(), self.turn.of.end()]
     }
 }

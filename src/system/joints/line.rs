@@ -6,13 +6,13 @@ use nalgebra::SMatrix;
 use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, normals, perpendicular};
-use crate::system::end::{Add, End, bilinear};
+use crate::system::end::{Add, Attachment, bilinear};
 
 /// The second end on a line through the first, which turns with it.
 #[derive(Clone, Debug)]
 pub struct PointOnLine<const D: usize> {
     /// The ends.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// UnitLength direction of the line in the axes of the first end.
     pub along: Vector<D>,
     /// What residuals are relative to, m.
@@ -24,7 +24,7 @@ pub(super) fn hold<const D: usize>(
     rows: &mut Rows<'_, D>,
     along: Vector<D>,
 ) -> Option<ConstraintKind<D>> {
-    if let End::Ground(_) = rows.ends[0] {
+    if let Attachment::Ground(_) = rows.ends[0] {
         for normal in normals(&along) {
             rows.hold_position(normal, Target::Fixed);
         }
@@ -80,7 +80,7 @@ impl<const D: usize> PointOnLine<D> {
     }
 
     pub(super) fn stiffness(&self, lambda: f64, add: Add<'_, D>) {
-        let [End::Body(first), End::Body(second)] = &self.ends else {
+        let [Attachment::Body(first), Attachment::Body(second)] = &self.ends else {
             return;
         };
         // d^2 g = (A du1) x (dr2 - dr1)

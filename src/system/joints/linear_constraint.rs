@@ -4,13 +4,13 @@
 use super::{ConstraintKind, Gradient, Linear, Rows, Target, View};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis};
-use crate::system::end::{End, reach};
+use crate::system::end::{Attachment, reach};
 
 /// `sum over both ends of (coefficients . position + coefficients . direction) = target`.
 #[derive(Clone, Debug)]
 pub struct LinearConstraint<const D: usize> {
     /// The ends.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// Coefficients on position and direction of both.
     pub on_ends: [[Vector<D>; 2]; 2],
     /// What it equals.
@@ -31,7 +31,7 @@ pub(super) fn coincide<const D: usize>(rows: &mut Rows<'_, D>) -> Option<Constra
 
 impl<const D: usize> LinearConstraint<D> {
     /// The row of a joint with these ends.
-    pub fn new(linear: &Linear<D>, ends: [End<D>; 2]) -> Self {
+    pub fn new(linear: &Linear<D>, ends: [Attachment<D>; 2]) -> Self {
         let size = reach(&ends);
         let holds_position = linear.on_ends[1][0].norm() > 0.0;
         Self {
@@ -42,7 +42,7 @@ impl<const D: usize> LinearConstraint<D> {
             } else {
                 1.0
             },
-            is_constant: !ends.iter().any(End::is_framed),
+            is_constant: !ends.iter().any(Attachment::is_framed),
             ends,
         }
     }
@@ -53,8 +53,8 @@ impl<const D: usize> LinearConstraint<D> {
     }
 
     pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let of = |(end, [position, direction]): (&End<D>, &[Vector<D>; 2])| {
-            let End::Body(marker) = end.lift() else {
+        let of = |(end, [position, direction]): (&Attachment<D>, &[Vector<D>; 2])| {
+            let Attachment::Body(marker) = end.lift() else {
                 return N::of(0.0);
             };
             let at: Vector<D, N> = marker.position(view.x);

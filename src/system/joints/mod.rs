@@ -35,9 +35,9 @@ pub use unit::UnitLength;
 use super::LineChain;
 use super::coordinate::Translation;
 use super::direction::AxisTurn;
-use super::end::{Add, End};
+use super::end::{Add, Attachment};
 use super::gradient::Gradient;
-use crate::body::{Frames, Marker, Node, Row};
+use crate::body::{ConnectivityRow, Marker, Node, RotationMaps};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -79,11 +79,11 @@ pub enum Primitive<const D: usize = 2> {
 
 /// A joint or a motion.
 #[derive(Clone, Debug)]
-pub struct Joint<const D: usize = 2> {
+pub struct JointEquations<const D: usize = 2> {
     /// What it holds.
     pub holds: Vec<Primitive<D>>,
     /// What it joins.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// Index of its spring among the loads.
     pub spring: Option<usize>,
     /// In space the turn about its axis, where it has one.
@@ -100,7 +100,7 @@ pub struct Linear<const D: usize = 2> {
     /// Index of the joint, if it belongs to one.
     pub joint: Option<usize>,
     /// The row of `Phi`.
-    pub row: Row<D>,
+    pub row: ConnectivityRow<D>,
     /// What it equals.
     pub target: Target,
     /// Its coefficients on position and direction of both ends.
@@ -240,7 +240,7 @@ impl<const D: usize> Constraint<D> {
     /// The same as terms over the nodes that have coordinates: of rigid bodies of space the first one.
     pub fn for_each_pulled<N: Number>(
         &self,
-        (view, frames): (&View<'_, D, N>, &Frames),
+        (view, frames): (&View<'_, D, N>, &RotationMaps),
         mut term: impl FnMut(usize, &Node<D, N>),
     ) {
         self.for_each_pair(view, |pair| pair.for_each_pulled(frames, view.x, &mut term));
@@ -308,7 +308,7 @@ impl<const D: usize> Constraint<D> {
     }
 
     /// The ends that it joins; of a slide along a chain the one that slides.
-    pub(super) fn ends(&self) -> Vec<End<D>> {
+    pub(super) fn ends(&self) -> Vec<Attachment<D>> {
         match &self.kind {
             ConstraintKind::UnitLength(_) => Vec::new(),
             ConstraintKind::PointOnCurve(c) => vec![c.end],
@@ -332,7 +332,7 @@ impl<const D: usize> Constraint<D> {
                 let chain = first..first + chains[c.chain].node_count();
                 c.end.nodes().chain(chain).collect()
             }
-            _ => self.ends().iter().flat_map(End::nodes).collect(),
+            _ => self.ends().iter().flat_map(Attachment::nodes).collect(),
         }
     }
 
@@ -364,7 +364,7 @@ impl<const D: usize> Constraint<D> {
     }
 }
 
-impl<const D: usize> Joint<D> {
+impl<const D: usize> JointEquations<D> {
     /// Driven coordinates that it follows.
     pub fn drives(&self) -> impl Iterator<Item = usize> {
         self.holds
@@ -424,7 +424,7 @@ impl<const D: usize> Joint<D> {
                 Primitive::Direction(angle) => direction::hold(&mut rows, *angle),
                 Primitive::Clamped(along) => direction::clamp(&mut rows, along),
                 Primitive::Clamp(clamp) => {
-                    if let End::Ground(point) = &self.ends[0] {
+                    if let Attachment::Ground(point) = &self.ends[0] {
                         rows.linear.extend(clamp.rows(point, nodes));
                     }
                     None

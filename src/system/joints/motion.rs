@@ -6,7 +6,7 @@
 use crate::math::space::{Vector, axis};
 
 use super::{AngleBetween, ConstraintKind, Rows, Target};
-use crate::system::end::End;
+use crate::system::end::Attachment;
 
 /// The second end is where driven coordinates say.
 pub(super) fn position<const D: usize>(
@@ -37,7 +37,7 @@ pub(super) fn direction<const D: usize>(
 ) -> Option<ConstraintKind<D>> {
     let none = Vector::zeros();
     let [first, second] = rows.ends;
-    if matches!(first, End::Ground(_)) && second.is_rigid() {
+    if matches!(first, Attachment::Ground(_)) && second.is_rigid() {
         rows.push([none; 2], [none, axis(0)], Target::Cosine(drive));
         rows.push([none; 2], [none, axis(1)], Target::Sine(drive));
         return None;

@@ -11,7 +11,7 @@ use super::{Gradient, View};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::direction::Direction;
-use crate::system::end::{Add, End, bilinear};
+use crate::system::end::{Add, Attachment, bilinear};
 
 /// What a direction is perpendicular to.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub enum Across<const D: usize> {
     /// A direction.
     Direction(Direction<D>),
     /// The way from the first point to the second; residuals are relative to a size, m.
-    Translation([End<D>; 2], f64),
+    Translation([Attachment<D>; 2], f64),
 }
 
 /// A right angle.
@@ -33,7 +33,7 @@ pub struct Perpendicular<const D: usize> {
 
 impl<const D: usize> Perpendicular<D> {
     /// The ends that it joins.
-    pub fn ends(&self) -> Vec<End<D>> {
+    pub fn ends(&self) -> Vec<Attachment<D>> {
         let mut ends = vec![self.direction.end()];
         match &self.across {
             Across::Direction(second) => ends.push(second.end()),
@@ -79,7 +79,7 @@ impl<const D: usize> Perpendicular<D> {
                 let way = way(points, view);
                 // The direction belongs to the marker of the first point, if to any.
                 let first_end = match self.direction {
-                    Direction::Of(marker) => (End::Body(marker.lift()), [-first, way]),
+                    Direction::Of(marker) => (Attachment::Body(marker.lift()), [-first, way]),
                     Direction::Fixed(_) => (points[0].lift(), [-first, none]),
                 };
                 Gradient {
@@ -112,7 +112,7 @@ impl<const D: usize> Perpendicular<D> {
             }
             Across::Direction(Direction::Fixed(_)) => {}
             Across::Translation([_, b], _) => {
-                if let End::Body(second) = b {
+                if let Attachment::Body(second) = b {
                     bilinear([(first, 1), (second, 0)], product, add);
                 }
                 bilinear([(first, 1), (first, 0)], -product, add);
@@ -122,7 +122,10 @@ impl<const D: usize> Perpendicular<D> {
 }
 
 /// The way from the first point to the second.
-fn way<const D: usize, N: Number>(points: &[End<D>; 2], view: &View<'_, D, N>) -> Vector<D, N> {
+fn way<const D: usize, N: Number>(
+    points: &[Attachment<D>; 2],
+    view: &View<'_, D, N>,
+) -> Vector<D, N> {
     let [a, b] = points.map(|end| end.lift().position(view.x));
     b - a
 }

@@ -6,7 +6,7 @@ use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, normal};
 use crate::system::LineChain;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 
 /// Iterations for the foot of a point on a curve.
 const ITERATIONS: usize = 20;
@@ -17,7 +17,7 @@ pub struct PointOnCurve<const D: usize> {
     /// The chain.
     pub chain: usize,
     /// What slides along it.
-    pub end: End<D>,
+    pub end: Attachment<D>,
     /// Number of the slide: where it is, is part of the state.
     pub slide: usize,
     /// Which of the normals of the curve it is held along.
@@ -108,7 +108,7 @@ impl<const D: usize> PointOnCurve<D> {
         let normal = normal(&tangent, self.normal);
         Gradient {
             ends: [
-                (End::Body(at.marker), [-normal, none]),
+                (Attachment::Body(at.marker), [-normal, none]),
                 (self.end.lift(), [normal, none]),
             ],
         }

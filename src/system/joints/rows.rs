@@ -3,14 +3,14 @@
 //! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eq. 9 (linear constraints in nodal coordinates).
 
 use super::{Linear, Target};
-use crate::body::{Node, Row};
+use crate::body::{ConnectivityRow, Node};
 use crate::math::space::Vector;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 
 /// Where joints put their rows.
 pub(super) struct Rows<'a, const D: usize> {
     pub joint: usize,
-    pub ends: &'a [End<D>; 2],
+    pub ends: &'a [Attachment<D>; 2],
     pub nodes: &'a [Node<D>],
     pub linear: &'a mut Vec<Linear<D>>,
 }
@@ -18,7 +18,7 @@ pub(super) struct Rows<'a, const D: usize> {
 impl<const D: usize> Rows<'_, D> {
     /// `second . (position, direction of the second end) - first . (of the first end) = target`.
     pub fn push(&mut self, first: [Vector<D>; 2], second: [Vector<D>; 2], target: Target) {
-        let mut row = Row {
+        let mut row = ConnectivityRow {
             terms: Vec::new(),
             is_driven: target.is_driven(),
         };
@@ -39,8 +39,8 @@ impl<const D: usize> Rows<'_, D> {
     pub fn hold_position(&mut self, axis: Vector<D>, target: impl Fn(f64) -> Target) {
         let none = Vector::zeros();
         let start = match self.ends[0] {
-            End::Ground(point) => axis.dot(&point),
-            End::Body(_) => 0.0,
+            Attachment::Ground(point) => axis.dot(&point),
+            Attachment::Body(_) => 0.0,
         };
         self.push([axis, none], [axis, none], target(start));
     }

@@ -5,7 +5,7 @@ use super::{Gradient, View};
 use crate::body::{Marker, no_block};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::end::{Add, End};
+use crate::system::end::{Add, Attachment};
 
 /// The unit vector of a rigid body.
 #[derive(Clone, Debug)]
@@ -26,9 +26,12 @@ impl UnitLength {
     ) -> Gradient<D, N> {
         let none = Vector::zeros();
         let [_, direction] = view.x[self.node].map(Vector::from);
-        let end = End::Body(Marker::rigid(0, self.node, [0.0; 2]).lift());
+        let end = Attachment::Body(Marker::rigid(0, self.node, [0.0; 2]).lift());
         Gradient {
-            ends: [(end, [none, direction]), (End::Ground(none), [none; 2])],
+            ends: [
+                (end, [none, direction]),
+                (Attachment::Ground(none), [none; 2]),
+            ],
         }
     }
 

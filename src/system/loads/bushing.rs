@@ -7,7 +7,7 @@ use super::{Add, Instant};
 use crate::body::Marker;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
-use crate::system::end::{End, coupling, isotropic};
+use crate::system::end::{Attachment, coupling, isotropic};
 use crate::system::signal::Signal;
 
 /// A spring and a damper in parallel between a marker and a point.
@@ -49,14 +49,17 @@ impl<const D: usize> Bushing<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let end = End::Body(self.marker.lift());
+        let end = Attachment::Body(self.marker.lift());
         call(&end, [-self.force(at), Vector::zeros()]);
     }
 
     pub(super) fn add_tangent(&self, stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let ends: [End<D>; 2] = [End::Ground(Vector::zeros()), End::Body(self.marker)];
+        let ends: [Attachment<D>; 2] = [
+            Attachment::Ground(Vector::zeros()),
+            Attachment::Body(self.marker),
+        ];
         isotropic(&ends, self.stiffness, stiffness);
         if self.damping > 0.0 {
             isotropic(&ends, self.damping, damping);
@@ -103,8 +106,8 @@ pub struct RotationalBushing {
 }
 
 impl RotationalBushing {
-    fn end<const D: usize, N: Number>(&self) -> End<D, N> {
-        End::Body(self.marker.lift())
+    fn end<const D: usize, N: Number>(&self) -> Attachment<D, N> {
+        Attachment::Body(self.marker.lift())
     }
 
     /// From the angle to the direction of the marker, and its rate.
@@ -126,7 +129,7 @@ impl RotationalBushing {
     pub(super) fn act<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let end = self.end();
         call(&end, end.turn(-self.moment(at), at.x));
@@ -138,11 +141,11 @@ impl RotationalBushing {
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
     ) {
-        let end: End<D> = self.end();
+        let end: Attachment<D> = self.end();
         let u = end.direction(at.x);
         let turn = perpendicular(u) / u.norm_squared();
         let outer: SMatrix<f64, D, D> = turn * turn.transpose();
-        let ends = [end, End::Ground(Vector::zeros())];
+        let ends = [end, Attachment::Ground(Vector::zeros())];
         let alone = |k: SMatrix<f64, D, D>| [[k, SMatrix::zeros()], [SMatrix::zeros(); 2]];
         let k = outer * self.stiffness - end.curl(at.x) * self.moment(at);
         coupling(&ends, alone(k), 1, stiffness);

@@ -15,12 +15,12 @@ use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
-use crate::system::end::{End, between};
+use crate::system::end::{Attachment, between};
 use crate::system::winch::{PaidOut, longer_by};
 
 /// What is touched; it stands still in the frame of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Surface<const D: usize = 2> {
+pub enum ContactSurface<const D: usize = 2> {
     /// All that is below a point along a unit vector.
     Plane {
         /// The point, m.
@@ -41,7 +41,7 @@ pub enum Surface<const D: usize = 2> {
 
 /// Where contact counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct ContactPoint {
     /// The point.
     pub marker: Marker,
     /// The reference length that it stands for, m; 1 of a single marker.
@@ -52,9 +52,9 @@ pub struct Place {
 #[derive(Clone, Debug)]
 pub struct Contact<const D: usize = 2> {
     /// A single marker, or the Gauss points of all stretches of a body in turn: of the elements of a chain, of the panels of a rod.
-    pub places: Vec<Place>,
+    pub places: Vec<ContactPoint>,
     /// What is touched.
-    pub surface: Surface<D>,
+    pub surface: ContactSurface<D>,
     /// Stiffness, N/m; along a body N/m per reference length.
     pub stiffness: f64,
     /// Damping relative to the stiffness, s/m.
@@ -81,7 +81,7 @@ struct Touch<const D: usize, N> {
     rate: N,
 }
 
-impl<const D: usize> Surface<D> {
+impl<const D: usize> ContactSurface<D> {
     /// How far a point is below, m, and the unit vector out of the surface there; none in the middle of what is round.
     fn under<N: Number>(&self, at: &Vector<D, N>) -> Option<(N, Vector<D, N>)> {
         match self {
@@ -254,7 +254,7 @@ impl<const D: usize> Contact<D> {
         &self,
         at: Instant<'_, D, N>,
         places: std::ops::Range<usize>,
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let paid_out = self.paid_out(at);
         let longer = longer_by(paid_out.as_ref());
@@ -262,7 +262,7 @@ impl<const D: usize> Contact<D> {
             let marker = place.marker.lift();
             let force = self.force(&marker, at, paid_out.as_ref());
             let force = force * (N::of(place.weight) * longer);
-            call(&End::Body(marker), [force, Vector::zeros()]);
+            call(&Attachment::Body(marker), [force, Vector::zeros()]);
         }
     }
 
@@ -276,7 +276,7 @@ impl<const D: usize> Contact<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         if !self.is_distributed() {
             self.each_force(at, 0..1, call);
@@ -298,7 +298,10 @@ impl<const D: usize> Contact<D> {
                 continue;
             };
             let weight = place.weight * longer;
-            let ends = [End::Ground(Vector::zeros()), End::Body(place.marker)];
+            let ends = [
+                Attachment::Ground(Vector::zeros()),
+                Attachment::Body(place.marker),
+            ];
             let (push, normal) = (self.push(&touch), &touch.normal);
             let along: SMatrix<f64, D, D> = normal * normal.transpose();
             // What is round pushes aside.

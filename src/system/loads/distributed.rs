@@ -10,22 +10,22 @@ use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
 use crate::system::winch::{PaidOut, longer_by};
-use crate::system::{LineChain, Rod};
+use crate::system::{LineChain, RigidRod};
 
 /// What a force is distributed along.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Line {
+pub enum LoadedLine {
     /// A chain.
     Chain(usize),
     /// A rod.
-    Rod(Rod),
+    Rod(RigidRod),
 }
 
 /// A distributed force.
 #[derive(Clone, Debug)]
 pub struct DistributedForce<const D: usize = 2> {
     /// What it is distributed along. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
-    pub on: Line,
+    pub on: LoadedLine,
     /// Components, N/m.
     pub density: LineLoad<D>,
 }
@@ -56,8 +56,8 @@ impl<const D: usize> DistributedForce<D> {
     /// The cable, if a winch pays it out.
     fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
         match self.on {
-            Line::Chain(_) => at.paid_out(self.first_node(at.chains)),
-            Line::Rod(_) => None,
+            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.chains)),
+            LoadedLine::Rod(_) => None,
         }
     }
 
@@ -78,8 +78,8 @@ impl<const D: usize> DistributedForce<D> {
     /// First node of the body that it acts on.
     pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
         match self.on {
-            Line::Chain(chain) => chains[chain].nodes(0)[0],
-            Line::Rod(rod) => rod.node,
+            LoadedLine::Chain(chain) => chains[chain].nodes(0)[0],
+            LoadedLine::Rod(rod) => rod.node,
         }
     }
 
@@ -87,8 +87,8 @@ impl<const D: usize> DistributedForce<D> {
     /// shape functions; on a rod in the middle.
     fn each(&self, chains: &[LineChain<D>], mut add: impl FnMut(usize, [f64; 2])) {
         let chain = match self.on {
-            Line::Chain(chain) => &chains[chain],
-            Line::Rod(rod) => return add(rod.node, [rod.length, 0.0]),
+            LoadedLine::Chain(chain) => &chains[chain],
+            LoadedLine::Rod(rod) => return add(rod.node, [rod.length, 0.0]),
         };
         for (j, element) in chain.elements().iter().enumerate() {
             let weights = shape::integrals(1.0, element.length());
@@ -108,8 +108,8 @@ impl<const D: usize> DistributedForce<D> {
             return;
         }
         let chain = match self.on {
-            Line::Chain(chain) => &at.chains[chain],
-            Line::Rod(rod) => {
+            LoadedLine::Chain(chain) => &at.chains[chain],
+            LoadedLine::Rod(rod) => {
                 for panel in 0..PANELS {
                     let values = self.changing(at, panel);
                     for (point, load) in GAUSS_5.iter().zip(&values) {

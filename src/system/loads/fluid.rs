@@ -12,7 +12,7 @@
 
 use nalgebra::SMatrix;
 
-use super::distributed::Line;
+use super::distributed::LoadedLine;
 use super::line_load::{LineLoad, Values};
 use super::{Add, Instant, PANELS};
 use crate::body::{Node, no_block};
@@ -40,7 +40,7 @@ pub struct FluidSegment {
 #[derive(Clone, Debug)]
 pub struct Fluid<const D: usize = 2> {
     /// What it streams past. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
-    pub on: Line,
+    pub on: LoadedLine,
     /// What it does at the Gauss points of every stretch in turn.
     pub strips: Vec<FluidSegment>,
     /// Velocity of the fluid, m/s.
@@ -56,14 +56,14 @@ pub struct Fluid<const D: usize = 2> {
 
 /// A Gauss point: the nodes that it lies between, twice the same of a rod; what position and slope are of theirs; and the length that it
 /// stands for, m.
-struct Place {
+struct FluidPoint {
     nodes: [usize; 2],
     position: [f64; 4],
     slope: [f64; 4],
     weight: f64,
 }
 
-impl Place {
+impl FluidPoint {
     /// The sum of nodal vectors with weights.
     fn sum<const D: usize, N: Number>(&self, weights: &[f64; 4], x: &[Node<D, N>]) -> Vector<D, N> {
         let mut sum = Vector::zeros();
@@ -131,39 +131,39 @@ impl<const D: usize> Fluid<D> {
     /// First node of the body that it streams past.
     pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
         match self.on {
-            Line::Chain(chain) => chains[chain].nodes(0)[0],
-            Line::Rod(rod) => rod.node,
+            LoadedLine::Chain(chain) => chains[chain].nodes(0)[0],
+            LoadedLine::Rod(rod) => rod.node,
         }
     }
 
     /// Nodes of its stretches.
     pub(super) fn parts(&self, chains: &[LineChain<D>]) -> Vec<Vec<usize>> {
         match self.on {
-            Line::Chain(chain) => {
+            LoadedLine::Chain(chain) => {
                 let stretches = 0..self.stretches();
                 stretches.map(|j| chains[chain].nodes(j).to_vec()).collect()
             }
-            Line::Rod(rod) => vec![vec![rod.node]; self.stretches()],
+            LoadedLine::Rod(rod) => vec![vec![rod.node]; self.stretches()],
         }
     }
 
-    fn place(&self, chains: &[LineChain<D>], stretch: usize, point: usize) -> Place {
+    fn place(&self, chains: &[LineChain<D>], stretch: usize, point: usize) -> FluidPoint {
         let point = GAUSS_5[point];
         match self.on {
-            Line::Chain(chain) => {
+            LoadedLine::Chain(chain) => {
                 let chain = &chains[chain];
                 let length = chain.elements()[stretch].length();
-                Place {
+                FluidPoint {
                     nodes: chain.nodes(stretch),
                     position: shape::values(point.at, length).into(),
                     slope: shape::slopes(point.at, length).into(),
                     weight: point.weight * length,
                 }
             }
-            Line::Rod(rod) => {
+            LoadedLine::Rod(rod) => {
                 let part = rod.length / PANELS as f64;
                 let arm = (stretch as f64 + point.at) * part - 0.5 * rod.length;
-                Place {
+                FluidPoint {
                     nodes: [rod.node; 2],
                     position: [1.0, arm, 0.0, 0.0],
                     slope: [0.0, 1.0, 0.0, 0.0],
@@ -186,7 +186,7 @@ impl<const D: usize> Fluid<D> {
     fn flow<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        (place, (stretch, xi)): (&Place, (usize, f64)),
+        (place, (stretch, xi)): (&FluidPoint, (usize, f64)),
         (current, paid_out): (Vector<D, N>, Option<&PaidOut<'_, D, N>>),
     ) -> Flow<D, N> {
         let (velocity, rate) = self.carried;
@@ -218,13 +218,13 @@ impl<const D: usize> Fluid<D> {
         &self,
         at: Instant<'_, D, N>,
         stretch: usize,
-        mut call: impl FnMut(&Place, &Flow<D, N>, &FluidSegment, Vector<D, N>),
+        mut call: impl FnMut(&FluidPoint, &Flow<D, N>, &FluidSegment, Vector<D, N>),
     ) {
         let current = self.current(stretch, |signal| signal.value(at));
         let rates = self.current(stretch, |signal| signal.rate(at));
         let paid_out = match self.on {
-            Line::Chain(_) => at.paid_out(self.first_node(at.chains)),
-            Line::Rod(_) => None,
+            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.chains)),
+            LoadedLine::Rod(_) => None,
         };
         for (point, (current, rate)) in current.into_iter().zip(rates).enumerate() {
             let strip = &self.strips[GAUSS_5.len() * stretch + point];

@@ -7,7 +7,7 @@ use super::{Add, Instant};
 use crate::body::{Marker, no_block};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
-use crate::system::end::End;
+use crate::system::end::Attachment;
 use crate::system::signal::Signal;
 
 /// A force.
@@ -44,9 +44,9 @@ impl<const D: usize> Force<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let end = End::Body(self.marker.lift());
+        let end = Attachment::Body(self.marker.lift());
         call(&end, [self.value(at), Vector::zeros()]);
     }
 

@@ -9,7 +9,7 @@ use super::{Add, Instant};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::coordinate::Coordinate;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 
 /// Stops at the ends of the range of a coordinate.
 #[derive(Clone, Debug)]
@@ -25,7 +25,7 @@ pub struct JointLimit<const D: usize = 2> {
 }
 
 /// How a coordinate is beyond a limit.
-struct Contact<N> {
+struct LimitContact<N> {
     /// By how much, m or rad.
     depth: N,
     /// How fast it goes deeper.
@@ -36,7 +36,7 @@ struct Contact<N> {
 
 impl<const D: usize> JointLimit<D> {
     /// None within the limits.
-    fn contact<N: Number>(&self, at: Instant<'_, D, N>) -> Option<Contact<N>> {
+    fn contact<N: Number>(&self, at: Instant<'_, D, N>) -> Option<LimitContact<N>> {
         let value = self.coordinate.value(at.x, at.angles.1);
         let [lower, upper] = self.limits;
         let (side, limit) = match value.plain() {
@@ -45,7 +45,7 @@ impl<const D: usize> JointLimit<D> {
             _ => return None,
         };
         let rate = self.coordinate.rate(at.x, at.v);
-        Some(Contact {
+        Some(LimitContact {
             depth: (value - N::of(limit)) * N::of(side),
             rate: rate * N::of(side),
             side,
@@ -53,7 +53,7 @@ impl<const D: usize> JointLimit<D> {
     }
 
     /// The bracket of the force: 0 where the coordinate leaves too fast.
-    fn damped<N: Number>(&self, contact: &Contact<N>) -> N {
+    fn damped<N: Number>(&self, contact: &LimitContact<N>) -> N {
         let factor = N::of(1.0) + N::of(self.damping) * contact.rate;
         if factor.plain() > 0.0 {
             factor
@@ -73,7 +73,7 @@ impl<const D: usize> JointLimit<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         if self.contact(at).is_some() {
             self.coordinate.act(self.force(at), at.x, call);

@@ -4,7 +4,7 @@ use super::{Add, Instant};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::coordinate::Coordinate;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 
 /// A spring and a damper in parallel.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ impl<const D: usize> JointSpring<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         self.coordinate.act(self.force(at), at.x, call);
     }

@@ -4,7 +4,6 @@
 mod bushing;
 mod contact;
 mod convective_inertia;
-mod couple;
 mod distributed;
 mod distributed_moment;
 mod fluid;
@@ -15,14 +14,14 @@ mod line_load;
 mod moment;
 mod orientation_bushing;
 mod six_bushing;
+mod spatial_moment;
 mod spring;
 
 pub use bushing::{Bushing, RotationalBushing};
-pub use contact::{Contact, Place, Surface};
+pub use contact::{Contact, ContactPoint, ContactSurface};
 pub use convective_inertia::ConvectiveInertia;
-pub use couple::Couple;
 pub(in crate::system) use distributed::on_coordinates;
-pub use distributed::{DistributedForce, Line};
+pub use distributed::{DistributedForce, LoadedLine};
 pub use distributed_moment::DistributedMoment;
 pub use fluid::{Fluid, FluidSegment};
 pub use force::Force;
@@ -32,9 +31,10 @@ pub use line_load::{LineLoad, Values};
 pub use moment::Moment;
 pub use orientation_bushing::OrientationBushing;
 pub use six_bushing::SixBushing;
+pub use spatial_moment::SpatialMoment;
 pub use spring::Spring;
 
-use super::end::{Add, End};
+use super::end::{Add, Attachment};
 use super::instant::Instant;
 use super::signal::Signal;
 use crate::body::{Node, RodChain};
@@ -47,13 +47,13 @@ pub const PANELS: usize = 8;
 
 /// What acts.
 #[derive(Clone, Debug)]
-pub enum Load<const D: usize = 2> {
+pub enum AppliedLoad<const D: usize = 2> {
     /// A force at a marker, dead or follower.
     Force(Force<D>),
     /// A moment on one end, and its opposite on another, in the plane.
     Moment(Moment<D>),
     /// The same in space.
-    Couple(Couple<D>),
+    SpatialMoment(SpatialMoment<D>),
     /// A dead force per reference length of a cable or a rod.
     DistributedForce(DistributedForce<D>),
     /// A moment per reference length of a rod or beam.
@@ -80,7 +80,7 @@ pub enum Load<const D: usize = 2> {
     ConvectiveInertia(ConvectiveInertia),
 }
 
-impl<const D: usize> Load<D> {
+impl<const D: usize> AppliedLoad<D> {
     /// Adds its forces.
     pub fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         match self {
@@ -100,12 +100,12 @@ impl<const D: usize> Load<D> {
     pub fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         match self {
             Self::Force(load) => load.act(at, call),
             Self::Moment(load) => load.act(at, call),
-            Self::Couple(load) => load.act(at, call),
+            Self::SpatialMoment(load) => load.act(at, call),
             Self::DistributedForce(_)
             | Self::DistributedMoment(_)
             | Self::Fluid(_)
@@ -151,7 +151,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.add_stiffness(at, stiffness),
             Self::Moment(load) => load.add_stiffness(at, stiffness),
             // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
-            Self::Couple(_) | Self::DistributedForce(_) | Self::DistributedMoment(_) => {}
+            Self::SpatialMoment(_) | Self::DistributedForce(_) | Self::DistributedMoment(_) => {}
             // The same: rope is paid out slowly beside its waves.
             Self::ConvectiveInertia(_) => {}
             Self::Fluid(load) => load.add_damping(at, damping),
@@ -172,7 +172,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => [load.power(at), none],
             Self::Moment(load) => [load.power(at), none],
-            Self::Couple(load) => [load.power(at), none],
+            Self::SpatialMoment(load) => [load.power(at), none],
             Self::DistributedForce(load) => [load.power(at), none],
             Self::DistributedMoment(load) => [load.power(at), none],
             Self::Fluid(load) => load.power(at),
@@ -209,7 +209,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => load.work(before, after),
             Self::Moment(load) => load.work(before, after),
-            Self::Couple(load) => load.work(before, after),
+            Self::SpatialMoment(load) => load.work(before, after),
             Self::DistributedForce(load) => load.work(before, after),
             Self::DistributedMoment(load) => load.work(before, after),
             Self::Fluid(load) => load.work(before, after),
@@ -237,7 +237,7 @@ impl<const D: usize> Load<D> {
         match &mut held {
             Self::Force(load) => hold(&mut load.components, fraction),
             Self::Moment(load) => hold(std::slice::from_mut(&mut load.size), fraction),
-            Self::Couple(load) => {
+            Self::SpatialMoment(load) => {
                 for (size, _) in &mut load.parts {
                     hold(std::slice::from_mut(size), fraction);
                 }
@@ -272,7 +272,7 @@ impl<const D: usize> Load<D> {
     pub fn is_conservative(&self) -> bool {
         match self {
             Self::Force(load) => !load.follower,
-            Self::Couple(load) => load.is_torque,
+            Self::SpatialMoment(load) => load.is_torque,
             Self::DistributedMoment(_) => false,
             Self::Fluid(load) => !load.streams(),
             Self::Contact(load) => load.friction == 0.0,
@@ -284,7 +284,7 @@ impl<const D: usize> Load<D> {
     pub fn is_moment(&self) -> bool {
         match self {
             Self::Moment(_)
-            | Self::Couple(_)
+            | Self::SpatialMoment(_)
             | Self::DistributedMoment(_)
             | Self::SixBushing(_)
             | Self::RotationalBushing(_)
@@ -332,7 +332,7 @@ impl<const D: usize> Load<D> {
             Self::Fluid(load) => (&load.current.uniform, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
-            Self::Couple(_)
+            Self::SpatialMoment(_)
             | Self::JointSpring(_)
             | Self::JointLimit(_)
             | Self::Contact(_)
@@ -343,7 +343,7 @@ impl<const D: usize> Load<D> {
             Self::OrientationBushing(load) => (&load.quaternion, &load.velocity),
         };
         let parts = match self {
-            Self::Couple(load) => &load.parts[..],
+            Self::SpatialMoment(load) => &load.parts[..],
             _ => &[],
         };
         let along: &[Vec<Signal>] = match self {
@@ -368,7 +368,7 @@ impl<const D: usize> Load<D> {
             }
             Self::Contact(load) => load.parts(),
             Self::ConvectiveInertia(load) => load.parts(chains),
-            _ => vec![self.ends().iter().flat_map(End::nodes).collect()],
+            _ => vec![self.ends().iter().flat_map(Attachment::nodes).collect()],
         }
     }
 
@@ -384,23 +384,23 @@ impl<const D: usize> Load<D> {
     }
 
     /// Ends between which its tangent couples.
-    pub fn ends(&self) -> Vec<End<D>> {
+    pub fn ends(&self) -> Vec<Attachment<D>> {
         match self {
-            Self::Force(load) => vec![End::Body(load.marker)],
+            Self::Force(load) => vec![Attachment::Body(load.marker)],
             Self::Moment(load) => load.ends.to_vec(),
-            Self::Couple(load) => load.ends.to_vec(),
+            Self::SpatialMoment(load) => load.ends.to_vec(),
             Self::DistributedForce(_) | Self::Fluid(_) | Self::ConvectiveInertia(_) => vec![],
-            Self::DistributedMoment(load) => vec![End::Body(load.end)],
+            Self::DistributedMoment(load) => vec![Attachment::Body(load.end)],
             Self::Spring(load) => load.ends.to_vec(),
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),
             Self::JointLimit(load) => load.coordinate.ends().to_vec(),
             // Elements couple their nodes already.
             Self::Contact(load) if load.is_distributed() => vec![],
-            Self::Contact(load) => vec![End::Body(load.places[0].marker)],
+            Self::Contact(load) => vec![Attachment::Body(load.places[0].marker)],
             Self::SixBushing(load) => load.ends().to_vec(),
-            Self::Bushing(load) => vec![End::Body(load.marker)],
-            Self::RotationalBushing(load) => vec![End::Body(load.marker)],
-            Self::OrientationBushing(load) => vec![End::Body(load.axes[0])],
+            Self::Bushing(load) => vec![Attachment::Body(load.marker)],
+            Self::RotationalBushing(load) => vec![Attachment::Body(load.marker)],
+            Self::OrientationBushing(load) => vec![Attachment::Body(load.axes[0])],
         }
     }
 }

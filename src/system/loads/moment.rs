@@ -6,14 +6,14 @@ use nalgebra::SMatrix;
 use super::{Add, Instant};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, cross};
-use crate::system::end::{End, coupling};
+use crate::system::end::{Attachment, coupling};
 use crate::system::signal::Signal;
 
 /// A moment.
 #[derive(Clone, Debug)]
 pub struct Moment<const D: usize = 2> {
     /// The second end takes the moment, the first one its opposite.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// Size, counter-clockwise, N m.
     pub size: Signal,
 }
@@ -22,7 +22,7 @@ impl<const D: usize> Moment<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let size = self.size.value(at);
         let [first, second] = self.ends.map(|end| end.lift());
@@ -33,10 +33,10 @@ impl<const D: usize> Moment<D> {
     pub(super) fn add_stiffness(&self, at: Instant<'_, D>, add: Add<'_, D>) {
         let size = self.size.value(at);
         for (end, size) in self.ends.iter().zip([-size, size]) {
-            if let End::Body(_) = end {
+            if let Attachment::Body(_) = end {
                 let k = end.curl(at.x) * size;
                 let zero = SMatrix::zeros();
-                let ground = End::Ground(Vector::zeros());
+                let ground = Attachment::Ground(Vector::zeros());
                 coupling(&[*end, ground], [[k, zero], [zero, zero]], 1, add);
             }
         }
@@ -48,7 +48,7 @@ impl<const D: usize> Moment<D> {
     }
 
     pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
-        let turn = |end: &End<D>| {
+        let turn = |end: &Attachment<D>| {
             let (u, v) = (end.direction(before.x), end.direction(after.x));
             cross(&u, &v).atan2(u.dot(&v))
         };

@@ -8,12 +8,12 @@
 
 use nalgebra::{SMatrix, Vector3};
 
-use super::{Add, Instant, couple};
+use super::{Add, Instant, spatial_moment};
 use crate::body::Marker;
 use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{Vector, components};
-use crate::system::end::{End, coupling};
+use crate::system::end::{Attachment, coupling};
 use crate::system::signal::Signal;
 
 /// A rotational spring and a damper in parallel between the axes of a body's frame and those that come in.
@@ -32,8 +32,11 @@ pub struct OrientationBushing {
 }
 
 impl OrientationBushing {
-    fn ends<const D: usize>(&self) -> [End<D>; 2] {
-        [End::Ground(Vector::zeros()), End::Body(self.axes[0])]
+    fn ends<const D: usize>(&self) -> [Attachment<D>; 2] {
+        [
+            Attachment::Ground(Vector::zeros()),
+            Attachment::Body(self.axes[0]),
+        ]
     }
 
     fn velocity<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> Vector3<N> {
@@ -50,7 +53,7 @@ impl OrientationBushing {
         // What takes the ones to the others, column by column.
         let column = |j: usize| to[0] * from[0][j] + to[1] * from[1][j] + to[2] * from[2][j];
         let between = rotation::quaternion(&[column(0), column(1), column(2)]);
-        let spin = couple::spin(&self.ends::<D>()[1], at.x, at.v);
+        let spin = spatial_moment::spin(&self.ends::<D>()[1], at.x, at.v);
         [
             rotation::rotation_vector(&between),
             spin - self.velocity(at),
@@ -66,9 +69,9 @@ impl OrientationBushing {
     pub(super) fn act<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        couple::act(&self.ends(), &-self.moment(at), at.x, call);
+        spatial_moment::act(&self.ends(), &-self.moment(at), at.x, call);
     }
 
     /// The symmetric part of the derivative of the rotation vector by a small turn: `1 + c (t t^T - t.t)`, where
@@ -82,10 +85,10 @@ impl OrientationBushing {
     ) {
         let [turn, _] = self.turn(at);
         let one = SMatrix::<f64, D, D>::identity();
-        let ground = End::Ground(Vector::zeros());
+        let ground = Attachment::Ground(Vector::zeros());
         let add = |marker: Marker, k: f64, to: Add<'_, D>| {
             let alone = [[one * k, one * 0.0], [one * 0.0; 2]];
-            coupling(&[End::Body(marker), ground], alone, 1, to);
+            coupling(&[Attachment::Body(marker), ground], alone, 1, to);
         };
         for axis in self.axes {
             add(axis, 0.5 * self.stiffness, stiffness);
@@ -130,7 +133,7 @@ impl OrientationBushing {
         after: Instant<'_, D>,
     ) -> f64 {
         let [_, body] = self.ends::<D>();
-        let way = couple::spin(&body, before.x, after.x);
+        let way = spatial_moment::spin(&body, before.x, after.x);
         let dead = self.damping * self.velocity(before).dot(&way);
         self.energy(before) - self.energy(after) + dead
     }

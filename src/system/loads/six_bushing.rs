@@ -15,7 +15,7 @@ use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::coordinate::Translation;
 use crate::system::direction::Direction;
-use crate::system::end::{End, bilinear};
+use crate::system::end::{Attachment, bilinear};
 use crate::system::gradient::Terms;
 
 /// Where series take over from formulas that lose digits.
@@ -157,7 +157,7 @@ impl<const D: usize> SixBushing<D> {
         &self,
         by: &Matrix3<N>,
         x: &[Node<D, N>],
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let [a, b] = self.axes.map(|axes| axes.map(|axis| axis.value(x)));
         let sum = |of: &[Vector<D, N>; 3], weight: &dyn Fn(usize) -> N| {
@@ -177,7 +177,7 @@ impl<const D: usize> SixBushing<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let [force, moment] = self.forces(at);
         for (way, force) in self.ways.iter().zip(force.iter()) {
@@ -246,7 +246,7 @@ impl<const D: usize> SixBushing<D> {
     }
 
     /// What it is fixed to; the axes belong to the same bodies.
-    pub fn ends(&self) -> [End<D>; 2] {
+    pub fn ends(&self) -> [Attachment<D>; 2] {
         self.ways[0].ends
     }
 }

@@ -5,14 +5,14 @@ use nalgebra::SMatrix;
 use super::{Add, Instant};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::end::{End, between};
+use crate::system::end::{Attachment, between};
 use crate::system::signal::Signal;
 
 /// A spring and a damper in parallel between two points.
 #[derive(Clone, Debug)]
 pub struct Spring<const D: usize = 2> {
     /// Its ends.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// Stiffness, N/m.
     pub stiffness: f64,
     /// Damping, N s/m.
@@ -51,7 +51,7 @@ impl<const D: usize> Spring<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let ((unit, _, speed), none) = (self.stretch(at), Vector::zeros());
         // Without a rest length it pulls to the other end however near that is: the part has no kink there.

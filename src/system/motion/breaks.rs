@@ -6,11 +6,11 @@
 //! velocities that joints and motions allow, those that change least in the mass norm (E. J. Routh, Dynamics
 //! of a System of Rigid Bodies, part I, chapter VIII, after Gauss's principle).
 
-use super::dynamics::Model;
+use super::dynamics::DrivenSystem;
 use crate::body::{add_node, no_node};
 use crate::math::function::Function;
 use crate::math::switches::grain;
-use crate::system::joints::Joint;
+use crate::system::joints::JointEquations;
 use crate::system::signal::{Drive, Signal};
 use crate::system::{State, StepOutcome, System, Workspace};
 
@@ -47,7 +47,7 @@ impl<const D: usize> System<D> {
 
     /// The first joint or motion that follows a driven coordinate.
     pub fn driven_joint(&self, drive: usize) -> Option<usize> {
-        let follows = |joint: &Joint<D>| joint.drives().any(|of| of == drive);
+        let follows = |joint: &JointEquations<D>| joint.drives().any(|of| of == drive);
         self.joints.iter().position(follows)
     }
 
@@ -88,7 +88,7 @@ impl<const D: usize> System<D> {
     }
 }
 
-impl<const D: usize> Model<'_, D> {
+impl<const D: usize> DrivenSystem<'_, D> {
     /// Begins a smooth interval at `from`; its end, `until` at the latest.
     pub(in crate::system) fn enter(&mut self, from: f64, until: f64) -> f64 {
         let (first, last) = (from + grain(from), until + grain(until));

@@ -117,7 +117,7 @@ const BROKEN: f64 = 1e-8;
 
 /// A system under inputs that are held, or that move as polynomials in time.
 #[derive(Debug)]
-pub struct Model<'a, const D: usize = 2> {
+pub struct DrivenSystem<'a, const D: usize = 2> {
     /// The system.
     pub system: &'a System<D>,
     /// Its inputs at the beginning.
@@ -135,7 +135,7 @@ pub struct Model<'a, const D: usize = 2> {
     most_operations: f64,
 }
 
-impl<'a, const D: usize> Model<'a, D> {
+impl<'a, const D: usize> DrivenSystem<'a, D> {
     /// The system at a state, what inputs drive held.
     pub fn new(
         system: &'a System<D>,
@@ -344,7 +344,7 @@ impl<'a, const D: usize> Model<'a, D> {
     }
 }
 
-impl<const D: usize> Dynamics for Model<'_, D> {
+impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.accelerate_with(time, [q, v], false, a);
         self.system.to_second(self.work, a);

@@ -1,10 +1,10 @@
 //! What a state keeps beside coordinates and rates: driven motions, angles over full turns, slides, joints that have let go.
 
-use super::dynamics::{Model, StepOutcome};
+use super::dynamics::{DrivenSystem, StepOutcome};
 use crate::system::State;
 use crate::system::joints::ConstraintKind;
 
-impl<const D: usize> Model<'_, D> {
+impl<const D: usize> DrivenSystem<'_, D> {
     /// Counts angles on, follows slides and driven motions.
     pub fn count(&mut self, state: &mut State) -> StepOutcome {
         let system = self.system;

@@ -3,14 +3,14 @@
 use nalgebra::SMatrix;
 
 use crate::body::{
-    Assembly, Frame, Frames, Node, NodeBlock, add_node, carried_node, map_node, no_block,
-    turning_block,
+    Assembly, Node, NodeBlock, RigidBodyFrame, RotationMaps, add_node, carried_node, map_node,
+    no_block, turning_block,
 };
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::Matrix;
-use crate::system::end::{End, coupling};
+use crate::system::end::{Attachment, coupling};
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::signal::Drive;
@@ -222,12 +222,12 @@ impl<const D: usize> System<D> {
             });
         }
         for frame in self.frames.list() {
-            let turned = Frames::geometric(frame, &work.linear_constraint_forces, x);
+            let turned = RotationMaps::geometric(frame, &work.linear_constraint_forces, x);
             let block = turning_block(&((turned + turned.transpose()) * 0.5));
             assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
         for frame in self.frames.carried() {
-            Frames::geometric_of_carried(
+            RotationMaps::geometric_of_carried(
                 frame,
                 &work.linear_constraint_forces,
                 x,
@@ -364,7 +364,7 @@ impl<const D: usize> System<D> {
         let (axes, assembly) = (spin * spin, &self.elimination.assembly);
         let linear = (&self.chains[..], &self.lumped_masses[..]);
         add_mass(linear, &axes, assembly, matrix);
-        for (node, part, mass) in self.frames.list().iter().flat_map(Frame::masses) {
+        for (node, part, mass) in self.frames.list().iter().flat_map(RigidBodyFrame::masses) {
             let mut block = no_block();
             for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
                 block[part][r][part][c] = mass * axes[(r, c)];
@@ -420,7 +420,7 @@ impl<const D: usize> System<D> {
             sum +=
                 at.norm_squared() * N::of(lump.moved()) + on.norm_squared() * N::of(lump.inertia);
         }
-        for (node, part, mass) in self.frames.list().iter().flat_map(Frame::masses) {
+        for (node, part, mass) in self.frames.list().iter().flat_map(RigidBodyFrame::masses) {
             sum += map(x[node][part].into()).norm_squared() * N::of(mass);
         }
         N::of(0.5) * sum
@@ -439,7 +439,10 @@ pub(in crate::system) fn add_mass<const D: usize>(
         chain.add_mass(axes, assembly, matrix);
     }
     for lump in lumped_masses {
-        let ends = [End::Body(lump.marker), End::Ground(Vector::zeros())];
+        let ends = [
+            Attachment::Body(lump.marker),
+            Attachment::Ground(Vector::zeros()),
+        ];
         for (part, size) in [lump.moved(), lump.inertia].into_iter().enumerate() {
             let (k, zero) = (axes * size, SMatrix::zeros());
             coupling(

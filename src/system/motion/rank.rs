@@ -21,7 +21,7 @@ const SMALL: f64 = 1e-3;
 
 /// Joints, motions and ports by their index, and bodies that joints keep rigid.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Held {
+pub struct HoldingParts {
     /// Joints, motions and ports.
     pub holders: Vec<usize>,
     /// Rigid bodies.
@@ -32,14 +32,14 @@ pub struct Held {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Redundant {
     /// Exactly.
-    pub exactly: Held,
+    pub exactly: HoldingParts,
     /// Nearly: accelerations and multipliers are found as if these were not there.
-    pub nearly: Held,
+    pub nearly: HoldingParts,
 }
 
 /// What has been said of a constraint that does not count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Word {
+enum ConstraintRemark {
     /// Nothing.
     None,
     /// It is to be told.
@@ -51,7 +51,7 @@ enum Word {
 /// Constraints that did not count at a state that was accepted, though they are not redundant.
 #[derive(Clone, Debug)]
 pub struct RankWatch {
-    words: Vec<Word>,
+    words: Vec<ConstraintRemark>,
     /// When the first of those that are to be told did not count, s.
     time: Option<f64>,
     /// Which constraints counted where most of them did, and how many.
@@ -69,7 +69,7 @@ impl RankWatch {
     /// For so many constraints and coordinates.
     pub fn new(constraints: usize, coordinates: usize) -> Self {
         Self {
-            words: vec![Word::None; constraints],
+            words: vec![ConstraintRemark::None; constraints],
             time: None,
             counted: vec![false; constraints],
             most: 0,
@@ -179,7 +179,8 @@ impl<const D: usize> System<D> {
         }
         for row in 0..self.constraints.len() {
             let is_released = self.constraints[row].is_released(&work.released);
-            let is_told = watch.words[row] != Word::None || jacobian.is_independent(row);
+            let is_told =
+                watch.words[row] != ConstraintRemark::None || jacobian.is_independent(row);
             if is_told || is_released {
                 continue;
             }
@@ -187,7 +188,7 @@ impl<const D: usize> System<D> {
                 || jacobian.may_leave(row, EXACT)
                     && jacobian.part_left(row, &mut watch.rest) > EXACT;
             if is_near {
-                watch.words[row] = Word::Due;
+                watch.words[row] = ConstraintRemark::Due;
                 watch.time.get_or_insert(time);
             }
         }
@@ -226,18 +227,18 @@ impl<const D: usize> System<D> {
     }
 
     /// What did not count at accepted states since the last call, but for what was told before, and since when (s).
-    pub fn newly_singular(&self, work: &mut Workspace<D>) -> Option<(f64, Held)> {
+    pub fn newly_singular(&self, work: &mut Workspace<D>) -> Option<(f64, HoldingParts)> {
         let watch = &mut work.rank;
         let time = watch.time.take()?;
         let words = &watch.words;
-        let rows = |word: Word| (0..words.len()).filter(move |row| words[*row] == word);
-        let mut due = self.holding(rows(Word::Due));
-        let told = self.holding(rows(Word::Told));
+        let rows = |word: ConstraintRemark| (0..words.len()).filter(move |row| words[*row] == word);
+        let mut due = self.holding(rows(ConstraintRemark::Due));
+        let told = self.holding(rows(ConstraintRemark::Told));
         due.holders.retain(|holder| !told.holders.contains(holder));
         due.bodies.retain(|body| !told.bodies.contains(body));
         for word in &mut watch.words {
-            if *word == Word::Due {
-                *word = Word::Told;
+            if *word == ConstraintRemark::Due {
+                *word = ConstraintRemark::Told;
             }
         }
         (!due.holders.is_empty() || !due.bodies.is_empty()).then_some((time, due))
@@ -267,7 +268,7 @@ impl<const D: usize> System<D> {
             }
             if left > EXACT {
                 basis.push(rest.iter().map(|rest| rest / left).collect());
-                work.rank.words[row] = Word::Told;
+                work.rank.words[row] = ConstraintRemark::Told;
                 nearly.push(row);
             } else {
                 exactly.push(row);
@@ -300,7 +301,7 @@ impl<const D: usize> System<D> {
     }
 
     /// What is held by others at a state but for less than a part, relative, and not everywhere.
-    pub fn held_within(&self, part: f64, state: &State, work: &mut Workspace<D>) -> Held {
+    pub fn held_within(&self, part: f64, state: &State, work: &mut Workspace<D>) -> HoldingParts {
         let rows = self.dependent(part, state, work);
         let mut held = self.holding(rows);
         (held.holders).retain(|holder| !self.redundant.contains(holder));
@@ -327,8 +328,8 @@ impl<const D: usize> System<D> {
     }
 
     /// What constraints belong to.
-    fn holding(&self, rows: impl IntoIterator<Item = usize>) -> Held {
-        let mut held = Held::default();
+    fn holding(&self, rows: impl IntoIterator<Item = usize>) -> HoldingParts {
+        let mut held = HoldingParts::default();
         for row in rows {
             let constraint = &self.constraints[row];
             match (constraint.joint, &constraint.kind) {

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use crate::body::{Articulated, Frame, Link, no_node};
+use crate::body::{Articulated, Link, RigidBodyFrame, no_node};
 use crate::math::space::{Vector, components, moment};
-use crate::system::end::End;
+use crate::system::end::Attachment;
 use crate::system::joints::{Constraint, ConstraintKind, LinearConstraint, Target, View};
 use crate::system::{System, Workspace};
 
@@ -17,7 +17,7 @@ use crate::system::{System, Workspace};
 struct Pin<const D: usize> {
     /// Its rows, one an axis, and the link that they hold: whether it is of the second end.
     rows: [usize; 3],
-    ends: [End<D>; 2],
+    ends: [Attachment<D>; 2],
     is_second: bool,
 }
 
@@ -36,7 +36,7 @@ struct Pair<const D: usize> {
     bodies: [Option<usize>; 2],
     pins: Vec<usize>,
     turns: Vec<usize>,
-    ends: Option<[End<D>; 2]>,
+    ends: Option<[Attachment<D>; 2]>,
 }
 
 impl<const D: usize> Tree<D> {
@@ -44,7 +44,7 @@ impl<const D: usize> Tree<D> {
     pub fn of(system: &System<D>) -> Option<Self> {
         let frames = system.frames.list();
         let is_whole = system.coordinates() == 6 * frames.len() && system.driven.is_empty();
-        let turns = |frame: &Frame| frame.places.iter().all(Option::is_some);
+        let turns = |frame: &RigidBodyFrame| frame.places.iter().all(Option::is_some);
         if frames.is_empty() || !is_whole || !frames.iter().all(turns) {
             return None;
         }
@@ -145,7 +145,7 @@ fn center<const D: usize>(system: &System<D>, frame: usize, y: &mut [f64]) -> Op
 }
 
 /// Components of a point along the axes of its body, m.
-fn arm<const D: usize>(end: &End<D>) -> [f64; 3] {
+fn arm<const D: usize>(end: &Attachment<D>) -> [f64; 3] {
     end.marker()
         .map_or([0.0; 3], |marker| marker.components()[0].into())
 }
@@ -213,7 +213,7 @@ fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
 }
 
 /// The rigid body that an end is on; of the ground there is none. Nothing where it is something else.
-fn body<const D: usize>(system: &System<D>, end: &End<D>) -> Option<Option<usize>> {
+fn body<const D: usize>(system: &System<D>, end: &Attachment<D>) -> Option<Option<usize>> {
     let Some(marker) = end.marker() else {
         return Some(None);
     };
@@ -226,8 +226,8 @@ fn body<const D: usize>(system: &System<D>, end: &End<D>) -> Option<Option<usize
 /// Whether a row holds a point of the second end at that of the first, along this axis.
 fn holds_point<const D: usize>(held: &LinearConstraint<D>, axis: usize) -> bool {
     let start = match held.ends[0] {
-        End::Ground(point) => point.get(axis).copied(),
-        End::Body(_) => Some(0.0),
+        Attachment::Ground(point) => point.get(axis).copied(),
+        Attachment::Body(_) => Some(0.0),
     };
     let unit = |sign: f64| Vector::<D>::from_fn(|i, _| if i == axis { sign } else { 0.0 });
     let is_fixed = start.is_some_and(|start| held.target == Target::Fixed(start));
@@ -308,7 +308,7 @@ impl<const D: usize> System<D> {
         &self,
         view: &View<'_, D>,
         right: &mut [f64],
-        of_point: impl Fn(&End<D>) -> Vector<D>,
+        of_point: impl Fn(&Attachment<D>) -> Vector<D>,
         of_other: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
         is_position: bool,
     ) {

@@ -10,7 +10,7 @@ use crate::body::Marker;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, moment};
 use crate::system::System;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 use crate::system::joints::Clamp;
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -37,7 +37,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         let is_on = |marker: &Marker| [clamp.line.nodes[0], clamp.frame].contains(&marker.nodes[0]);
         self.each_force(system, (is_on, |_| false), |end, [position, direction]| {
-            if let End::Body(marker) = end
+            if let Attachment::Body(marker) = end
                 && [clamp.line.nodes[0], clamp.frame].contains(&marker.nodes[0])
             {
                 force -= position;

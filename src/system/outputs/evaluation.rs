@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Frame, Marker, Node, RodChain, axes_at, combined, spin_at};
+use crate::body::{Marker, Node, RigidBodyFrame, RodChain, axes_at, combined, spin_at};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::rotation::{NO_TURN, Quaternion};
@@ -10,7 +10,7 @@ use crate::math::space::{Vector, axis, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
 use crate::system::motion::forces::weighted;
-use crate::system::{End, LineChain, Model, State, System, Workspace};
+use crate::system::{Attachment, DrivenSystem, LineChain, State, System, Workspace};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
@@ -118,7 +118,7 @@ impl<const D: usize> Evaluation<D> {
     ) {
         self.set_inputs(inputs, slopes);
         let mut a = std::mem::take(&mut work.a);
-        let mut model = Model::new(system, inputs, work, state).moving(slopes);
+        let mut model = DrivenSystem::new(system, inputs, work, state).moving(slopes);
         model.accelerate(state.time, &state.coordinates, &state.rates, &mut a);
         system.linear_constraint_forces(&a, work);
         work.a = a;
@@ -167,7 +167,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn spin(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
         let node = marker.nodes[0];
         if !system.frames.has_axes(node) {
-            let spin = End::<D, N>::Body(marker.lift()).spin(&self.x, &self.v);
+            let spin = Attachment::<D, N>::Body(marker.lift()).spin(&self.x, &self.v);
             return [N::of(0.0), N::of(0.0), spin];
         }
         let spin = spin_at(node, &self.x, &self.v);
@@ -179,7 +179,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (x, v, a) = (&self.x, &self.v, &self.acceleration);
         let node = marker.nodes[0];
         if !system.frames.has_axes(node) {
-            let rate = End::<D, N>::Body(marker.lift()).spin_rate(x, v, a);
+            let rate = Attachment::<D, N>::Body(marker.lift()).spin_rate(x, v, a);
             return [N::of(0.0), N::of(0.0), rate];
         }
         // Half the sum of e x e'', of which w x (w x e) gives nothing.
@@ -320,7 +320,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             add(x, p, true);
             add(d, s, false);
         }
-        for (node, part, mass) in system.frames.list().iter().flat_map(Frame::masses) {
+        for (node, part, mass) in system.frames.list().iter().flat_map(RigidBodyFrame::masses) {
             let [x, v] = [&self.x, &self.v].map(|of| Vector::from(of[node][part]));
             add(x, v * N::of(mass), system.is_center(node, part));
         }

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::evaluation::Evaluation;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, moment};
-use crate::system::loads::Load;
-use crate::system::{End, System};
+use crate::system::loads::AppliedLoad;
+use crate::system::{Attachment, System};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force (N) and moment (N m), in the plane its third component, of a joint or motion on its second end.
@@ -38,7 +38,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             }
         }
         if let Some(load) = system.joints[joint].spring
-            && let Load::JointSpring(spring) = &system.loads[load]
+            && let AppliedLoad::JointSpring(spring) = &system.loads[load]
         {
             let pair = spring.coordinate.gradient(&self.x);
             let (end, [_, direction]) = &pair.ends[1];
@@ -59,11 +59,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
         let (at, zero) = (self.instant(system), N::of(0.0));
         match &system.loads[load] {
-            Load::Bushing(coupling) => (coupling.force(at), [zero; 3]),
-            Load::RotationalBushing(coupling) => {
+            AppliedLoad::Bushing(coupling) => (coupling.force(at), [zero; 3]),
+            AppliedLoad::RotationalBushing(coupling) => {
                 (Vector::zeros(), [zero, zero, coupling.moment(at)])
             }
-            Load::OrientationBushing(coupling) => (Vector::zeros(), coupling.moment(at).into()),
+            AppliedLoad::OrientationBushing(coupling) => {
+                (Vector::zeros(), coupling.moment(at).into())
+            }
             _ => (Vector::zeros(), [zero; 3]),
         }
     }
@@ -73,18 +75,18 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn exerted(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
         let (load, at) = (&system.loads[load], self.instant(system));
         let (mut force, mut turning) = (Vector::zeros(), Vector3::zeros());
-        if let Load::Contact(contact) = load {
+        if let AppliedLoad::Contact(contact) = load {
             return (contact.whole(at), turning.into());
         }
-        let Some(End::Body(second)) = load.ends().last().copied() else {
+        let Some(Attachment::Body(second)) = load.ends().last().copied() else {
             return (force, turning.into());
         };
         load.act(at, |end, [position, direction]| {
-            if *end == End::Body(second.lift()) {
+            if *end == Attachment::Body(second.lift()) {
                 force += position;
             }
             // Along other axes of the same body too.
-            if let End::Body(marker) = end
+            if let Attachment::Body(marker) = end
                 && (marker.body, marker.nodes) == (second.body, second.nodes)
             {
                 turning += Vector3::from(moment(&end.direction(&self.x), &direction));
@@ -98,7 +100,7 @@ impl<const D: usize> Evaluation<D> {
     /// Force per reference length of a contact along a body at a material coordinate, N/m.
     pub fn contact(&self, system: &System<D>, load: usize, s: f64) -> Vector<D> {
         match &system.loads[load] {
-            Load::Contact(contact) => contact.nearest(self.instant(system), s),
+            AppliedLoad::Contact(contact) => contact.nearest(self.instant(system), s),
             _ => Vector::zeros(),
         }
     }

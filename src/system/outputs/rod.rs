@@ -11,16 +11,16 @@ use crate::body::Marker;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, carried, moment};
-use crate::system::end::End;
+use crate::system::end::Attachment;
 use crate::system::loads::PANELS;
-use crate::system::{Rod, System};
+use crate::system::{RigidRod, System};
 
 /// Part of the length of a rod within which what acts is at one place.
 const ROUNDOFF: f64 = 1e-9;
 
 /// A part of a rod; places are counted from its middle, m.
 #[derive(Clone, Copy)]
-struct Part {
+struct RodPart {
     /// Where it begins and ends.
     ends: [f64; 2],
     /// Between which places what acts at a point acts on it.
@@ -28,7 +28,7 @@ struct Part {
 }
 
 /// A marker of a rod.
-struct Section {
+struct RodSection {
     /// Its place, m from the middle.
     at: f64,
     /// Half the length, m.
@@ -37,8 +37,8 @@ struct Section {
     near: f64,
 }
 
-impl Section {
-    fn new(rod: &Rod, marker: &Marker) -> Self {
+impl RodSection {
+    fn new(rod: &RigidRod, marker: &Marker) -> Self {
         Self {
             at: marker.offset(),
             half: 0.5 * rod.length,
@@ -53,9 +53,14 @@ type Forces<const D: usize, N> = [Vector<D, N>; 2];
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force that the part of a rod before a marker exerts on the part after it, N. What acts at the marker counts with
     /// what comes after.
-    pub(super) fn rod_force(&self, system: &System<D>, rod: &Rod, marker: &Marker) -> Vector<D, N> {
-        let Section { at, half, near } = Section::new(rod, marker);
-        let before = Part {
+    pub(super) fn rod_force(
+        &self,
+        system: &System<D>,
+        rod: &RigidRod,
+        marker: &Marker,
+    ) -> Vector<D, N> {
+        let RodSection { at, half, near } = RodSection::new(rod, marker);
+        let before = RodPart {
             ends: [-half, at],
             acts: [f64::NEG_INFINITY, at - near],
         };
@@ -66,12 +71,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub(super) fn rod_section(
         &self,
         system: &System<D>,
-        rod: &Rod,
+        rod: &RigidRod,
         marker: &Marker,
     ) -> (Vector<D, N>, [N; 3]) {
-        let Section { at, half, near } = Section::new(rod, marker);
+        let RodSection { at, half, near } = RodSection::new(rod, marker);
         let is_last = at > half - near;
-        let after = Part {
+        let after = RodPart {
             ends: [at, half],
             acts: [if is_last { at - near } else { at + near }, f64::INFINITY],
         };
@@ -80,14 +85,19 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Force, N, and moment about where it begins, N m, on a part of a rod, less its inertia.
-    fn on_part(&self, system: &System<D>, rod: &Rod, part: Part) -> (Vector<D, N>, Vector3<N>) {
+    fn on_part(
+        &self,
+        system: &System<D>,
+        rod: &RigidRod,
+        part: RodPart,
+    ) -> (Vector<D, N>, Vector3<N>) {
         let along = self.along(rod);
         let (mut force, mut turning) = self.spread(system, rod, part.ends);
         let [first, last] = part.acts;
         let is_on = |marker: &Marker| marker.nodes[0] == rod.node;
         let is_its_own = |mass: usize| mass == rod.mass;
         self.each_force(system, (is_on, is_its_own), |end, [position, direction]| {
-            if let End::Body(marker) = end
+            if let Attachment::Body(marker) = end
                 && marker.nodes[0] == rod.node
                 && (first..last).contains(&marker.offset().plain())
             {
@@ -101,7 +111,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Direction of a rod.
-    fn along(&self, rod: &Rod) -> Vector<D, N> {
+    fn along(&self, rod: &RigidRod) -> Vector<D, N> {
         self.x[rod.node][1].into()
     }
 
@@ -110,7 +120,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     fn spread(
         &self,
         system: &System<D>,
-        rod: &Rod,
+        rod: &RigidRod,
         [from, to]: [f64; 2],
     ) -> (Vector<D, N>, Vector3<N>) {
         let own = &system.lumped_masses[rod.mass];
@@ -131,7 +141,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     fn changing_spread(
         &self,
         system: &System<D>,
-        rod: &Rod,
+        rod: &RigidRod,
         [from, to]: [f64; 2],
     ) -> [Vector<D, N>; 2] {
         let [mut force, mut turning] = [Vector::zeros(); 2];
@@ -175,7 +185,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         &self,
         system: &System<D>,
         (is_on, is_own): (impl Fn(&Marker) -> bool, impl Fn(usize) -> bool),
-        mut call: impl FnMut(&End<D, N>, Forces<D, N>),
+        mut call: impl FnMut(&Attachment<D, N>, Forces<D, N>),
     ) {
         for (index, lump) in system.lumped_masses.iter().enumerate() {
             if !is_own(index) && is_on(&lump.marker) {
@@ -184,7 +194,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 let weight = system.gravity.map(N::of) * N::of(lump.mass);
                 let force = weight - position * N::of(lump.moved());
                 call(
-                    &End::Body(marker),
+                    &Attachment::Body(marker),
                     [force, -direction * N::of(lump.inertia)],
                 );
             }
@@ -197,7 +207,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let Some(joint) = linear.joint.map(|joint| &system.joints[joint]) else {
                 continue;
             };
-            if !joint.ends.iter().filter_map(End::marker).any(&is_on) {
+            if !joint.ends.iter().filter_map(Attachment::marker).any(&is_on) {
                 continue;
             }
             let lambda = system.row_multiplier(row, &self.linear_constraint_forces);
@@ -218,7 +228,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
 impl<const D: usize> System<D> {
     /// The rod that a marker is on.
-    pub(super) fn rod(&self, marker: &Marker) -> Option<&Rod> {
+    pub(super) fn rod(&self, marker: &Marker) -> Option<&RigidRod> {
         self.rods.iter().find(|rod| rod.node == marker.nodes[0])
     }
 }

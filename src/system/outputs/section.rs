@@ -16,9 +16,9 @@ use super::evaluation::Evaluation;
 use crate::body::Marker;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
-use crate::math::quadrature::{GAUSS_3, GAUSS_5, Point, integrals_to};
+use crate::math::quadrature::{GAUSS_3, GAUSS_5, QuadraturePoint, integrals_to};
 use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
-use crate::system::loads::{self, Load, Values};
+use crate::system::loads::{self, AppliedLoad, Values};
 use crate::system::{LineChain, System};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -111,7 +111,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         };
         // Gauss's rule is exact to degree 5; the part of degree 6 is of that order in the length. Loads that change along the
         // element ask for degree 7.
-        let rule: &[Point] = match changing {
+        let rule: &[QuadraturePoint] = match changing {
             Some(_) => &GAUSS_5,
             None => &GAUSS_3,
         };
@@ -176,7 +176,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let at = self.instant(system);
         let mut sum = Vector::zeros();
         for load in &system.loads {
-            if let Load::DistributedForce(load) = load
+            if let AppliedLoad::DistributedForce(load) = load
                 && load.first_node(&system.chains) == first
             {
                 sum += load.uniform(at);
@@ -214,7 +214,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (at, first) = (self.instant(system), chain.nodes(0)[0]);
         let mut sum: Option<Values<3, N>> = None;
         for load in &system.loads {
-            let Load::DistributedMoment(load) = load else {
+            let AppliedLoad::DistributedMoment(load) = load else {
                 continue;
             };
             if system.rod_chains[load.on].line() == first {

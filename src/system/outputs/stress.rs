@@ -13,7 +13,7 @@ use crate::system::System;
 
 /// A point of a section whose stress is read: stress by force and moments.
 #[derive(Clone, Copy, Debug)]
-pub struct SectionPoint {
+pub struct StressPoint {
     /// Where the section is.
     pub marker: Marker,
     /// Normal stress by the force across the section, 1/m^2.
@@ -26,7 +26,7 @@ pub struct SectionPoint {
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Normal stress at a point of a section, Pa.
-    pub fn stress(&self, system: &System<D>, point: &SectionPoint) -> N {
+    pub fn stress(&self, system: &System<D>, point: &StressPoint) -> N {
         let (force, moment) = self.cut(system, &point.marker);
         let [normal, first, second] = self.section_axes(system, &point.marker);
         let moment = Vector3::from(moment);
@@ -37,7 +37,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Shear stress by torsion at a point of a section, Pa.
-    pub fn torsion_stress(&self, system: &System<D>, point: &SectionPoint) -> N {
+    pub fn torsion_stress(&self, system: &System<D>, point: &StressPoint) -> N {
         let (_, moment) = self.cut(system, &point.marker);
         let [normal, ..] = self.section_axes(system, &point.marker);
         normal.dot(&Vector3::from(moment)) * N::of(point.by_torque)

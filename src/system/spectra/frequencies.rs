@@ -2,7 +2,7 @@
 
 use crate::math::eigen::symmetric_eigenvalues;
 use crate::math::vector::{dot, norm};
-use crate::system::{Dynamics, Model, State, System, Workspace};
+use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// Steps of the Lanczos iteration, and what is added to its largest value, which it nears from below.
 const STEPS: usize = 40;
@@ -20,7 +20,7 @@ pub fn fastest<const D: usize>(
 ) -> (f64, f64) {
     let n = state.rates.len();
     let rest = vec![0.0; n];
-    Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
+    DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     let (tangent, elimination) = (&mut work.tangent, &system.elimination);
     let stiffest = largest_eigenvalue(n, |x| tangent.apply_stiffness(elimination, x));
     let decay = if system.is_damped {

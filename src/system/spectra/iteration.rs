@@ -38,7 +38,7 @@ const DENSER: usize = 4;
 
 /// Why eigenvalues were not found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum NotFound {
+pub(super) enum NoEigenvalues {
     /// Numbers that are not finite.
     NotFinite,
     /// Not all of so many.
@@ -52,10 +52,10 @@ pub(super) fn lowest<const D: usize>(
     work: &mut Workspace<D>,
     linear: &Linearization<'_, D>,
     count: usize,
-) -> Result<Vec<Mode>, NotFound> {
+) -> Result<Vec<Mode>, NoEigenvalues> {
     let modes = linear.modes();
     let scale = scale(system, work, count)?;
-    let missing = NotFound::Missing(count);
+    let missing = NoEigenvalues::Missing(count);
     let mut shift = -0.1 * scale;
     let is_below = |shift: f64, work: &mut Workspace<D>| below(system, work, shift) == Some(0);
     for _ in 0..2 * DECADES {
@@ -84,7 +84,7 @@ pub(super) fn lowest<const D: usize>(
         if krylov.size() > TIMES * count + BASIS {
             return Err(missing);
         }
-        let ritz = krylov.symmetric().ok_or(NotFound::NotFinite)?;
+        let ritz = krylov.symmetric().ok_or(NoEigenvalues::NotFinite)?;
         let found: Vec<f64> = certain(&ritz)
             .map(|ritz| shift + 1.0 / ritz.value.re)
             .collect();
@@ -96,7 +96,7 @@ pub(super) fn lowest<const D: usize>(
             None => {}
             Some((at, number)) => match below(system, work, at) {
                 Some(present) if present == number && linear.holds(krylov.basis()) => {
-                    return in_basis(linear, krylov.basis()).ok_or(NotFound::NotFinite);
+                    return in_basis(linear, krylov.basis()).ok_or(NoEigenvalues::NotFinite);
                 }
                 // A multiple eigenvalue has so far been seen less often than it is there.
                 Some(present) if present > number => krylov.start(),
@@ -154,12 +154,12 @@ fn scale<const D: usize>(
     system: &System<D>,
     work: &mut Workspace<D>,
     count: usize,
-) -> Result<f64, NotFound> {
+) -> Result<f64, NoEigenvalues> {
     let n = system.coordinates();
     let tangent = &mut work.tangent;
     let largest = largest_eigenvalue(n, |x| tangent.apply_stiffness(&system.elimination, x));
     if !largest.is_finite() {
-        return Err(NotFound::NotFinite);
+        return Err(NoEigenvalues::NotFinite);
     }
     let largest = if largest > 0.0 { largest } else { 1.0 };
     let (mut few, mut enough) = (-DECADES, 1);
@@ -183,10 +183,10 @@ pub(super) fn slowest_conservative<const D: usize>(
     work: &mut Workspace<D>,
     linear: &Linearization<'_, D>,
     count: usize,
-) -> Result<Vec<Complex<f64>>, NotFound> {
+) -> Result<Vec<Complex<f64>>, NoEigenvalues> {
     // Unstable modes come first, however fast they are. At zero itself what joints alone hold has no pivots.
     let zero = -SLOW * scale(system, work, count.min(linear.modes()))?;
-    let unstable = below(system, work, zero).ok_or(NotFound::Missing(count))?;
+    let unstable = below(system, work, zero).ok_or(NoEigenvalues::Missing(count))?;
     let wanted = linear.modes().min(count + unstable);
     let modes = lowest(system, work, linear, wanted)?;
     let mut squares: Vec<f64> = modes.iter().map(|mode| mode.square).collect();
@@ -204,8 +204,8 @@ pub(super) fn slowest<const D: usize>(
     work: &mut Workspace<D>,
     linear: &Linearization<'_, D>,
     count: usize,
-) -> Result<Vec<Complex<f64>>, NotFound> {
-    let missing = NotFound::Missing(count);
+) -> Result<Vec<Complex<f64>>, NoEigenvalues> {
+    let missing = NoEigenvalues::Missing(count);
     let rate = scale(system, work, count.min(linear.modes()))?.sqrt();
     let shift = 0.3 * rate;
     let mut shifted = linear.shifted(shift).ok_or(missing)?;
@@ -244,7 +244,7 @@ pub(super) fn slowest<const D: usize>(
         if krylov.size() > 2 * TIMES * count + BASIS {
             return Err(missing);
         }
-        let ritz = krylov.general().ok_or(NotFound::NotFinite)?;
+        let ritz = krylov.general().ok_or(NoEigenvalues::NotFinite)?;
         let (found, beyond) = surely_slowest(&ritz, shift);
         if found.len() < count {
             continue;

@@ -14,9 +14,9 @@
 
 use nalgebra::{DMatrix, Vector3};
 
-use super::probe::{Blocks, Nodes, Probe, SKEW};
+use super::probe::{NodeBlocks, Nodes, Probe, SKEW};
 use super::rods::RodElastic;
-use crate::body::{Elimination, Frames, Node, SparseRows, no_block, no_node, turning_block};
+use crate::body::{Elimination, Node, RotationMaps, SparseRows, no_block, no_node, turning_block};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number};
 use crate::math::space::{Vector, spin_matrix, spun};
@@ -256,7 +256,7 @@ impl<const D: usize> System<D> {
         for frame in self.frames.list() {
             let node = (frame.node, frame.node);
             let spin = frame.spin(&work.x, &work.v);
-            let turned = Frames::geometric(frame, &work.linear_constraint_forces, &work.x);
+            let turned = RotationMaps::geometric(frame, &work.linear_constraint_forces, &work.x);
             // At rest without the moment that speeds the body up, which is none in equilibrium.
             let turned = match spin == Vector3::zeros() {
                 true => (turned + turned.transpose()) * 0.5,
@@ -356,8 +356,8 @@ impl<const D: usize> System<D> {
                     .fixed_view_mut::<D, D>(at, at)
                     .copy_from(&(coriolis * mass));
             }
-            let by_rates = Blocks::new(&nodes, whole);
-            let mut blocks = Blocks::new(&[frame.node], DMatrix::zeros(2 * D, 2 * D));
+            let by_rates = NodeBlocks::new(&nodes, whole);
+            let mut blocks = NodeBlocks::new(&[frame.node], DMatrix::zeros(2 * D, 2 * D));
             blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
             blocks.add(assembly, &mut made.stiffness, &mut none);
             let by_rates = by_rates.pulled(&self.frames, &work.x);
@@ -371,7 +371,7 @@ impl<const D: usize> System<D> {
         work: &Workspace<D>,
         (constraint, lambda): (&Constraint<D>, f64),
         probe: &mut Probe<D>,
-    ) -> Blocks {
+    ) -> NodeBlocks {
         let lift = |x: &f64| Jet::from_re(*x);
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
         let angles: Vec<Jet> = work.angles.iter().map(lift).collect();

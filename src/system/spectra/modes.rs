@@ -3,11 +3,11 @@
 use nalgebra::DMatrix;
 
 use super::dense::ROUNDOFF;
-use super::iteration::{self, NotFound, SLOW};
+use super::iteration::{self, NoEigenvalues, SLOW};
 use super::linearization::Linearization;
 use super::spectrum::{MIDDLE, SpectrumError, at_rest, is_small};
 use crate::body::no_node;
-use crate::system::{Dynamics, Model, State, System, Workspace};
+use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// A natural mode without dampers.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,10 +68,12 @@ pub fn modes<const D: usize>(
     }
     let found = match linear.is_symmetric && !system.is_turning() {
         true => iteration::lowest(system, work, &linear, count),
-        false => Err(NotFound::Missing(count)),
+        false => Err(NoEigenvalues::Missing(count)),
     };
     match found {
-        Err(NotFound::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => all(&linear),
+        Err(NoEigenvalues::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
+            all(&linear)
+        }
         found => Ok(found?),
     }
 }
@@ -85,7 +87,7 @@ pub fn damping_along<const D: usize>(
     ways: &[Vec<f64>],
 ) -> Vec<f64> {
     let rest = vec![0.0; state.rates.len()];
-    Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
+    DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     // What is driven stands still too.
     work.v.fill(no_node());
     let linear = system.linearization(state.time, work, false);

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::body::{Assembly, Frames, Node, NodeBlock, map_node, no_block};
+use crate::body::{Assembly, Node, NodeBlock, RotationMaps, map_node, no_block};
 use crate::elements;
 use crate::math::jet::Jet;
 use crate::math::sparse::General;
@@ -35,7 +35,7 @@ impl<const D: usize> Probe<D> {
         nodes: &[usize],
         by_rates: bool,
         force: &dyn Fn(&Nodes<D>, &Nodes<D>, &mut Nodes<D>),
-    ) -> Blocks {
+    ) -> NodeBlocks {
         let mut nodes = nodes.to_vec();
         nodes.sort_unstable();
         nodes.dedup();
@@ -57,7 +57,7 @@ impl<const D: usize> Probe<D> {
                 }
             }
         }
-        Blocks { nodes, whole }
+        NodeBlocks { nodes, whole }
     }
 }
 
@@ -73,12 +73,12 @@ fn part<const D: usize>(whole: &DMatrix<f64>, i: usize, j: usize) -> NodeBlock<D
 }
 
 /// A matrix over a few nodes.
-pub(super) struct Blocks {
+pub(super) struct NodeBlocks {
     nodes: Vec<usize>,
     whole: DMatrix<f64>,
 }
 
-impl Blocks {
+impl NodeBlocks {
     /// The matrix over two nodes, vector by vector.
     pub(super) fn vectors<const D: usize>(&self) -> elements::Blocks<D> {
         let part = |r: usize, c: usize| self.whole.fixed_view::<D, D>(r * D, c * D).into();
@@ -92,7 +92,7 @@ impl Blocks {
     }
 
     /// The same over the coordinates of bodies, at this configuration: rotations in place of axes.
-    pub(super) fn pulled<const D: usize>(self, frames: &Frames, x: &[Node<D>]) -> Self {
+    pub(super) fn pulled<const D: usize>(self, frames: &RotationMaps, x: &[Node<D>]) -> Self {
         if frames.is_empty() {
             return self;
         }
@@ -108,7 +108,7 @@ impl Blocks {
     pub(super) fn add_turned<const D: usize>(
         &mut self,
         by_rates: &Self,
-        frames: &Frames,
+        frames: &RotationMaps,
         (x, v): (&[Node<D>], &[Node<D>]),
     ) {
         if frames.is_empty() {

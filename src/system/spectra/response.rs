@@ -1,7 +1,7 @@
 //! Slow responses about a state: displacements that grow as `e^(s t)` under forces that do.
 
 use crate::body::no_node;
-use crate::system::{Dynamics, Model, State, System, Workspace};
+use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// Solves `(s^2 I + K) d = a` for accelerations `a` that forces make at a state, without dampers and rates; `rate` is `s`, 1/s. Where
 /// `s` is far below all natural frequencies `d` is the static answer; what nothing holds moves by its inertia.
@@ -15,7 +15,7 @@ pub fn slow_response<const D: usize>(
     accelerations: &mut [f64],
 ) -> bool {
     let rest = vec![0.0; state.rates.len()];
-    Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
+    DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     // What is driven stands still too.
     work.v.fill(no_node());
     let linear = system.linearization(state.time, work, true);

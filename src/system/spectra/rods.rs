@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::linearization::Linearization;
 use super::probe::{Nodes, Probe};
-use crate::body::{Frames, Node, RodChain};
+use crate::body::{Node, RodChain, RotationMaps};
 use crate::elements::beam::VELOCITIES;
 use crate::elements::rod::Tangent;
 use crate::math::sparse::Matrix;
@@ -38,7 +38,7 @@ impl<const D: usize> System<D> {
         let assembly = &self.elimination.assembly;
         let mut stiffness = Matrix::zeros(assembly.pattern());
         for frame in self.frames.carried() {
-            Frames::geometric_of_carried(
+            RotationMaps::geometric_of_carried(
                 frame,
                 &work.linear_constraint_forces,
                 &work.x,

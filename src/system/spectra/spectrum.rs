@@ -4,11 +4,11 @@
 use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
 
 use super::dense::{general, noise, quadratic, roots, sort, symmetric};
-use super::iteration::{self, NotFound};
+use super::iteration::{self, NoEigenvalues};
 use super::linearization::Linearization;
 use crate::body::{Node, add_node, no_node};
 use crate::math::space::{Vector, components};
-use crate::system::{Dynamics, Model, State, System, Workspace};
+use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// Free coordinates up to which all eigenvalues are computed, with dense matrices; and up to which they are
 /// where this many times the number that is wanted exceeds them.
@@ -61,11 +61,11 @@ pub enum SpectrumError {
     NotConverged(usize),
 }
 
-impl From<NotFound> for SpectrumError {
-    fn from(error: NotFound) -> Self {
+impl From<NoEigenvalues> for SpectrumError {
+    fn from(error: NoEigenvalues) -> Self {
         match error {
-            NotFound::NotFinite => Self::NotFinite,
-            NotFound::Missing(wanted) => Self::NotConverged(wanted),
+            NoEigenvalues::NotFinite => Self::NotFinite,
+            NoEigenvalues::Missing(wanted) => Self::NotConverged(wanted),
         }
     }
 }
@@ -93,7 +93,7 @@ fn at<'a, const D: usize>(
     state: &State,
 ) -> Linearization<'a, D> {
     let (q, v) = (&state.coordinates, &state.rates);
-    Model::new(system, inputs, work, state).linearize(state.time, q, v);
+    DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, v);
     system.linearization(state.time, work, false)
 }
 
@@ -124,7 +124,7 @@ pub fn natural_frequencies<const D: usize>(
                 symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
             }
             linear if linear.is_symmetric => match iteration::lowest(system, work, linear, count) {
-                Err(NotFound::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
+                Err(NoEigenvalues::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
                     symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
                 }
                 found => found?.iter().map(|mode| mode.square).collect(),
@@ -198,7 +198,7 @@ pub fn eigenvalues<const D: usize>(
         };
         match found {
             // Eigenvalues that lie next to each other without end, as those of damped material do.
-            Err(NotFound::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
+            Err(NoEigenvalues::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
                 all(&linear)?
             }
             found => found?,
@@ -316,7 +316,7 @@ pub(super) fn at_rest<'a, const D: usize>(
     state: &State,
 ) -> Result<Linearization<'a, D>, SpectrumError> {
     let rest = vec![0.0; state.rates.len()];
-    Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
+    DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     refuse_paid_out(system, work, true)?;
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {

@@ -4,7 +4,7 @@
 use crate::body::{Node, add_node, no_node};
 use crate::math::function::Function;
 use crate::math::space::{Vector, carried};
-use crate::system::loads::Load;
+use crate::system::loads::AppliedLoad;
 use crate::system::signal::Drive;
 use crate::system::{Instant, System, Workspace};
 
@@ -91,7 +91,7 @@ impl<const D: usize> System<D> {
     /// Takes bodies at rest through fluids, as a whole: velocity of the origin, m/s, and angular velocity, rad/s.
     pub(in crate::system) fn carry(&mut self, velocity: Vector<D>, rate: [f64; 3]) {
         for load in &mut self.loads {
-            if let Load::Fluid(fluid) = load {
+            if let AppliedLoad::Fluid(fluid) = load {
                 fluid.carried = (velocity, rate);
             }
         }

@@ -14,8 +14,8 @@ use crate::math::least::Least;
 use crate::math::space::{Vector, spins};
 use crate::system::instant::Instant;
 use crate::system::joints::{ConstraintKind, View};
-use crate::system::loads::Load;
-use crate::system::{Dynamics, LineChain, Model, State, System, Workspace};
+use crate::system::loads::AppliedLoad;
+use crate::system::{DrivenSystem, Dynamics, LineChain, State, System, Workspace};
 
 /// Most iterations.
 const ITERATIONS: usize = 200;
@@ -118,7 +118,7 @@ impl<const D: usize> System<D> {
         work.other.fill(no_node());
         self.rates_of(&mut missing, work, &mut v);
         state.rates = v;
-        let mut model = Model::new(self, inputs, work, state);
+        let mut model = DrivenSystem::new(self, inputs, work, state);
         let holds = model.project(state);
         if holds {
             model.accepted(state);
@@ -301,7 +301,7 @@ impl<const D: usize> System<D> {
         }
         for load in &self.loads {
             // What a coupling turns along with may have turned fully before.
-            if let Load::RotationalBushing(turning) = load {
+            if let AppliedLoad::RotationalBushing(turning) = load {
                 let outside = turning.angle.value(Instant {
                     time: self.now(state.time),
                     inputs,

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equilibrium::Turning;
+use super::equilibrium::SteadyRotation;
 use crate::body::{Node, NodeKind, add_node, carried_node, no_node, product, turn_inner};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins, spun};
@@ -48,9 +48,9 @@ impl<const D: usize> Steady<D> {
     }
 
     /// What it is seen from the turning frame: nothing where it does not turn.
-    pub fn turning(&self) -> Option<Turning<D>> {
+    pub fn turning(&self) -> Option<SteadyRotation<D>> {
         let square: f64 = self.rate.iter().map(|rate| rate * rate).sum();
-        (square != 0.0).then(|| Turning {
+        (square != 0.0).then(|| SteadyRotation {
             rate: self.rate,
             center: spun(self.rate, self.velocity) / square,
         })

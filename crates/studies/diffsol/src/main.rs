@@ -14,7 +14,7 @@ use std::time::Duration;
 use clap::Parser;
 use cpu_time::ThreadTime;
 use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod};
-use flexbody::system::{Dynamics, Model, Workspace};
+use flexbody::system::{Dynamics, DrivenSystem, Workspace};
 
 use outputs::Outputs;
 use scene::{Outcome, Start, at, read};
@@ -66,7 +66,7 @@ impl Right<'_> {
         let (q, v) = y.split_at(y.len() / 2);
         let mut work = self.work.borrow_mut();
         let system = &self.start.assembled.system;
-        let mut model = Model::new(system, &self.start.inputs, &mut work, &self.start.state);
+        let mut model = DrivenSystem::new(system, &self.start.inputs, &mut work, &self.start.state);
         model.acceleration(t, q, v, a);
         *self.accelerations.borrow_mut() += 1;
     }

@@ -4,7 +4,7 @@
 //! Source: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, Eqs. 17 and 25; forces averaged over the
 //! ends of the step: M. Arnold, O. Bruls, Multibody Syst. Dyn. 18 (2007) 185-202, Eq. 2.
 
-use flexbody::integrators::{Attempt, Method, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
 use flexbody::system::Dynamics;
 
 use super::support::newton;
@@ -51,7 +51,7 @@ impl Alpha {
     }
 }
 
-impl Method for Alpha {
+impl OneStepMethod for Alpha {
     fn name(&self) -> &'static str {
         "alpha"
     }

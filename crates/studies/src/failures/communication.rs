@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
-use flexbody::system::{Model, fastest};
+use flexbody::system::{DrivenSystem, fastest};
 use serde_json::{Value, json};
 
 use super::alpha::Alpha;
@@ -189,7 +189,7 @@ pub fn tolerance() -> Outcome<Row> {
     };
     let (frequency, decay) = fastest(system, &[], &mut work, &state);
     let mut rk4 = RungeKutta::new(&RK4, state.rates.len(), frequency, decay);
-    let mut model = Model::new(system, &[], &mut work, &state);
+    let mut model = DrivenSystem::new(system, &[], &mut work, &state);
     let stop = 1e-6;
     let (counts, end) = advance(&mut rk4, &mut model, &mut state, stop, &tight);
     let taken = counts.steps + counts.rejected;

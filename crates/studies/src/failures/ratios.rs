@@ -2,9 +2,9 @@
 
 use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::elements::{Element, Strain};
-use flexbody::system::joints::{Joint, Primitive};
-use flexbody::system::{End, Evaluation, LineChain, Parts, System, Workspace};
+use flexbody::elements::{Element, StrainMeasure};
+use flexbody::system::joints::{JointEquations, Primitive};
+use flexbody::system::{Attachment, Evaluation, LineChain, Parts, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::support::{Row, figure, short};
@@ -30,7 +30,7 @@ fn cables() -> Vec<Cable<2>> {
             line_density,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,
-            strain: Strain::ThetaPrime,
+            strain: StrainMeasure::ThetaPrime,
             inertia: Inertia::Consistent,
         };
         Cable::new(parameters, None)
@@ -48,11 +48,11 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         nodes.push([[at, 0.0], [1.0, 0.0]]);
     }
     let chain = LineChain::new(cables.to_vec(), 0);
-    let pin = Joint {
+    let pin = JointEquations {
         holds: vec![Primitive::Coincident],
         ends: [
-            End::Ground(Vector2::zeros()),
-            End::Body(Marker::inside(0, &chain, 0, 0.0)),
+            Attachment::Ground(Vector2::zeros()),
+            Attachment::Body(Marker::inside(0, &chain, 0, 0.0)),
         ],
         spring: None,
         turn: None,

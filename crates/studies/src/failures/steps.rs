@@ -1,7 +1,7 @@
 //! Integrators at fixed steps: beyond stability, without damping of what they do not resolve, and on a
 //! spurious root of Newton's method.
 
-use flexbody::integrators::Method;
+use flexbody::integrators::OneStepMethod;
 use flexbody::system::fastest;
 use serde_json::{Value, json};
 
@@ -15,7 +15,12 @@ const STEEL: &str = include_str!("../../../../tests/cases/steel_pendulum/scene.j
 const THROWN: &str = include_str!("../../../../tests/cases/free_flight/scene.json");
 
 /// Energy over that at the start, in units of `scale`, where the run ends or has grown hundredfold.
-fn growth(start: &Start, method: Box<dyn Method>, times: [f64; 2], scale: f64) -> Outcome<Figure> {
+fn growth(
+    start: &Start,
+    method: Box<dyn OneStepMethod>,
+    times: [f64; 2],
+    scale: f64,
+) -> Outcome<Figure> {
     let mut reader = Reader::new(start);
     let first = reader.energy(&start.state);
     let (mut most, mut time, mut at) = (0.0_f64, 0.0, f64::NAN);

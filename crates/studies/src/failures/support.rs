@@ -2,10 +2,10 @@
 
 use std::sync::{Arc, Mutex};
 
-use flexbody::integrators::{Attempt, Method, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
 use flexbody::scene::Scene;
 use flexbody::simulation::{Simulation, StepFailure};
-use flexbody::system::{Dynamics, Evaluation, Model, State, StepOutcome, Workspace};
+use flexbody::system::{DrivenSystem, Dynamics, Evaluation, State, StepOutcome, Workspace};
 use nalgebra::{DMatrix, DVector};
 use serde_json::Value;
 
@@ -131,7 +131,7 @@ pub enum After {
 }
 
 /// A method of the studies by its name.
-pub fn named(start: &Start, name: &str) -> Outcome<Box<dyn Method>> {
+pub fn named(start: &Start, name: &str) -> Outcome<Box<dyn OneStepMethod>> {
     let nodes = Arc::new(Mutex::new(start.assembled.nodes.clone()));
     let build_for = Build {
         start,
@@ -146,7 +146,7 @@ pub struct March<'a> {
     /// What moves.
     pub start: &'a Start,
     /// The method.
-    pub method: Box<dyn Method>,
+    pub method: Box<dyn OneStepMethod>,
     /// Step and end, s.
     pub times: [f64; 2],
     /// After every step.
@@ -164,7 +164,7 @@ impl March<'_> {
             position: system.scale(),
             time: 1e-2,
         };
-        let model = Model::new(system, &self.start.inputs, &mut work, &state);
+        let model = DrivenSystem::new(system, &self.start.inputs, &mut work, &state);
         let mut model = Probe::new(model, None);
         if self.after == After::Dependent {
             model = model.partitioned(&state);
@@ -292,7 +292,7 @@ pub fn equilibrium(start: &Start, inputs: &[f64], from: &State) -> Result<State,
     let system = &start.assembled.system;
     let (mut state, mut work) = (from.clone(), start.work.clone());
     let rest = vec![0.0; state.rates.len()];
-    let mut model = Model::new(system, inputs, &mut work, from);
+    let mut model = DrivenSystem::new(system, inputs, &mut work, from);
     newton(&mut state.coordinates, system.scale(), 100, |q, r| {
         model.acceleration(0.0, q, &rest, r);
     })?;

@@ -1,6 +1,6 @@
 //! The product's elimination: clusters by QR, the rest by its sparse Cholesky factor.
 
-use flexbody::body::{Assembly, Elimination, Links, Row};
+use flexbody::body::{Assembly, ConnectivityRow, Elimination, Links};
 use flexbody::math::sparse::Matrix;
 
 use nalgebra::SMatrix;
@@ -16,7 +16,7 @@ pub struct Product {
 
 /// `None` where the mass is not positive.
 pub fn new(rod: &Rod) -> Option<Product> {
-    let held = |along: [f64; 2]| Row {
+    let held = |along: [f64; 2]| ConnectivityRow {
         terms: vec![(0, [along, [0.0; 2]])],
         is_driven: false,
     };

@@ -1,7 +1,7 @@
 //! All exact formulations agree with a dense augmented solve; the printed one does not.
 
 use flexbody::elements::cable::{Inertia, Parameters};
-use flexbody::elements::{Element as _, Strain};
+use flexbody::elements::{Element as _, StrainMeasure};
 use nalgebra::{DMatrix, DVector};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -28,7 +28,7 @@ fn soft(inertia: Inertia) -> Parameters {
         line_density: 5540.0 * 0.0018,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,
-        strain: Strain::ThetaPrime,
+        strain: StrainMeasure::ThetaPrime,
         inertia,
     }
 }

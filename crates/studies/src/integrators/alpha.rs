@@ -6,7 +6,7 @@
 //! M. Arnold, O. Bruls, Multibody Syst. Dyn. 18 (2007) 185-202, Eq. 2. The trapezoidal rule is that of
 //! N. M. Newmark (1959) with beta 1/4, gamma 1/2.
 
-use flexbody::integrators::{Attempt, Method, Tolerance, rescaled};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance, rescaled};
 use flexbody::system::Dynamics;
 
 use super::newton::{Equation, Newton, size};
@@ -119,7 +119,7 @@ impl Equation for Step<'_> {
     }
 }
 
-impl Method for Alpha {
+impl OneStepMethod for Alpha {
     fn name(&self) -> &'static str {
         "alpha"
     }

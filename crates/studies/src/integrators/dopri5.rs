@@ -3,7 +3,7 @@
 //! Source: J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, Table 2 (RK5(4)7M); E. Hairer,
 //! S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., Table II.5.2.
 
-use flexbody::integrators::{Attempt, Method, Tolerance, rescaled};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance, rescaled};
 use flexbody::system::Dynamics;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -67,7 +67,7 @@ impl Dopri5 {
     }
 }
 
-impl Method for Dopri5 {
+impl OneStepMethod for Dopri5 {
     fn name(&self) -> &'static str {
         "dopri5"
     }

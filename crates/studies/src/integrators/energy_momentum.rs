@@ -17,8 +17,8 @@ use std::sync::{Arc, Mutex};
 
 use flexbody::body::{Elimination, Node, no_node};
 use flexbody::elements::{Element, Nodal};
-use flexbody::integrators::{Attempt, Method, Tolerance};
-use flexbody::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
+use flexbody::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, QuadraturePoint};
 use flexbody::scene::Strain;
 use flexbody::system::Dynamics;
 use nalgebra::Vector2;
@@ -37,7 +37,7 @@ pub struct Bar {
     axial_stiffness: f64,
     bending_stiffness: f64,
     strain: Strain,
-    axial: &'static [Point; 3],
+    axial: &'static [QuadraturePoint; 3],
     natural_strain: [f64; 3],
     natural_curvature: [f64; 3],
 }
@@ -54,13 +54,13 @@ fn combine(weights: &[f64; 3], v: &Vectors) -> Vector2<f64> {
     v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2]
 }
 
-fn slope(point: &Point) -> [f64; 3] {
+fn slope(point: &QuadraturePoint) -> [f64; 3] {
     let (at, square) = (point.at, point.at * point.at);
     let ends = [1.0 - 4.0 * at + 3.0 * square, 3.0 * square - 2.0 * at];
     [6.0 * (at - square), ends[0], ends[1]]
 }
 
-fn curvature(point: &Point, length: f64) -> [f64; 3] {
+fn curvature(point: &QuadraturePoint, length: f64) -> [f64; 3] {
     let at = point.at;
     [6.0 - 12.0 * at, 6.0 * at - 4.0, 6.0 * at - 2.0].map(|c| c / length)
 }
@@ -291,7 +291,7 @@ impl Equation for Step<'_> {
     }
 }
 
-impl Method for EnergyMomentum {
+impl OneStepMethod for EnergyMomentum {
     fn name(&self) -> &'static str {
         "energy_momentum"
     }

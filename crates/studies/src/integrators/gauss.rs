@@ -4,7 +4,7 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Table IV.5.2 (method),
 //! section IV.8 (transformation, stopping).
 
-use flexbody::integrators::{Attempt, Method, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
 use flexbody::system::Dynamics;
 use nalgebra::{Complex, Matrix3};
 
@@ -174,7 +174,7 @@ impl Gauss {
     }
 }
 
-impl Method for Gauss {
+impl OneStepMethod for Gauss {
     fn name(&self) -> &'static str {
         "gauss6"
     }

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
-use flexbody::system::{Dynamics, Model, fastest};
+use flexbody::system::{DrivenSystem, Dynamics, fastest};
 
 use super::probe::Probe;
 use crate::laws::built::moving;
@@ -32,7 +32,7 @@ fn both_ways(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
     let (mut accelerations, mut ends) = (Vec::new(), Vec::new());
     for partitioned in [false, true] {
         let mut state = start.clone();
-        let model = Model::new(&moving.system, &[], &mut moving.work, &state);
+        let model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &state);
         let mut probe = Probe::new(model, None);
         if partitioned {
             probe = probe.partitioned(&state);

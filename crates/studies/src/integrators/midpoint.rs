@@ -2,7 +2,7 @@
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., Eq. II.1.7.
 
-use flexbody::integrators::{Attempt, Method, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
 use flexbody::system::Dynamics;
 
 use super::newton::{Equation, Newton, size};
@@ -63,7 +63,7 @@ impl Equation for Step<'_> {
     }
 }
 
-impl Method for Midpoint {
+impl OneStepMethod for Midpoint {
     fn name(&self) -> &'static str {
         "midpoint"
     }

@@ -31,7 +31,7 @@ mod verlet;
 use std::sync::{Arc, Mutex};
 
 use flexbody::body::Node;
-use flexbody::integrators::{Method, Nystrom, RK4, RKN43, RKN64, Radau, RungeKutta};
+use flexbody::integrators::{Nystrom, OneStepMethod, RK4, RKN43, RKN64, Radau, RungeKutta};
 use flexbody::system::fastest;
 
 use crate::scene::{Outcome, Start};
@@ -49,7 +49,7 @@ pub struct Build<'a> {
 }
 
 /// A method by its name.
-pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
+pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn OneStepMethod>> {
     let n = build.start.state.rates.len();
     let only_positions = || match build.start.assembled.system.reads_rates() {
         true => Err(format!(

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use flexbody::integrators::{Attempt, Tolerance};
 use flexbody::scene::Scene;
-use flexbody::system::{Dynamics, Evaluation, Model, State};
+use flexbody::system::{DrivenSystem, Dynamics, Evaluation, State};
 
 use super::{Build, Probe, build};
 use crate::scene::Start;
@@ -43,7 +43,7 @@ fn run(start: &Start, name: &str, stop: f64, steps: u32) -> State {
     };
     let mut method = build(name, &plan).expect("a method");
     let (mut state, mut work) = (start.state.clone(), start.work.clone());
-    let model = Model::new(system, &start.inputs, &mut work, &start.state);
+    let model = DrivenSystem::new(system, &start.inputs, &mut work, &start.state);
     let mut probe = Probe::new(model, Some(nodes));
     let tolerance = Tolerance {
         relative: 1e-13,

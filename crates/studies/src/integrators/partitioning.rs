@@ -5,7 +5,7 @@
 //! coordinate partitioning for dimension reduction in analysis of constrained dynamic systems, J. Mech.
 //! Design 104 (1982).
 
-use flexbody::system::{Model, State};
+use flexbody::system::{DrivenSystem, State};
 
 /// Most iterations of Newton's method.
 const ITERATIONS: usize = 20;
@@ -35,7 +35,7 @@ pub struct Partition {
 
 impl Partition {
     /// Chosen at a state.
-    pub fn new(model: &mut Model<'_>, state: &State) -> Self {
+    pub fn new(model: &mut DrivenSystem<'_>, state: &State) -> Self {
         let (m, n) = (model.system.constraints(), state.coordinates.len());
         let mut partition = Self {
             size: [m, n],
@@ -52,7 +52,7 @@ impl Partition {
     }
 
     /// Chooses anew at a state: as many coordinates as there are independent rows.
-    pub fn choose(&mut self, model: &mut Model<'_>, state: &State) {
+    pub fn choose(&mut self, model: &mut DrivenSystem<'_>, state: &State) {
         let [m, n] = self.size;
         self.fill(model, (state.time, &state.coordinates), None);
         self.dependent.clear();
@@ -93,9 +93,9 @@ impl Partition {
     /// Coordinates and rates with the dependent ones as the others ask for.
     pub fn completed(
         &mut self,
-        model: &mut Model<'_>,
+        model: &mut DrivenSystem<'_>,
         (time, q, v): (f64, &[f64], &[f64]),
-        then: impl FnOnce(&mut Model<'_>, &[f64], &[f64]),
+        then: impl FnOnce(&mut DrivenSystem<'_>, &[f64], &[f64]),
     ) {
         let (mut p, mut u) = (std::mem::take(&mut self.q), std::mem::take(&mut self.v));
         p.copy_from_slice(q);
@@ -106,7 +106,7 @@ impl Partition {
     }
 
     /// Moves a state onto the constraints; false where that fails.
-    pub fn project(&mut self, model: &mut Model<'_>, state: &mut State) -> bool {
+    pub fn project(&mut self, model: &mut DrivenSystem<'_>, state: &mut State) -> bool {
         let (q, v) = (&mut state.coordinates, &mut state.rates);
         self.complete(model, state.time, (q, v)) <= BROKEN
     }
@@ -114,7 +114,7 @@ impl Partition {
     /// Moves dependent coordinates and rates; the largest residual of positions that is left.
     fn complete(
         &mut self,
-        model: &mut Model<'_>,
+        model: &mut DrivenSystem<'_>,
         time: f64,
         (q, v): (&mut [f64], &mut [f64]),
     ) -> f64 {
@@ -135,7 +135,12 @@ impl Partition {
 
     /// Fills in rows and what they miss, of positions or, where they are given, of rates. Returns the largest
     /// residual, relative to the size of its constraint.
-    fn fill(&mut self, model: &mut Model<'_>, (time, q): (f64, &[f64]), v: Option<&[f64]>) -> f64 {
+    fn fill(
+        &mut self,
+        model: &mut DrivenSystem<'_>,
+        (time, q): (f64, &[f64]),
+        v: Option<&[f64]>,
+    ) -> f64 {
         let n = self.size[1];
         self.rows.fill(0.0);
         let (mut i, mut largest) = (0, 0.0);

@@ -4,7 +4,7 @@
 use std::sync::{Arc, Mutex};
 
 use flexbody::body::Node;
-use flexbody::system::{Dynamics, Model, State, StepOutcome};
+use flexbody::system::{DrivenSystem, Dynamics, State, StepOutcome};
 use nalgebra::Complex;
 
 use super::partitioning::Partition;
@@ -34,7 +34,7 @@ impl Tally {
 
 /// A model that counts, and leaves the nodal coordinates of every acceleration where told.
 pub struct Probe<'a> {
-    model: Model<'a>,
+    model: DrivenSystem<'a>,
     nodes: Option<Arc<Mutex<Vec<Node>>>>,
     partition: Option<Partition>,
     /// What was asked so far.
@@ -43,7 +43,7 @@ pub struct Probe<'a> {
 
 impl<'a> Probe<'a> {
     /// Of a model.
-    pub fn new(model: Model<'a>, nodes: Option<Arc<Mutex<Vec<Node>>>>) -> Self {
+    pub fn new(model: DrivenSystem<'a>, nodes: Option<Arc<Mutex<Vec<Node>>>>) -> Self {
         let tally = Tally::default();
         Self {
             model,

@@ -4,7 +4,7 @@
 //! Source: L. Verlet, Phys. Rev. 159 (1967); W. C. Swope et al., J. Chem. Phys. 76 (1982) 637, Eqs. 2-3;
 //! E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., section I.1.4.
 
-use flexbody::integrators::{Attempt, Method, Tolerance, rescaled};
+use flexbody::integrators::{Attempt, OneStepMethod, Tolerance, rescaled};
 use flexbody::system::Dynamics;
 
 /// Scratch of the method.
@@ -28,7 +28,7 @@ impl Verlet {
     }
 }
 
-impl Method for Verlet {
+impl OneStepMethod for Verlet {
     fn name(&self) -> &'static str {
         "verlet"
     }

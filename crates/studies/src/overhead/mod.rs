@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use cpu_time::ThreadTime;
 use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
 use flexbody::scene::{Integrator, Scene};
-use flexbody::system::{Model, fastest};
+use flexbody::system::{DrivenSystem, fastest};
 use master::{Instance, Unit};
 use serde_json::{Value, json};
 
@@ -110,7 +110,7 @@ fn step(scene: &Scene) -> Result<Value, String> {
         position: system.scale(),
         time: 1.0,
     };
-    let mut model = Model::new(system, &inputs, &mut work, &state);
+    let mut model = DrivenSystem::new(system, &inputs, &mut work, &state);
     let mut solve = |until: f64| {
         let (_, result) = advance(&mut method, &mut model, &mut state, until, &tolerance);
         result.map_err(|stop| format!("the solver: {stop:?}"))

@@ -6,7 +6,7 @@
 //! energy is that of the absolute formulation. Not held, and shown: with the linear energy of small deflections, as floating
 //! frames have it, accelerations differ in proportion to the deformation.
 
-use flexbody::elements::Strain;
+use flexbody::elements::StrainMeasure;
 use flexbody::elements::cable::{Inertia, Parameters};
 use nalgebra::{DMatrix, DVector};
 use proptest::collection::vec;
@@ -33,7 +33,7 @@ fn rod(elements: usize, gravity: Vector) -> Rod {
         line_density: DENSITY,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,
-        strain: Strain::ThetaPrime,
+        strain: StrainMeasure::ThetaPrime,
         inertia: Inertia::Consistent,
     };
     Rod::new(uniform(parameters, elements), true, gravity)

@@ -1,6 +1,6 @@
 //! What a scene of one straight cable says, for rods of any shape functions.
 
-use flexbody::elements::Strain;
+use flexbody::elements::StrainMeasure;
 use flexbody::elements::cable::{Inertia, Parameters};
 use serde_json::Value;
 
@@ -70,7 +70,7 @@ impl Problem {
             line_density: self.material.density,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,
-            strain: Strain::ThetaPrime,
+            strain: StrainMeasure::ThetaPrime,
             inertia: Inertia::Corrected,
         }
     }

@@ -31,7 +31,7 @@ use crate::elements::constitutive::Law;
 use crate::elements::line::sample;
 use crate::elements::rod::geometry::{LOADED, POINTS};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::Point;
+use crate::math::quadrature::QuadraturePoint;
 use kernel::{Kernel, Motion, Three};
 
 /// Parameters of a planar beam. Components of strain and stress are in the order axial, shear, bending.
@@ -96,7 +96,7 @@ impl Planar {
 
     /// Strains at `xi` in [0, 1], those of the unstressed shape included: axial, shear and curvature (1/m).
     pub fn strains<N: Real>(&self, at: &At<N>, xi: f64) -> Three<N> {
-        let point = sample(Point {
+        let point = sample(QuadraturePoint {
             at: xi,
             weight: 0.0,
         });

@@ -5,16 +5,16 @@
 //! derivatives by the vectors `(r_B - r_A) / l`, slope at A, slope at B. Rigid translation drops out,
 //! which is why sums run over three vectors, not four.
 
-use crate::elements::Strain;
-use crate::elements::line::{Sample, Vector, combine, dot, times};
+use crate::elements::StrainMeasure;
+use crate::elements::line::{Components, Sample, combine, dot, times};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{BETWEEN_3, GAUSS_3, Point, RADAU_3, RADAU_3_LAST};
+use crate::math::quadrature::{BETWEEN_3, GAUSS_3, QuadraturePoint, RADAU_3, RADAU_3_LAST};
 
 type Square<N, const D: usize> = [[N; D]; D];
 
 /// The three vectors and, where damping reads them, their rates.
-type Motion<'a, N, const D: usize> = (&'a [Vector<N, D>; 3], &'a Option<[Vector<N, D>; 3]>);
+type Motion<'a, N, const D: usize> = (&'a [Components<N, D>; 3], &'a Option<[Components<N, D>; 3]>);
 
 /// Calls a method once for each axial point. Written out: with points known when compiling.
 macro_rules! at_axial_points {
@@ -73,8 +73,8 @@ const FLAT: f64 = 1e-5;
 /// `u = r'` and `w = r''`, or their rates.
 #[derive(Clone, Copy)]
 pub(super) struct Line<N, const D: usize> {
-    pub u: Vector<N, D>,
-    pub w: Vector<N, D>,
+    pub u: Components<N, D>,
+    pub w: Components<N, D>,
 }
 
 /// Curvature `c a^-p` with `c = u ^ w`; `a^-p`, and `2 p / a`. `p` is 1 for the rotation per reference
@@ -103,7 +103,7 @@ pub(super) struct Kernel<N> {
     /// Curvature of the unstressed shape at the bending points, 1/m.
     pub natural_curvature: [[N; TURNS]; 3],
     pub sampling: Sampling,
-    pub strain: Strain,
+    pub strain: StrainMeasure,
     pub is_damped: bool,
     pub bends: bool,
 }
@@ -195,13 +195,13 @@ impl<N: Real> Kernel<N> {
     }
 
     #[inline(always)]
-    fn vectors<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> [Vector<N, D>; 3] {
+    fn vectors<const D: usize>(&self, e: &[Components<N, D>; 4]) -> [Components<N, D>; 3] {
         let chord = each!(e[0], i => (e[2][i] - e[0][i]) * self.inverse_length);
         [chord, e[1], e[3]]
     }
 
     #[inline(always)]
-    fn line<const D: usize>(&self, at: &Sample, v: &[Vector<N, D>; 3]) -> Line<N, D> {
+    fn line<const D: usize>(&self, at: &Sample, v: &[Components<N, D>; 3]) -> Line<N, D> {
         Line {
             u: combine(&at.slope, v),
             w: times(&combine(&at.curvature, v), self.inverse_length),
@@ -213,12 +213,12 @@ impl<N: Real> Kernel<N> {
     #[inline(always)]
     pub fn axial(&self, a: N) -> (N, N, N) {
         match self.strain {
-            Strain::GreenLagrangeFrenetKappa => (
+            StrainMeasure::GreenLagrangeFrenetKappa => (
                 self.number(0.5) * (a - self.number(1.0)),
                 self.number(1.0),
                 self.number(0.0),
             ),
-            Strain::ThetaPrime | Strain::EngStrainFrenetKappa => {
+            StrainMeasure::ThetaPrime | StrainMeasure::EngStrainFrenetKappa => {
                 let stretch = a.root();
                 let inverse = self.number(1.0) / stretch;
                 let strain = stretch - self.number(1.0);
@@ -232,7 +232,7 @@ impl<N: Real> Kernel<N> {
         let a = dot(&at.u, &at.u);
         let inverse = self.number(1.0) / a;
         let (scale, twice_power) = match self.strain {
-            Strain::ThetaPrime => (inverse, 2.0),
+            StrainMeasure::ThetaPrime => (inverse, 2.0),
             _ => (inverse / a.root(), 3.0),
         };
         Curvature {
@@ -272,7 +272,7 @@ impl<N: Real> Kernel<N> {
 
     /// Axial strains and curvatures at the quadrature points: those of an unstressed shape.
     #[inline(always)]
-    pub fn strains<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> ([N; 3], [[N; TURNS]; 3]) {
+    pub fn strains<const D: usize>(&self, e: &[Components<N, D>; 4]) -> ([N; 3], [[N; TURNS]; 3]) {
         let v = self.vectors(e);
         let axial = self.axial_samples(e, None);
         let mut bending = self.natural_curvature;
@@ -310,7 +310,7 @@ impl<N: Real> Kernel<N> {
     /// The parabola through three points of a rule that integrates its square, at `x` in [-1, 1], by its products
     /// with Legendre polynomials.
     #[inline(always)]
-    fn parabola(&self, values: [N; 3], rule: &[Point; 3], x: f64) -> N {
+    fn parabola(&self, values: [N; 3], rule: &[QuadraturePoint; 3], x: f64) -> N {
         let mut sum = self.number(0.0);
         for (value, point) in values.into_iter().zip(rule) {
             let y = 2.0 * point.at - 1.0;
@@ -324,8 +324,8 @@ impl<N: Real> Kernel<N> {
     #[inline(always)]
     pub fn axial_samples<const D: usize>(
         &self,
-        e: &[Vector<N, D>; 4],
-        rate: Option<&[Vector<N, D>; 4]>,
+        e: &[Components<N, D>; 4],
+        rate: Option<&[Components<N, D>; 4]>,
     ) -> [N; 3] {
         let v = self.vectors(e);
         let dv = of_rate!(rate, rate => self.vectors(rate));
@@ -347,8 +347,8 @@ impl<N: Real> Kernel<N> {
     fn axial_force<const D: usize>(
         &self,
         index: usize,
-        u: &Vector<N, D>,
-        rate: Option<Vector<N, D>>,
+        u: &Components<N, D>,
+        rate: Option<Components<N, D>>,
     ) -> ((N, N, N), Option<N>) {
         let (strain, f, g) = self.axial(dot(u, u));
         let mut total = strain - self.natural_strain[index];
@@ -397,7 +397,7 @@ impl<N: Real> Kernel<N> {
 
     /// Strain energy, J.
     #[inline(always)]
-    pub fn energy<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> N {
+    pub fn energy<const D: usize>(&self, e: &[Components<N, D>; 4]) -> N {
         let (axial, bending) = self.strains(e);
         let mut sum = self.number(0.0);
         for (k, point) in self.sampling.points().iter().enumerate() {
@@ -418,9 +418,9 @@ impl<N: Real> Kernel<N> {
     #[inline(always)]
     pub fn force<const D: usize>(
         &self,
-        e: &[Vector<N, D>; 4],
-        rate: Option<&[Vector<N, D>; 4]>,
-    ) -> ([Vector<N, D>; 4], N) {
+        e: &[Components<N, D>; 4],
+        rate: Option<&[Components<N, D>; 4]>,
+    ) -> ([Components<N, D>; 4], N) {
         let v = self.vectors(e);
         let dv = of_rate!(rate, rate => self.vectors(rate));
         let mut sum = ([[self.number(0.0); D]; 3], [self.number(0.0); 2]);
@@ -446,7 +446,7 @@ impl<N: Real> Kernel<N> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        (sum, power): &mut ([Vector<N, D>; 3], [N; 2]),
+        (sum, power): &mut ([Components<N, D>; 3], [N; 2]),
     ) {
         let u = combine(&point.slope, v);
         let du = of_rate!(dv, dv => combine(&point.slope, dv));
@@ -471,7 +471,7 @@ impl<N: Real> Kernel<N> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        (sum, power): &mut ([Vector<N, D>; 3], [N; 2]),
+        (sum, power): &mut ([Components<N, D>; 3], [N; 2]),
     ) {
         let at = self.line(point, v);
         let rate = of_rate!(dv, dv => self.line(point, dv));

@@ -3,7 +3,7 @@
 //! Source: J. Gerstmayr, H. Irschik, J. Sound Vib. 318 (2008), section 3 (separate rules for stretching and bending);
 //! docs/decisions/0003-quadrature.md, 0021-stable-equilibria.md.
 
-use crate::elements::Along;
+use crate::elements::ElementPolynomial;
 use crate::elements::line::{Sample, sample};
 use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, RADAU_3, RADAU_3_LAST};
 
@@ -41,7 +41,7 @@ pub(in crate::elements::cable) enum Sampling {
 
 impl Sampling {
     /// A quantity at the points that is this one, tapered.
-    pub fn of(self, quantity: f64, taper: &Along) -> [f64; 3] {
+    pub fn of(self, quantity: f64, taper: &ElementPolynomial) -> [f64; 3] {
         let points = self.points().each_ref();
         points.map(|point| quantity * taper.at(point.at))
     }

@@ -7,7 +7,7 @@ use super::{
     Square, TURNS, contract, inner, turns,
 };
 use crate::elements::EndBlocks;
-use crate::elements::line::{Sample, Vector, combine, times};
+use crate::elements::line::{Components, Sample, combine, times};
 use crate::math::lanes::Real;
 
 /// What a tangent is made of.
@@ -55,7 +55,7 @@ struct Sum<N, const D: usize> {
 impl<N: Real, const D: usize> Sum<N, D> {
     /// Adds `a b^T` to a block.
     #[inline(always)]
-    fn add_block(&mut self, (i, j): (usize, usize), a: &Vector<N, D>, b: &Vector<N, D>) {
+    fn add_block(&mut self, (i, j): (usize, usize), a: &Components<N, D>, b: &Components<N, D>) {
         for r in 0..D {
             for c in 0..if i == j { r + 1 } else { D } {
                 let sum = &mut self.products[i][j][r][c];
@@ -66,7 +66,7 @@ impl<N: Real, const D: usize> Sum<N, D> {
 
     /// Adds `a b^T` over all three vectors.
     #[inline(always)]
-    fn add_products(&mut self, a: &[Vector<N, D>; 3], b: &[Vector<N, D>; 3]) {
+    fn add_products(&mut self, a: &[Components<N, D>; 3], b: &[Components<N, D>; 3]) {
         for i in 0..3 {
             for j in 0..=i {
                 self.add_block((i, j), &a[i], &b[j]);
@@ -111,8 +111,8 @@ impl<N: Real> Kernel<N> {
     #[inline(always)]
     pub fn tangent<const D: usize>(
         &self,
-        e: &[Vector<N, D>; 4],
-        rate: Option<&[Vector<N, D>; 4]>,
+        e: &[Components<N, D>; 4],
+        rate: Option<&[Components<N, D>; 4]>,
         factors: Factors<N>,
     ) -> [[Square<N, D>; 3]; 3] {
         let v = self.vectors(e);

@@ -2,7 +2,7 @@
 //!
 //! Source: D. Hestenes, G. Sobczyk, Clifford Algebra to Geometric Calculus (1984), section 1-1 (exterior product).
 
-use crate::elements::line::Vector;
+use crate::elements::line::Components;
 use crate::math::lanes::Real;
 
 /// Components of a curvature: all of them in space, the first alone in the plane.
@@ -25,7 +25,10 @@ pub(super) fn inner<N: Real, const D: usize>(a: &[N; TURNS], b: &[N; TURNS]) -> 
 
 /// Exterior product u ^ w: the signed area in the plane, the cross product (reordered) in space.
 #[inline(always)]
-pub(super) fn wedge<N: Real, const D: usize>(u: &Vector<N, D>, w: &Vector<N, D>) -> [N; TURNS] {
+pub(super) fn wedge<N: Real, const D: usize>(
+    u: &Components<N, D>,
+    w: &Components<N, D>,
+) -> [N; TURNS] {
     let (mut c, mut k) = ([u[0].constant(0.0); TURNS], 0);
     for i in 0..D {
         for j in i + 1..D {
@@ -38,7 +41,10 @@ pub(super) fn wedge<N: Real, const D: usize>(u: &Vector<N, D>, w: &Vector<N, D>)
 
 /// Contraction with the exterior product: `contract(m, u) . w = m . (u ^ w)`.
 #[inline(always)]
-pub(super) fn contract<N: Real, const D: usize>(m: &[N; TURNS], u: &Vector<N, D>) -> Vector<N, D> {
+pub(super) fn contract<N: Real, const D: usize>(
+    m: &[N; TURNS],
+    u: &Components<N, D>,
+) -> Components<N, D> {
     let (mut out, mut k) = ([u[0].constant(0.0); D], 0);
     for i in 0..D {
         for j in i + 1..D {

@@ -22,8 +22,8 @@ use super::steady::Steady;
 use crate::body::Node;
 use crate::math::space::Vector;
 use crate::math::vector::norm;
-use crate::system::loads::Load;
-use crate::system::{Dynamics, Model, State, System, Workspace};
+use crate::system::loads::AppliedLoad;
+use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 use newton::{AcceptanceTest, EDGE, Newton, stiffest};
 
 /// Smallest step of the way.
@@ -53,7 +53,7 @@ const ROUNDINGS: f64 = 1e3;
 /// Why no equilibrium was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("no static equilibrium found beyond {reached:.4} of the load: {why}")]
-pub struct NotFound {
+pub struct NoEquilibrium {
     /// Fraction of the way that was reached.
     pub reached: f64,
     /// What was missing there.
@@ -115,14 +115,14 @@ impl Rest {
 
 /// What is known of an equilibrium that was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Found {
+pub struct FoundEquilibrium {
     /// Whether no motion lowers the potential, as far as roundoff lets see; true where the loads have none.
     pub is_stable: bool,
 }
 
 /// A steady turn of all bodies about one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning<const D: usize = 2> {
+pub struct SteadyRotation<const D: usize = 2> {
     /// Angular velocity, rad/s; in the plane the third component alone.
     pub rate: [f64; 3],
     /// The point, m.
@@ -141,13 +141,13 @@ pub fn find<const D: usize>(
     work: &mut Workspace<D>,
     state: &mut State,
     (steady, most_work): (Option<Steady<D>>, f64),
-) -> Result<Found, NotFound> {
+) -> Result<FoundEquilibrium, NoEquilibrium> {
     let mut held = system.held_at(inputs, work, state);
     if let Some(Steady { velocity, rate }) = steady {
         held.carry(velocity, rate);
     }
     let turning = steady.and_then(|steady| steady.turning());
-    if let Some(Turning { rate, center }) = turning {
+    if let Some(SteadyRotation { rate, center }) = turning {
         held.turn(rate, center);
     }
     let way = |fraction: f64, work: &Workspace<D>| {
@@ -167,7 +167,7 @@ pub fn find<const D: usize>(
     let found = path.follow(way, work, state);
     match turning {
         // A turn that nothing drives is neutral, and the tangent singular.
-        Some(Turning { rate, .. }) if found.is_err() => {
+        Some(SteadyRotation { rate, .. }) if found.is_err() => {
             state.copy_from(&before);
             let kept = norm(&rate);
             let path = Path { kept, ..path };
@@ -185,7 +185,7 @@ pub(super) fn close<const D: usize>(
     (open, described): (&OpenGaps<D>, &[Node<D>]),
     work: &mut Workspace<D>,
     state: &mut State,
-) -> Result<Found, NotFound> {
+) -> Result<FoundEquilibrium, NoEquilibrium> {
     let mut held = system.held_at(inputs, work, state);
     held.unload();
     let ropes = held.clone();
@@ -218,11 +218,11 @@ pub(super) fn close<const D: usize>(
 
 impl<const D: usize> System<D> {
     fn held_at(&self, inputs: &[f64], work: &mut Workspace<D>, state: &State) -> Self {
-        let model = Model::new(self, inputs, work, state);
+        let model = DrivenSystem::new(self, inputs, work, state);
         self.forward_kinematics(state.time, &state.coordinates, None, model.work);
         let mut held = self.held(state.time, model.work, true);
         for load in &mut held.loads {
-            if let Load::Contact(contact) = load {
+            if let AppliedLoad::Contact(contact) = load {
                 // There is none at rest, and without it the loads have a potential.
                 contact.friction = 0.0;
             }
@@ -273,11 +273,11 @@ impl Path<'_> {
         way: impl Fn(f64, &Workspace<D>) -> System<D>,
         work: &mut Workspace<D>,
         state: &mut State,
-    ) -> Result<Found, NotFound> {
+    ) -> Result<FoundEquilibrium, NoEquilibrium> {
         let (mut reached, mut step) = (0.0, self.first);
         let mut why = Failure::Correction(f64::INFINITY);
         let (mut from, mut before) = (state.clone(), way(0.0, work));
-        let mut found = Found { is_stable: true };
+        let mut found = FoundEquilibrium { is_stable: true };
         let mut leaps = 0;
         for _ in 0..STEPS {
             if reached >= 1.0 {
@@ -288,7 +288,7 @@ impl Path<'_> {
             let tries = Tries::of(step, reached);
             let mut outcome = self.attempt((&before, &next), tries, work, (&from, state));
             // Far from the last equilibrium there may be another one, with a turn more.
-            let mut model = Model::new(&next, self.inputs, work, &from);
+            let mut model = DrivenSystem::new(&next, self.inputs, work, &from);
             let turn = model.turn_between([&from, state]);
             let leaps_on = turn > BRANCH;
             // Where joints close, it is an element that folded.
@@ -333,7 +333,7 @@ impl Path<'_> {
                 }
             }
         }
-        Err(NotFound { reached, why })
+        Err(NoEquilibrium { reached, why })
     }
 
     /// One step of the way: under one guard after the other, and at last by a damped motion where joints close.
@@ -343,7 +343,7 @@ impl Path<'_> {
         tries: Tries,
         work: &mut Workspace<D>,
         (from, state): (&State, &mut State),
-    ) -> Result<Found, Failure> {
+    ) -> Result<FoundEquilibrium, Failure> {
         let guards = match next.is_conservative() {
             true => [AcceptanceTest::Turns, AcceptanceTest::Potential],
             false => [AcceptanceTest::Turns, AcceptanceTest::Transient],
@@ -381,7 +381,8 @@ impl Path<'_> {
         find: impl FnOnce(&mut Newton<'_, '_, D>, &mut State) -> T,
     ) -> T {
         let least = smallest_shift(system, self.inputs, work, state);
-        let mut model = Model::new(system, self.inputs, work, state).limited(self.left.get());
+        let mut model =
+            DrivenSystem::new(system, self.inputs, work, state).limited(self.left.get());
         let found = find(&mut Newton::new(&mut model, least, self.kept), state);
         let done = model.operations() * system.parts() as f64;
         self.left.set(self.left.get() - done);
@@ -396,10 +397,10 @@ impl Path<'_> {
         state: &mut State,
     ) {
         let least = smallest_shift(before, self.inputs, work, state);
-        let mut model = Model::new(before, self.inputs, work, state);
+        let mut model = DrivenSystem::new(before, self.inputs, work, state);
         Newton::new(&mut model, least, 0.0).predict(state, next);
         // Where this fails, so does Newton's method, which tells.
-        Model::new(next, self.inputs, work, state).accepted(state);
+        DrivenSystem::new(next, self.inputs, work, state).accepted(state);
     }
 }
 
@@ -417,7 +418,7 @@ fn first_step<const D: usize>(
     let least = smallest_shift(system, inputs, work, state);
     let n = state.coordinates.len();
     let (rest, mut x) = (vec![0.0; n], vec![0.0; n]);
-    let mut model = Model::new(system, inputs, work, state);
+    let mut model = DrivenSystem::new(system, inputs, work, state);
     model.acceleration(state.time, &state.coordinates, &rest, &mut x);
     model.linearize(state.time, &state.coordinates, &rest);
     if !model.factor([least * least, least]) {
@@ -445,7 +446,7 @@ fn smallest_shift<const D: usize>(
     work: &mut Workspace<D>,
     state: &State,
 ) -> f64 {
-    let mut model = Model::new(system, inputs, work, state);
+    let mut model = DrivenSystem::new(system, inputs, work, state);
     let stiffest = stiffest(&mut model, state);
     if stiffest > 0.0 {
         return EDGE * stiffest.sqrt();

@@ -10,7 +10,7 @@
 //! Energy-diminishing integration of gradient systems, IMA J. Numer. Anal. 34 (2014) (implicit Euler).
 
 use super::newton::{AcceptanceTest, ESCAPES, LARGEST_TURN, NOISE, Newton};
-use super::{Failure, Found, unsymmetric};
+use super::{Failure, FoundEquilibrium, unsymmetric};
 use crate::body::{Node, NodeKind};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
@@ -37,7 +37,7 @@ const FAILURES: usize = 40;
 /// What Newton's method made of a place on the way.
 enum Beside {
     /// An equilibrium.
-    Found(Found),
+    Found(FoundEquilibrium),
     /// An equilibrium that was not stable and was left.
     Left,
     /// None.
@@ -46,7 +46,7 @@ enum Beside {
 
 impl<const D: usize> Newton<'_, '_, D> {
     /// Lets the system move, damped, until Newton's method finds an equilibrium beside its way.
-    pub(super) fn swing(&mut self, state: &mut State) -> Result<Found, Failure> {
+    pub(super) fn swing(&mut self, state: &mut State) -> Result<FoundEquilibrium, Failure> {
         // Forces that follow feed a motion: it would end far from where they were applied.
         if !self.is_conservative {
             return Err(Failure::Restless);
@@ -115,7 +115,7 @@ impl<const D: usize> Newton<'_, '_, D> {
             (false, true) => Beside::Left,
             (false, false) if self.relax(state, guard).is_err() => Beside::Nothing,
             _ if self.rest(state).is_some() => Beside::Nothing,
-            _ => Beside::Found(Found { is_stable }),
+            _ => Beside::Found(FoundEquilibrium { is_stable }),
         }
     }
 

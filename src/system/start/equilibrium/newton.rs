@@ -2,10 +2,10 @@
 //! (Levenberg-Marquardt in the mass norm), so that it looks for a minimum of the potential.
 
 use super::unsymmetric;
-use super::{Failure, Found};
+use super::{Failure, FoundEquilibrium};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
-use crate::system::{Dynamics, Model, State, StepOutcome};
+use crate::system::{DrivenSystem, Dynamics, State, StepOutcome};
 
 /// Iterations for one system, and where time is what regularizes.
 const ITERATIONS: usize = 100;
@@ -53,7 +53,7 @@ pub(super) enum AcceptanceTest {
 
 /// An iteration on one system.
 pub(super) struct Newton<'a, 'b, const D: usize> {
-    pub(super) model: &'a mut Model<'b, D>,
+    pub(super) model: &'a mut DrivenSystem<'b, D>,
     /// Smallest shift.
     pub(super) least: f64,
     /// Shift that is kept to the end, where a direction in which nothing acts is free; else 0.
@@ -72,7 +72,7 @@ pub(super) struct Newton<'a, 'b, const D: usize> {
 }
 
 impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
-    pub(super) fn new(model: &'a mut Model<'b, D>, least: f64, kept: f64) -> Self {
+    pub(super) fn new(model: &'a mut DrivenSystem<'b, D>, least: f64, kept: f64) -> Self {
         let rest = vec![0.0; model.system.coordinates()];
         Self {
             is_conservative: model.system.is_conservative(),
@@ -94,7 +94,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         &mut self,
         state: &mut State,
         guard: AcceptanceTest,
-    ) -> Result<Found, Failure> {
+    ) -> Result<FoundEquilibrium, Failure> {
         let failure = |this: &Self, correction: f64| match (this.exhausted(), this.overbent) {
             (Some(failure), _) => failure,
             (None, Some((body, element))) => Failure::ElementOverDeformed(body, element),
@@ -116,7 +116,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         }
         match self.rest(state) {
             Some(rest) => Err(Failure::Rest(rest)),
-            None => Ok(Found { is_stable }),
+            None => Ok(FoundEquilibrium { is_stable }),
         }
     }
 
@@ -374,7 +374,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
 }
 
 /// Largest eigenvalue of the stiffness by size, nearly, 1/s^2.
-pub(super) fn stiffest<const D: usize>(model: &mut Model<'_, D>, state: &State) -> f64 {
+pub(super) fn stiffest<const D: usize>(model: &mut DrivenSystem<'_, D>, state: &State) -> f64 {
     let n = state.coordinates.len();
     model.linearize(state.time, &state.coordinates, &vec![0.0; n]);
     let (mut x, mut size) = (seed(n), 0.0);

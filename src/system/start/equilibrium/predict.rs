@@ -5,7 +5,7 @@
 //! balances both: `P (K + s^2 I) d1 = P (df - K d0)` with the tangent `K` and the projection `P` on that plane.
 
 use super::newton::{Newton, SHIFTS};
-use crate::system::{Dynamics, Model, State, System};
+use crate::system::{DrivenSystem, Dynamics, State, System};
 
 /// Part of a step that derivatives along it are taken over.
 const PART: f64 = 1e-6;
@@ -17,7 +17,7 @@ impl<const D: usize> Newton<'_, '_, D> {
         (self.model).acceleration(time, &q, &self.rest, &mut self.force);
         let part = self.model.system.closed_by(PART, next);
         let mut moved = self.force.clone();
-        let mut model = Model::new(&part, self.model.inputs, self.model.work, state);
+        let mut model = DrivenSystem::new(&part, self.model.inputs, self.model.work, state);
         model.acceleration(time, &q, &self.rest, &mut moved);
         let least = self.least_way(&part, state);
         self.model.linearize(time, &q, &self.rest);

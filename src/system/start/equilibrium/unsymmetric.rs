@@ -8,7 +8,7 @@ use crate::body::{Node, map_node};
 use crate::math::jet::{Jet, moving, part};
 use crate::math::vector::{dot, norm};
 use crate::system::instant::Instant;
-use crate::system::{Dynamics, Model};
+use crate::system::{DrivenSystem, Dynamics};
 
 /// Most steps, and the residual at which the iteration ends, relative to that at its start.
 const STEPS: usize = 80;
@@ -29,7 +29,7 @@ const PRODUCT: f64 = 3.0;
 /// factors that stand in where those without are singular. False where no factors are found, or where
 /// `s^2 I + K` is zero on `f`: what moves nothing is no equilibrium.
 pub(super) fn solve<const D: usize>(
-    model: &mut Model<'_, D>,
+    model: &mut DrivenSystem<'_, D>,
     s: f64,
     least: f64,
     x: &mut [f64],
@@ -114,7 +114,7 @@ fn substitute_back(columns: &[Vec<f64>], target: &mut [f64]) {
 
 /// Solves with the symmetric factors, inside the tangent plane of the constraints: what they lead out of it, no
 /// product with the tangent sees.
-fn preconditioned<const D: usize>(model: &mut Model<'_, D>, f: &[f64]) -> Vec<f64> {
+fn preconditioned<const D: usize>(model: &mut DrivenSystem<'_, D>, f: &[f64]) -> Vec<f64> {
     model.spend(PRODUCT);
     let mut x = f.to_vec();
     model.system.project_on_tangent_plane(model.work, &mut x);
@@ -124,7 +124,7 @@ fn preconditioned<const D: usize>(model: &mut Model<'_, D>, f: &[f64]) -> Vec<f6
 }
 
 /// `(s^2 I + K) q` with the whole tangent `K` at the configuration that the model is linearized at.
-fn apply<const D: usize>(model: &mut Model<'_, D>, s: f64, q: &[f64]) -> Vec<f64> {
+fn apply<const D: usize>(model: &mut DrivenSystem<'_, D>, s: f64, q: &[f64]) -> Vec<f64> {
     let mut sum = q.to_vec();
     model.apply_stiffness(&mut sum);
     sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += s * s * q);
@@ -135,7 +135,7 @@ fn apply<const D: usize>(model: &mut Model<'_, D>, s: f64, q: &[f64]) -> Vec<f64
 
 /// What the symmetric tangent leaves out: minus the derivative of the loads without a potential along `q`, less
 /// their part in the symmetric tangent.
-fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
+fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> {
     let (system, time) = (model.system, Jet::from_re(model.time));
     let work = &mut *model.work;
     system.elimination.expand(q, &mut work.y, &mut work.other);

@@ -12,14 +12,14 @@ use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components, vector};
 use crate::system::direction::Direction;
-use crate::system::end::End;
+use crate::system::end::Attachment;
 use crate::system::signal::Signal;
 
 /// A moment.
 #[derive(Clone, Debug)]
-pub struct Couple<const D: usize> {
+pub struct SpatialMoment<const D: usize> {
     /// The second end takes the moment, the first one its opposite.
-    pub ends: [End<D>; 2],
+    pub ends: [Attachment<D>; 2],
     /// Whether it is the torque of a joint, about whose axis bodies turn against each other alone: it has a potential.
     pub is_torque: bool,
     /// Sizes, N m, and what they are about.
@@ -33,11 +33,11 @@ fn axes(marker: &Marker) -> [Marker; 3] {
 
 /// Angular velocity of an end, rad/s.
 pub(super) fn spin<const D: usize, N: Number>(
-    end: &End<D>,
+    end: &Attachment<D>,
     x: &[Node<D, N>],
     v: &[Node<D, N>],
 ) -> Vector3<N> {
-    let End::Body(marker) = end else {
+    let Attachment::Body(marker) = end else {
         return Vector3::zeros();
     };
     let turned = axes(marker).map(|axis| {
@@ -51,25 +51,28 @@ pub(super) fn spin<const D: usize, N: Number>(
 
 /// Forces on directions at the ends of a moment on the second one and its opposite on the first.
 pub(super) fn act<const D: usize, N: Number>(
-    ends: &[End<D>; 2],
+    ends: &[Attachment<D>; 2],
     moment: &Vector3<N>,
     x: &[Node<D, N>],
-    mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
 ) {
     for (end, sign) in ends.iter().zip([-0.5, 0.5]) {
-        let End::Body(marker) = end else {
+        let Attachment::Body(marker) = end else {
             continue;
         };
         for axis in axes(marker) {
             let axis = axis.lift();
             let along = Vector3::from(components(&axis.direction(x)));
             let force = moment.cross(&along) * N::of(sign);
-            call(&End::Body(axis), [Vector::zeros(), vector(force.into())]);
+            call(
+                &Attachment::Body(axis),
+                [Vector::zeros(), vector(force.into())],
+            );
         }
     }
 }
 
-impl<const D: usize> Couple<D> {
+impl<const D: usize> SpatialMoment<D> {
     fn moment<N: Number>(&self, at: Instant<'_, D, N>) -> Vector3<N> {
         let parts = self.parts.iter().map(|(size, about)| {
             let about = Vector3::from(components(&about.value(at.x)));
@@ -81,7 +84,7 @@ impl<const D: usize> Couple<D> {
     pub(super) fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         act(&self.ends, &self.moment(at), at.x, call);
     }
@@ -94,7 +97,7 @@ impl<const D: usize> Couple<D> {
     /// Exact for small turns.
     pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let [first, second] = self.ends.each_ref().map(|end| {
-            let End::Body(marker) = end else {
+            let Attachment::Body(marker) = end else {
                 return Vector3::zeros();
             };
             let turned = axes(marker).map(|axis| {
