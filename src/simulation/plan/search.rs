@@ -134,8 +134,10 @@ impl<'a, 'p> Search<'a, 'p> {
         self.share = 1.0;
         let in_space = self.find_elements(&mut choice, &in_time)?;
         let found_with = choice.tolerance;
-        let verified = self.verify_tolerance(&mut choice, &in_space, &in_time);
-        let in_time = verified.unwrap_or(in_time);
+        let in_time = match self.verify_tolerance(&mut choice, &in_space, &in_time) {
+            Ok(verified) => verified.unwrap_or(in_time),
+            Err(_) => self.unverified(&choice, in_time),
+        };
         let in_space = match choice.tolerance < found_with {
             true => match self.refine_resolved(&mut choice, &in_space) {
                 Some(found) => found,

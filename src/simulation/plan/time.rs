@@ -246,13 +246,16 @@ impl Search<'_, '_> {
     }
 
     /// Whether the tolerance found with the coarsest mesh is good enough for the one chosen, by one half as fine;
-    /// else a tighter one. What a tenth of it changes.
+    /// else a tighter one. What a tenth of it changes; nothing where the coarsest mesh speaks for all.
+    ///
+    /// # Errors
+    /// A run that it takes cannot be finished.
     pub(super) fn verify_tolerance(
         &mut self,
         choice: &mut Choice,
         in_space: &[Difference],
         in_time: &[Difference],
-    ) -> Option<Vec<Difference>> {
+    ) -> Result<Option<Vec<Difference>>, Unfinished> {
         let mut half = self.half(choice);
         // Another integrator makes other errors, and so does a mesh that moves otherwise.
         if !self.end_alike([&half, choice]) || self.are_far([&half, choice]) {
@@ -264,21 +267,43 @@ impl Search<'_, '_> {
         if resolved.tolerance < half.tolerance {
             let found = self.beside(&half, &resolved, &limits)?;
             choice.tolerance = found.0;
-            return Some(found.1);
+            return Ok(Some(found.1));
         }
         let is_clear = |(found, limit): (&Difference, &f64)| found.largest <= CLEAR * limit;
         if choice.tolerance == self.first_tolerance() && in_time.iter().zip(&limits).all(is_clear) {
-            return None;
+            return Ok(None);
         }
         let (tolerance, found) = match self.by_looser(&half, &limits) {
             Some(found) => found,
             None => {
-                let found = self.loosest(&mut half, &limits).ok()?;
+                let found = self.loosest(&mut half, &limits)?;
                 (half.tolerance, found)
             }
         };
         choice.tolerance = tolerance;
-        Some(found)
+        Ok(Some(found))
+    }
+
+    /// What the tolerance of a choice leaves, where it could not be verified: what the coarsest mesh has shown, but nothing known where
+    /// the mesh moves otherwise than that, or so little that the tolerance hides it.
+    pub(super) fn unverified(
+        &mut self,
+        choice: &Choice,
+        in_time: Vec<Difference>,
+    ) -> Vec<Difference> {
+        let coarsest = Choice {
+            elements: self.fewest.clone(),
+            ..choice.clone()
+        };
+        let is_resolved = match self.known(choice) {
+            Some(run) => choice.tolerance <= self.believed(run),
+            None => false,
+        };
+        let is_alike = self.end_alike([&coarsest, choice]) && !self.are_far([&coarsest, choice]);
+        match is_resolved && is_alike {
+            true => in_time,
+            false => self.unknown(),
+        }
     }
 
     /// The loosest tolerance of a mesh that is good enough beside one that resolves its motions, and what it changes.
@@ -287,20 +312,20 @@ impl Search<'_, '_> {
         tried: &Choice,
         resolved: &Choice,
         limits: &[f64],
-    ) -> Option<(f64, Vec<Difference>)> {
+    ) -> Result<(f64, Vec<Difference>), Unfinished> {
         let mut closer = resolved.clone();
-        self.set_apart(tried, &mut closer).ok()?;
-        let found = self.doubted(tried, &closer).ok()?;
+        self.set_apart(tried, &mut closer)?;
+        let found = self.doubted(tried, &closer)?;
         if found
             .iter()
             .zip(limits)
             .all(|(found, limit)| found.largest <= *limit)
         {
-            return Some((tried.tolerance, found));
+            return Ok((tried.tolerance, found));
         }
         let mut tighter = resolved.clone();
-        let found = self.loosest(&mut tighter, limits).ok()?;
-        Some((tighter.tolerance, found))
+        let found = self.loosest(&mut tighter, limits)?;
+        Ok((tighter.tolerance, found))
     }
 
     /// What each output may still change with the tolerance: what the mesh leaves, but not much more than a third of the
