@@ -31,7 +31,7 @@ impl ElementPolynomial {
         Self { differences }
     }
 
-    /// Its value at `xi` in [0, 1].
+    /// Evaluates the quantity at `xi` in [0, 1].
     pub fn at(&self, xi: f64) -> f64 {
         let [first, second, third, fourth, fifth] = self.differences;
         let t = 4.0 * xi;
@@ -40,7 +40,7 @@ impl ElementPolynomial {
         first + t * rest
     }
 
-    /// Its mean (Boole's rule, exact to degree 5).
+    /// Returns the mean over the element (Boole's rule, exact to degree 5).
     pub fn mean(&self) -> f64 {
         if self.is_uniform() {
             return self.differences[0];

@@ -14,15 +14,15 @@ macro_rules! entries {
     };
 }
 
-/// Of one element or, in lanes, of several.
+/// Material law of one element or, in lanes, of several. `K` is the number of strains.
 #[derive(Clone, Debug)]
 pub(super) struct Law<N, const K: usize> {
     /// Stress by strain at the points.
     pub stiffness: [[[N; K]; K]; 3],
     /// Stress by rate of strain.
     pub damping: [[[N; K]; K]; 3],
-    /// What is added to the strains at the points before they are multiplied by the stiffness: less those of the
-    /// unstressed shape.
+    /// Offset added to the strains before they are multiplied by the stiffness, `[points][K]`. It is minus the strain
+    /// of the unstressed shape.
     pub offset: [[N; K]; 3],
     pub is_damped: bool,
 }
@@ -50,7 +50,7 @@ impl<const K: usize> Law<f64, K> {
         }
     }
 
-    /// Of up to [`PACK`] elements; entries beyond their number do not count.
+    /// Packs the laws of up to [`PACK`] elements into lanes. Spare lanes repeat the last element.
     pub fn pack(laws: &[&Self]) -> Law<[f64; PACK], K> {
         let last = laws.len() - 1;
         let lanes = |of: &dyn Fn(&Self) -> f64| -> [f64; PACK] {
@@ -66,7 +66,7 @@ impl<const K: usize> Law<f64, K> {
         }
     }
 
-    /// The same, as constants of the kind of another number.
+    /// Converts the law to constants of the number type of `like`.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Law<N, K> {
         let row = |row: [f64; K]| row.map(|value| like.constant(value));

@@ -52,18 +52,18 @@ pub enum StrainMeasure {
     EngStrainFrenetKappa,
 }
 
-/// What a body needs from an element.
+/// Interface of an element to its body.
 pub trait Element<const D: usize>: Clone + Send + Sync {
     /// Elements that are computed in lanes.
     type Pack: Clone + Send + Sync + std::fmt::Debug;
     /// Reference length, m.
     fn length(&self) -> f64;
-    /// The same element where nothing is joined to its first or last end, nor acts there; `shape` are the
-    /// coordinates of its unstressed shape.
+    /// Returns a copy for an element with free ends. `free` tells whether nothing is joined to the first and to the
+    /// last end, nor acts there. `shape` holds the coordinates of the unstressed shape.
     fn with_free_ends(&self, shape: &Nodal<D>, free: [bool; 2]) -> Self;
     /// Axial stiffness EA, N.
     fn axial_stiffness(&self) -> f64;
-    /// The same element with at least this bending stiffness (N m^2), where it has none.
+    /// Returns a copy with at least this bending stiffness, N m^2, for an element that has none.
     fn with_bending(&self, shape: &Nodal<D>, stiffness: f64) -> Self;
     /// Scalar mass matrix, kg (report Eq. 12); the full one is its Kronecker product with I.
     fn mass(&self) -> SMatrix<f64, 4, 4>;

@@ -16,10 +16,10 @@ use crate::math::quadrature::{GAUSS_5, QuadraturePoint};
 /// inside, last end: blocks over the three components, of rods the first alone.
 pub type SpinInertia = [[[[f64; 3]; 3]; 3]; 3];
 
-/// The same of an element of this length (m) from the rotary inertia of its sections along it, kg m. Spins about the line are interpolated
-/// as the twist of a rod is. Turns of sections across it have the sums over the element at its ends, by the trapezoidal rule: between the
-/// ends sections turn with the line, of which the internal leans are a part only, and interpolating with these errs by much more
-/// (docs/decisions/0050-beams-lean-on-rods.md).
+/// Integrates the inertia of an element of this length (m) from the rotary inertia of its sections, kg m. Spins about
+/// the line are interpolated like the twist of a rod. Rotations of sections across the line are summed at the ends by
+/// the trapezoidal rule. Between the ends a section rotates with the line, and the internal shear rotations are only a
+/// part of that. Interpolation with them has a much larger error (docs/decisions/0050-beams-lean-on-rods.md).
 pub fn spin_inertia(length: f64, section: impl Fn(f64) -> Matrix3<f64>) -> SpinInertia {
     let mut inertia = SpinInertia::default();
     for QuadraturePoint { at, weight } in GAUSS_5 {
@@ -40,8 +40,8 @@ pub fn spin_inertia(length: f64, section: impl Fn(f64) -> Matrix3<f64>) -> SpinI
     inertia
 }
 
-/// The same of a beam in the plane, from the rotary inertia of its sections against turns in it, kg m: the three sections whose directions
-/// are coordinates have their parts by Simpson's rule, which leaves errors of order 4.
+/// Integrates the inertia of a planar beam of this length (m) from the rotary inertia of its sections, kg m. The three
+/// sections whose directions are coordinates share it by Simpson's rule, with errors of order 4.
 pub fn planar_inertia(length: f64, section: impl Fn(f64) -> f64) -> SpinInertia {
     let mut inertia = SpinInertia::default();
     for (k, (at, weight)) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)].into_iter().enumerate() {
@@ -64,11 +64,11 @@ pub enum SectionElement {
 /// Elements that are computed in lanes.
 #[derive(Clone, Debug)]
 pub enum SectionPack {
-    /// Of rods.
+    /// Elements of rods.
     Rod(Box<rod::Pack>),
-    /// Of beams.
+    /// Elements of beams.
     Beam(Box<beam::Pack>),
-    /// Of beams in the plane.
+    /// Elements of planar beams.
     Planar(Box<planar::Pack>),
 }
 
@@ -155,8 +155,9 @@ impl SectionElement {
         }
     }
 
-    /// What moments per reference length, N m/m, with these global components at five Gauss points do: their power is the integral of
-    /// their products with the angular velocities of the sections.
+    /// Returns the force of distributed moments on the coordinates of the element. `moments` holds global components
+    /// per reference length at five Gauss points, N m/m. Their power is the integral of the products with the angular
+    /// velocities of the sections.
     pub fn loaded<N: Real>(&self, at: &At<N>, moments: &Vectors<N>) -> Force<N> {
         match self {
             Self::Rod(rod) => of_rod(rod.loaded(&rod_at(at), moments)),

@@ -5,7 +5,7 @@ use super::expression::Expression;
 /// A function of time (s). Evaluating it allocates nothing.
 #[derive(Clone, Debug)]
 pub enum Function {
-    /// The same at all times.
+    /// Constant value.
     Constant(f64),
     /// An expression in `t`.
     Expression(Box<Expression>),

@@ -111,7 +111,7 @@ impl Interval {
         self.lo.abs().min(self.hi.abs())
     }
 
-    /// Its part from a number on.
+    /// Returns the part of the interval from `least` on.
     pub fn at_least(self, least: f64) -> Self {
         Self {
             lo: self.lo.max(least),
@@ -119,7 +119,7 @@ impl Interval {
         }
     }
 
-    /// Its part up to a number.
+    /// Returns the part of the interval up to `most`.
     pub fn at_most(self, most: f64) -> Self {
         self.negated().at_least(-most).negated()
     }
@@ -132,7 +132,7 @@ impl Interval {
         }
     }
 
-    /// What both hold; this one where rounding keeps them apart.
+    /// Returns the intersection, or `self` where rounding leaves none.
     pub fn and(self, other: Self) -> Self {
         let (lo, hi) = (self.lo.max(other.lo), self.hi.min(other.hi));
         if lo <= hi { Self { lo, hi } } else { self }

@@ -17,7 +17,7 @@ pub trait Number: RealField + Real {
         convert(value)
     }
 
-    /// Its value.
+    /// Returns the value without derivatives.
     fn plain(self) -> f64;
 
     /// The largest size of value and derivatives.

@@ -9,7 +9,7 @@ pub use pulp::Simd;
 /// Elements that are computed together; a multiple of the lanes of every processor.
 pub const PACK: usize = 8;
 
-/// What formulas need of a number: `f64` and [`Lanes`].
+/// Arithmetic that formulas use on numbers: on `f64` and [`Lanes`].
 pub trait Real:
     Copy
     + Add<Output = Self>

@@ -15,7 +15,7 @@ pub struct Least {
 }
 
 impl Least {
-    /// Of a matrix; what is below this part of its largest entry is zero.
+    /// Factors a matrix. Pivots up to `part` times its largest entry count as zero.
     pub fn new(matrix: &DMatrix<f64>, part: f64) -> Self {
         let none = part * matrix.amax();
         let pivoted = matrix.transpose().col_piv_qr();

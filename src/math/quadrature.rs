@@ -59,7 +59,7 @@ pub const RADAU_3: [QuadraturePoint; 3] = [
     point(0.6 + SQRT_6_10, (16.0 - 10.0 * SQRT_6_10) / 36.0),
 ];
 
-/// The same with the last end.
+/// Gauss-Radau, exact to degree 4, with the last end.
 pub const RADAU_3_LAST: [QuadraturePoint; 3] = [
     point(0.4 - SQRT_6_10, (16.0 - 10.0 * SQRT_6_10) / 36.0),
     point(0.4 + SQRT_6_10, (16.0 + 10.0 * SQRT_6_10) / 36.0),

@@ -40,7 +40,7 @@ pub fn inverse<N: Number>([w, x, y, z]: Quaternion<N>) -> Quaternion<N> {
     [w, -x, -y, -z]
 }
 
-/// Of unit length.
+/// Scales a quaternion to unit length.
 pub fn normalized(q: Quaternion) -> Quaternion {
     let size = q.iter().map(|part| part * part).sum::<f64>().sqrt();
     q.map(|part| part / size)
@@ -85,7 +85,7 @@ pub fn carried<N: Number>([a, b]: [&Quaternion<N>; 2], axis: usize) -> Vector3<N
     Vector3::new(x, y, z)
 }
 
-/// What a rotation takes the three axes to: the columns of its matrix. Its quaternion may have any length.
+/// Rotates the three global axes: the columns of the rotation matrix. The quaternion may have any length.
 pub fn axes<N: Number>(q: &Quaternion<N>) -> [Vector3<N>; 3] {
     let [w, x, y, z] = *q;
     let two = N::of(2.0) / (w * w + x * x + y * y + z * z);
@@ -123,8 +123,8 @@ fn square<N: Number>([a, b, c]: &[Vector3<N>; 3]) -> [[N; 4]; 4] {
     ]
 }
 
-/// Of the two quaternions of the rotation that takes the axes to these, that on the side of another one which is less than half
-/// a turn away: `q q^T h / |q . h|`.
+/// Returns the quaternion of the rotation to these axes that is on the side of `near`: `q q^T h / |q . h|`. `near` is
+/// less than half a turn away.
 pub fn quaternion_near<N: Number>(axes: &[Vector3<N>; 3], near: &Quaternion) -> Quaternion<N> {
     let along = |row: &[N; 4]| {
         let terms = row.iter().zip(near);

@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::expression::{ConstantPower, DEPTH, Elementary, Operation, run_noting};
 use super::interval::Interval;
 
-/// What takes one of two branches (or of three: `sign`) by the sign of its switching argument.
+/// Function with two branches (`sign` with three) that the sign of its switching argument selects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Switch {
     Abs,
@@ -89,7 +89,7 @@ impl Switch {
         })
     }
 
-    /// Its value, with the derivatives of its branch, and the branch.
+    /// Returns the value with the derivatives of its branch, and the branch.
     pub(super) fn apply<N: ConstantPower>(self, [a, b, c]: [N; 3]) -> (N, u8) {
         let branch = self.branch(self.argument([a.re(), b.re()]));
         let value = match (self, branch) {

@@ -40,11 +40,11 @@ pub(super) struct Moving<N> {
     leans: [[N; 2]; 3],
 }
 
-/// What lengths of the slope and leans at the first end, at the last, and inside count at a point.
+/// Shape functions at a point of the length of the slope and of the shear rotations.
 pub(super) struct Shapes {
-    /// Of the first end, the middle and the last end.
+    /// Shape functions of the length of the slope, in the order first end, middle, last end.
     pub stretch: [f64; 3],
-    /// Of the first end, the last, and the internal one.
+    /// Shape functions of the shear rotation, in the order first end, last end, internal.
     pub lean: [f64; 3],
     /// Derivatives of these by the reference length times the length.
     pub change: [f64; 3],
@@ -63,7 +63,7 @@ impl Shapes {
 }
 
 impl Kernel<f64> {
-    /// The same parameters, as constants of the kind of another number.
+    /// Converts the kernel to constants of the number type of `like`.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Kernel<N> {
         Kernel {
@@ -106,7 +106,7 @@ impl<N: Real> Kernel<N> {
         }
     }
 
-    /// What rates of strains are found from.
+    /// Computes the rates of vectors, frames and inner coordinates, from which rates of strains follow.
     #[inline(always)]
     pub fn moving(&self, placed: &Placed<N>, rates: &Rates<N>) -> Moving<N> {
         let [first, last] = &placed.ends;

@@ -17,7 +17,7 @@ use crate::math::lanes::Real;
 /// Strains or stresses of a section: axial, shear along both axes across, twist, bending about both.
 pub(super) type Six<N> = [N; 6];
 
-/// What the strains of a section are made of, its rates, or the factors of these in a power.
+/// Quantities that the strains of a section are computed from, their rates, or their conjugate factors in a power.
 #[derive(Clone, Copy)]
 pub(super) struct Local<N> {
     /// Length of the slope of the line.
@@ -26,7 +26,7 @@ pub(super) struct Local<N> {
     pub turning: [N; 3],
     /// Lean about both axes of the tangent's frame across it.
     pub lean: [N; 2],
-    /// Its derivative by the reference length, 1/m.
+    /// Derivative of `lean` with respect to the reference length, 1/m.
     pub change: [N; 2],
 }
 

@@ -74,7 +74,8 @@ impl Beam {
         self.kernel.lift(at.inner[0]).outward(at, vectors)
     }
 
-    /// What moments per reference length, N m/m, with these global components at the Gauss points [`LOADED`] do to an element.
+    /// Returns the force of distributed moments on an element. `moments` holds global components per reference length
+    /// at the Gauss points [`LOADED`], N m/m.
     pub fn loaded<N: Real>(&self, at: &At<N>, moments: &[[N; 3]; LOADED.len()]) -> Force<N> {
         self.kernel.lift(at.inner[0]).loaded(at, moments)
     }

@@ -32,7 +32,7 @@ use section_variation::mass;
 /// of stretching waves and cost bending less than they gain; beyond it they lock.
 const SLENDER: f64 = 200.0;
 
-/// What a cable element is the line of.
+/// Kind of body whose line a cable element is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineOf {
     /// A cable: it stretches and bends itself.
@@ -52,13 +52,14 @@ pub struct Parameters {
     pub axial_stiffness: f64,
     /// Bending stiffness EI, N m^2.
     pub bending_stiffness: f64,
-    /// What it is the line of: bending is not its own of a rod, nor is stretching of a beam.
+    /// Kind of body whose line the element is. The line of a rod does not resist bending itself, that of a beam neither
+    /// bending nor stretching.
     pub line_of: LineOf,
     /// Mass per reference length, kg/m.
     pub line_density: f64,
     /// Kelvin-Voigt damping time of axial strain: force is stiffness times (strain + time x strain rate), s.
     pub axial_damping_time: f64,
-    /// The same of bending, s.
+    /// Damping time of bending, s.
     pub bending_damping_time: f64,
     /// Strain measure.
     pub strain: StrainMeasure,
@@ -79,9 +80,9 @@ impl Parameters {
 pub enum Inertia {
     /// The integral of the shape functions' products (report Eq. 12).
     Consistent,
-    /// The same for all that is linear in an element, so momentum and rigid motion do not notice;
-    /// quadratic parts count twice, cubic ones 26/3 times, which makes the dispersion of bending waves
-    /// exact to the eighth order in wave number times length instead of the fourth
+    /// Consistent matrix for all parts of the velocity that are linear in an element, which leaves momentum and rigid
+    /// motion unchanged. Quadratic parts count twice and cubic parts 26/3 times. This makes the dispersion of bending
+    /// waves exact to the eighth order in wave number times length, instead of the fourth
     /// (docs/decisions/0012-mass-against-dispersion.md).
     Corrected,
 }
@@ -150,7 +151,8 @@ impl<const D: usize> Cable<D> {
         Self::tapered(parameters, SectionVariation::default(), shape)
     }
 
-    /// The same of a section that changes along the element.
+    /// Builds a cable element whose section varies along its length. `shape` holds the coordinates of the unstressed
+    /// shape, straight if `None`.
     pub fn tapered(
         parameters: Parameters,
         taper: SectionVariation,
@@ -208,7 +210,8 @@ impl<const D: usize> Cable<D> {
         self.integral_before(xi, |at| self.parameters.line_density * taper.at(at))
     }
 
-    /// The same of all that is moved, the fluid which moves along among it.
+    /// Integrates mass times the shape functions from 0 to `xi` in [0, 1], kg and kg m. Fluid that moves along is
+    /// included.
     pub fn moved_before(&self, xi: f64) -> SVector<f64, 4> {
         let (parameters, taper) = (&self.parameters, &self.taper);
         if taper.moves_evenly() {

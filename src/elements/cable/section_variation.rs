@@ -8,15 +8,15 @@ use super::{Inertia, Parameters};
 use crate::elements::{ElementPolynomial, shape};
 use crate::math::quadrature::GAUSS_5;
 
-/// What the stiffnesses and the mass of [`Parameters`] are multiplied by along an element, one everywhere by default, and the
-/// mass of a fluid beside them.
+/// Factors along an element of the stiffnesses and the mass of [`Parameters`], 1 by default, and the mass of the fluid
+/// that moves along.
 #[derive(Clone, Copy, Debug)]
 pub struct SectionVariation {
-    /// Of axial stiffness.
+    /// Factor of the axial stiffness.
     pub axial: ElementPolynomial,
-    /// Of bending stiffness.
+    /// Factor of the bending stiffness.
     pub bending: ElementPolynomial,
-    /// Of mass per reference length.
+    /// Factor of the mass per reference length.
     pub density: ElementPolynomial,
     /// Mass per reference length of the fluid that moves along, kg/m; none by default. It has inertia and no weight.
     pub added: ElementPolynomial,
@@ -40,7 +40,7 @@ impl SectionVariation {
         parameters.line_density * self.density.at(xi) + self.added.at(xi)
     }
 
-    /// Its mean along the element.
+    /// Returns the mean mass per reference length of the element with the fluid that moves along, kg/m.
     pub(super) fn mean_moved(&self, parameters: &Parameters) -> f64 {
         parameters.line_density * self.density.mean() + self.added.mean()
     }

@@ -94,7 +94,7 @@ pub(in crate::elements) struct Section<N> {
 /// Factors of the changes of what a section sees, summed over sections.
 #[derive(Clone, Copy)]
 pub(in crate::elements) struct Sum<N> {
-    /// Of the three vectors.
+    /// Factors of the changes of the three vectors.
     pub vectors: [Vector<N>; 3],
     middle: Vector<N>,
     /// Of the turn of the first end's frame, carried to the middle.
@@ -117,7 +117,7 @@ impl<N: Real> Sum<N> {
 }
 
 impl Geometry<f64> {
-    /// The same lengths, as constants of the kind of another number.
+    /// Converts the lengths to constants of the number type of `like`.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Geometry<N> {
         Geometry {
@@ -182,7 +182,8 @@ impl<N: Real> Geometry<N> {
         }
     }
 
-    /// What the internal twist counts at a point, and its derivative by the reference length times the length.
+    /// Evaluates the shape function of the internal twist at a point, and its derivative by the reference length times
+    /// the length.
     #[inline(always)]
     pub fn quadratic(&self, at: f64) -> (N, N) {
         (
@@ -340,7 +341,7 @@ impl<N: Real> Geometry<N> {
         }
     }
 
-    /// What rates of strains are found from.
+    /// Computes the rates of vectors, frame and internal twist, from which rates of strains follow.
     #[inline(always)]
     pub fn motion(&self, frame: &Frame<N>, rates: &Rates<N>) -> Motion<N> {
         let dv = self.vectors(&rates.e);

@@ -23,7 +23,7 @@ pub(super) struct Kernel<N> {
 }
 
 impl Kernel<f64> {
-    /// The same parameters, as constants of the kind of another number.
+    /// Converts the kernel to constants of the number type of `like`.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Kernel<N> {
         Kernel {

@@ -9,7 +9,7 @@ use super::{At, Matrix, Stretch, VELOCITIES};
 use crate::elements::line::{Sample, combine, dot, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 
-/// What the lengths of the slope at the first end, in the middle and at the last end count at a point.
+/// Evaluates the quadratic shape functions of the length of the slope, in the order first end, middle, last end.
 #[inline(always)]
 pub(in crate::elements) const fn parabola(at: f64) -> [f64; 3] {
     [
@@ -106,7 +106,7 @@ impl Axial<f64> {
         })
     }
 
-    /// The same parameters, as constants of the kind of another number.
+    /// Converts the law to constants of the number type of `like`.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Axial<N> {
         let lifted = |row: [f64; 3]| row.map(|value| like.constant(value));
@@ -177,7 +177,7 @@ impl<N: Real> Geometry<N> {
         ]
     }
 
-    /// The same as rates.
+    /// Computes rates of the lengths of the slope at the first end, in the middle and at the last end.
     #[inline(always)]
     pub fn length_rates(&self, motion: &Motion<N>, frame: &Frame<N>) -> [N; 3] {
         self.lengths(&motion.dv, frame)
@@ -195,7 +195,7 @@ impl<N: Real> Geometry<N> {
         sum.vectors[2] = plus(&last.tangent, factors[2], &sum.vectors[2]);
     }
 
-    /// What lengths at the ends and in the middle make at a point.
+    /// Interpolates lengths at the first end, in the middle and at the last end to a point.
     #[inline(always)]
     pub fn at_point(&self, at: f64, lengths: &[N; 3]) -> N {
         let shapes = parabola(at);

@@ -31,7 +31,7 @@ pub(in crate::elements) fn plus<N: Real, const K: usize>(
     each!(*a, k => a[k].times_plus(factor, b[k]))
 }
 
-/// What of `v` is across the unit vector `t`.
+/// Returns the component of `v` perpendicular to the unit vector `t`.
 #[inline(always)]
 pub(in crate::elements) fn across<N: Real>(t: &Vector<N>, v: &Vector<N>) -> Vector<N> {
     plus(t, -dot(t, v), v)
@@ -44,8 +44,8 @@ pub(in crate::elements) fn unit<N: Real>(u: &Vector<N>) -> (Vector<N>, N) {
     (times(u, inverse), inverse)
 }
 
-/// What the smallest rotation that takes the unit vector `a` to `b` makes of `v`, which is across `a`; `inverse` is
-/// `1 / (1 + a . b)`.
+/// Rotates `v`, which is perpendicular to `a`, by the smallest rotation from the unit vector `a` to the unit vector
+/// `b`. `inverse` is `1 / (1 + a . b)`.
 #[inline(always)]
 pub(in crate::elements) fn carry<N: Real>(
     a: &Vector<N>,

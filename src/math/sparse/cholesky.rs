@@ -144,7 +144,7 @@ impl Cholesky {
         }
     }
 
-    /// What of `W^-1 x` is not zero where `x` is not zero at some vertices alone.
+    /// Returns the nonzero variables of `W^-1 x` for an `x` that is nonzero only at some vertices.
     pub fn reach(&self, pattern: &Pattern, vertices: &[usize]) -> Reach {
         let mut reach = Reach {
             pieces: Vec::new(),

@@ -16,7 +16,7 @@ pub struct General<T> {
 }
 
 impl General<f64> {
-    /// Its symmetric part, in place of what is in a matrix.
+    /// Overwrites `into` with the symmetric part of this matrix.
     pub fn symmetric_part(&self, pattern: &Pattern, into: &mut Matrix<f64>) {
         let pairs = self.lower.iter().zip(&self.upper);
         for (into, (lower, upper)) in into.values.iter_mut().zip(pairs) {

@@ -4,8 +4,8 @@
 use super::pattern::{Column, Pattern, Step, of_size};
 use super::{Number, chains};
 
-/// What becomes of a pivot: takes its variable and it and returns its inverse, zero for a row that drops out, or
-/// nothing where the factorization ends.
+/// Rule for pivots: takes a variable and its pivot, and returns the inverse of the pivot. Zero drops the row, `None`
+/// ends the factorization.
 pub(super) trait Pivots<T>: FnMut(usize, T) -> Option<T> {}
 
 impl<T, F: FnMut(usize, T) -> Option<T>> Pivots<T> for F {}

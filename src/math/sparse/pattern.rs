@@ -111,7 +111,7 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// That of the transposed block.
+    /// Returns the slot of the transposed block.
     pub fn flipped(self) -> Self {
         Self {
             transposed: !self.transposed,
@@ -163,11 +163,11 @@ impl Pattern {
         Self::with_multipliers(sizes, edges, sizes.len())
     }
 
-    /// The same where vertices from number `first` on are multipliers: rows and columns of constraints, without
-    /// anything on the diagonal. Each is eliminated after the last vertex that it has an edge to, where its pivot is
-    /// negative; none of them are linked to each other. All others are eliminated as if a multiplier linked its vertices
-    /// in the order in which its edges tell of them, and of several with the same degree what [`MANY`] multipliers of one
-    /// vertex hold last: what constraints take out of vectors then passes few vertices.
+    /// Builds the pattern of a matrix whose vertices from number `first` on are multipliers. These are rows and columns
+    /// of constraints with an empty diagonal. Each is eliminated after the last vertex that it has an edge to, where
+    /// its pivot is negative. Multipliers are not linked to each other. The other vertices are eliminated as if a
+    /// multiplier linked its vertices in the order of its edges. Among those with the same degree, vertices with at
+    /// least [`MANY`] multipliers come last, so that eliminated constraints pass through few vertices.
     ///
     /// Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
     /// section 7.

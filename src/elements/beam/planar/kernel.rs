@@ -100,7 +100,7 @@ fn cross<N: Real>(a: &Two<N>, b: &Two<N>) -> N {
 }
 
 impl Kernel<f64> {
-    /// The same parameters, as constants of the kind of another number.
+    /// Converts the kernel to constants of the number type of `like`.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Kernel<N> {
         Kernel {
@@ -439,7 +439,8 @@ impl<N: Real> Sum<N> {
     }
 }
 
-/// What the values at the three places count at a point, and in the derivative times the length.
+/// Evaluates the three quadratic shape functions at a point, and their derivatives by the reference length times the
+/// length.
 #[inline(always)]
 pub(super) fn parabola(at: f64) -> [[f64; 3]; 2] {
     let shapes = Shapes::new(at).stretch;

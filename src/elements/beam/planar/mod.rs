@@ -113,8 +113,9 @@ impl Planar {
         [from(first).max(from(last)), 0.0]
     }
 
-    /// What moments per reference length, N m/m, across the plane at the Gauss points [`LOADED`] do to an element: their power is the
-    /// integral of their products with the angular velocities of sections.
+    /// Returns the force of distributed moments across the plane on an element. `moments` holds values per reference
+    /// length at the Gauss points [`LOADED`], N m/m. Their power is the integral of the products with the angular
+    /// velocities of the sections.
     pub fn loaded<N: Real>(&self, at: &At<N>, moments: &[[N; 3]; LOADED.len()]) -> Force<N> {
         self.kernel.lift(at.inner[0]).loaded(at, moments)
     }

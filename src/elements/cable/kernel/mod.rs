@@ -109,7 +109,7 @@ pub(super) struct Kernel<N> {
 }
 
 impl Kernel<f64> {
-    /// The same parameters, as constants of another kind of numbers.
+    /// Converts the kernel to constants of another number type.
     #[inline(always)]
     pub fn lift<N: Number>(&self) -> Kernel<N> {
         Kernel {

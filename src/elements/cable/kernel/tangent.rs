@@ -10,7 +10,7 @@ use crate::elements::EndBlocks;
 use crate::elements::line::{Components, Sample, combine, times};
 use crate::math::lanes::Real;
 
-/// What a tangent is made of.
+/// Weights of the parts of a tangent matrix.
 #[derive(Clone, Copy)]
 pub(in crate::elements::cable) struct Factors<N> {
     /// Weight of the geometric part, 0 or 1.
@@ -23,7 +23,7 @@ pub(in crate::elements::cable) struct Factors<N> {
 }
 
 impl<N: Copy> Factors<N> {
-    /// What the stiffness is made of.
+    /// Returns the weights of the stiffness matrix.
     #[inline(always)]
     pub fn elastic(one: N) -> Self {
         Self {
@@ -34,7 +34,7 @@ impl<N: Copy> Factors<N> {
         }
     }
 
-    /// What the damping matrix is made of.
+    /// Returns the weights of the damping matrix.
     #[inline(always)]
     pub fn damped(zero: N, kernel: &Kernel<N>) -> Self {
         Self {
