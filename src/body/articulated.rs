@@ -23,9 +23,9 @@ const SPAN: f64 = 1e-3;
 /// A body and the joint to its parent.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// Its index among the frames.
+    /// Index of the rigid body among the frames.
     pub frame: usize,
-    /// Its parent among the links, earlier in their list; nothing where the joint is to the ground or where there is none.
+    /// Index of the parent link, which is earlier in the list. `None` for a joint to the ground or for a free body.
     pub parent: Option<usize>,
     /// Components of the point that is held along the axes of the body and of its parent, m; nothing where no joint holds
     /// the body.

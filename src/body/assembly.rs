@@ -26,7 +26,7 @@ enum NodeCoordinates {
     Tied(usize, usize),
 }
 
-/// What couples nodes.
+/// Couplings between nodes, from which the sparsity patterns follow.
 #[derive(Clone, Debug, Default)]
 pub struct Links {
     /// Pairs that the mass couples.
@@ -197,12 +197,12 @@ impl<const D: usize> Assembly<D> {
         &self.held[constraint].on
     }
 
-    /// What of `W^-1 y` is not zero, of the forces `y` of a constraint.
+    /// Returns the nonzero variables of `W^-1 y` for the forces `y` of a constraint.
     pub fn reach(&self, constraint: usize, factor: &Cholesky) -> Reach {
         factor.reach(&self.of_mass, &self.held[constraint].on)
     }
 
-    /// The same of the forces on a node.
+    /// Returns the nonzero variables of `W^-1 y` for forces `y` on one node.
     pub fn reach_of_node(&self, node: usize, factor: &Cholesky) -> Reach {
         factor.reach(&self.of_mass, &[self.vertices[node]])
     }

@@ -199,7 +199,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         power / longer[0]
     }
 
-    /// The same of numbers of any kind, element by element.
+    /// Adds the forces of all elements for any number type, element by element.
     pub fn add_force_of<N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),

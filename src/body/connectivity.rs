@@ -80,7 +80,7 @@ pub struct ConnectivityRow<const D: usize = 2> {
 /// A row that can be had from rows before it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dependent {
-    /// Its index.
+    /// Index of the row.
     pub row: usize,
     /// Whether it or a row that it depends on is driven: then both can only hold by chance.
     pub is_driven: bool,
@@ -89,7 +89,7 @@ pub struct Dependent {
 /// Nodes tied together, and the QR of what ties them.
 #[derive(Clone, Debug)]
 pub struct Cluster {
-    /// Its nodes.
+    /// Indices of the nodes.
     pub nodes: Vec<usize>,
     /// Orthonormal basis of their free motion: one row per coordinate, one column per free one.
     pub basis: DMatrix<f64>,

@@ -64,8 +64,9 @@ impl<const D: usize> Elimination<D> {
         self.project(y, q);
     }
 
-    /// What of `T^T f` is not zero, in order, of a force on one node: no more is gone through than that reaches. `y` holds zeros,
-    /// and is left so.
+    /// Applies `T^T` to a force on one node. Returns the nonzero entries in order, as pairs of index and value. Work is
+    /// limited to the entries that the force reaches. `y` is scratch that must hold zeros, and holds zeros again on
+    /// return.
     pub fn reduce_node(&self, node: usize, f: &Node<D>, y: &mut [f64]) -> Vec<(usize, f64)> {
         self.assembly.restrict_node(node, f, y);
         let reach = self.assembly.reach_of_node(node, &self.factor);
@@ -91,7 +92,7 @@ impl<const D: usize> Elimination<D> {
         self.factor.forward(self.assembly.of_mass(), q);
     }
 
-    /// What of `W^-1 y` is not zero, of the forces `y` of a constraint.
+    /// Returns the nonzero variables of `W^-1 y` for the forces `y` of a constraint.
     pub fn reach(&self, constraint: usize) -> Reach {
         self.assembly.reach(constraint, &self.factor)
     }

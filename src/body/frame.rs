@@ -43,7 +43,7 @@ pub type Axes<N = f64> = [Vector3<N>; 3];
 /// A rigid body of space.
 #[derive(Clone, Debug)]
 pub struct RigidBodyFrame {
-    /// Its first node; the second one follows.
+    /// Index of the first node. The second node follows it.
     pub node: usize,
     /// Mass, kg.
     pub mass: f64,
@@ -92,7 +92,7 @@ fn set_axes_at<const D: usize, N: Number>(node: usize, axes: &Axes<N>, x: &mut [
 }
 
 impl RigidBodyFrame {
-    /// Its axes, or their rates where `x` holds rates.
+    /// Returns the axes of the body, or their rates where `x` holds rates.
     pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         axes_at(self.node, x)
     }
@@ -108,7 +108,7 @@ impl RigidBodyFrame {
         [b + c - a, c + a - b, a + b - c].map(|twice| 0.5 * twice)
     }
 
-    /// Its largest radius of gyration, m.
+    /// Returns the largest radius of gyration, m.
     pub fn gyration(&self) -> f64 {
         let largest = self.moments.iter().fold(0.0, |m, j| f64::max(m, *j));
         (largest / self.mass).sqrt()
@@ -196,14 +196,14 @@ impl RigidBodyFrame {
         }
     }
 
-    /// What stands in `q` for the rotation about its axes.
+    /// Reads the rotation about the body's axes from the coordinates `q`.
     pub fn read(&self, q: &[f64]) -> Vector3<f64> {
         let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| q[at] / scale);
         self.places.map(value).into()
     }
 }
 
-/// What the vectors of a node are.
+/// Meaning of the two vectors of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeKind {
     /// A position and a direction.
@@ -363,8 +363,8 @@ impl RotationMaps {
         }
     }
 
-    /// What a force on the position and one on the direction of a marker do to the nodes of its body that have coordinates: forces
-    /// and moments. False where it is on none of these bodies.
+    /// Pulls forces on position and direction of a marker back to the coordinates of its body: forces and moments per
+    /// node, passed to `term`. Returns false if the marker is on no body with a frame.
     #[inline(always)]
     pub fn pull_marker<const D: usize, N: Number>(
         &self,
@@ -443,7 +443,7 @@ impl RotationMaps {
         })
     }
 
-    /// What the vectors of a node are.
+    /// Returns the meaning of the two vectors of a node.
     pub fn kind(&self, node: usize) -> NodeKind {
         match self.of_node.get(node).copied().flatten() {
             Some((NO_FRAME, false)) => NodeKind::Inner,

@@ -224,7 +224,8 @@ impl Jacobian {
         self.pivots[place] > part * part * self.squares[place]
     }
 
-    /// What those that count leave of a row, relative to its size; into `rest` as a vector, relative as well.
+    /// Projects a row onto the complement of the independent rows. Returns the size of the remainder relative to the
+    /// row, and stores the remainder in `rest`, also relative.
     pub fn part_left(&mut self, row: usize, rest: &mut [f64]) -> f64 {
         let size = self.squares[self.place[row]].sqrt();
         if size == 0.0 {

@@ -132,7 +132,7 @@ pub(super) fn vertices<const D: usize>(
     (vertices, sizes, of_cluster)
 }
 
-/// What of the bases of clusters is not zero, node by node, and where that of every node stands.
+/// Lists the nonzero entries of the bases of clusters, node by node, and the range of entries of every node, `[nodes]`.
 pub(super) fn entries<const D: usize>(
     clusters: &[Cluster],
     ranges: &[Range<usize>],

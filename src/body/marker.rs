@@ -67,7 +67,7 @@ impl Marker {
         }
     }
 
-    /// The same point of a rigid body of space with another direction.
+    /// Returns a marker at the point of this one on a rigid body in space, with another direction.
     pub fn directed(&self, direction: [f64; 3]) -> Self {
         let [a, b, c] = direction;
         Self {
@@ -119,7 +119,7 @@ impl Marker {
         }
     }
 
-    /// The same point, its weights constants of another kind of numbers.
+    /// Converts the weights of the marker to constants of another number type.
     #[inline(always)]
     pub fn lift<N: Number>(&self) -> Marker<N> {
         Marker {

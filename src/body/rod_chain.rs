@@ -105,7 +105,7 @@ impl RodChain {
         self.frames().map(|(node, _)| node + self.stride - 1)
     }
 
-    /// What stands at a marker of its line that is at a node: the section there.
+    /// Returns the marker of the section at a nodal marker of the line. `None` between nodes.
     pub fn section_at(&self, marker: &Marker) -> Option<Marker> {
         let k = marker.nodes[0] - self.line;
         let frame = self.frames + self.stride * k;

@@ -88,7 +88,8 @@ fn rotation_rate<N: Number>(
 }
 
 impl Lean {
-    /// Its axes at a rotation and a slope from the frame of the state, and how they are found.
+    /// Computes the section axes for a rotation and a slope relative to the frame of the state. Returns the
+    /// intermediate values together with the axes.
     pub fn placed(
         from: &Quaternion,
         slope: Vector3<f64>,

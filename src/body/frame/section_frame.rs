@@ -24,7 +24,8 @@ use crate::math::space::{components, vector};
 /// A frame at a node of a rod or beam.
 #[derive(Clone, Debug)]
 pub struct SectionFrame {
-    /// Its first node; the second one follows. Both hold position and axes, as those of a rigid body do.
+    /// Index of the first node. The second node follows it. Both hold position and axes, like the nodes of a rigid
+    /// body.
     pub node: usize,
     /// The node of the line that it is at.
     pub line: usize,
@@ -108,7 +109,7 @@ fn turned_by<N: Number>(axes: &Axes<N>, velocity: &Vector3<N>) -> Axes<N> {
 }
 
 impl SectionFrame {
-    /// Its axes, or their rates where `x` holds rates.
+    /// Returns the axes of the section, or their rates where `x` holds rates.
     pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         axes_at(self.node, x)
     }
@@ -118,8 +119,8 @@ impl SectionFrame {
         if self.leans { 3 } else { 1 }
     }
 
-    /// What it turns by freely: angular velocity along its axes, rad/s, of a rod's that about the tangent alone; or a small rotation,
-    /// rad, where `v` holds changes.
+    /// Returns the free rotation rates along the section axes, rad/s: the angular velocity of a beam's section, only
+    /// the part about the tangent for a rod. Where `v` holds changes, the result is a small rotation, rad.
     pub fn spin<const D: usize, N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> [N; 3] {
         if self.leans {
             return spin_at(self.node, x, v).into();
@@ -143,7 +144,7 @@ impl SectionFrame {
         along
     }
 
-    /// Its angular velocity, rad/s.
+    /// Returns the angular velocity in global axes, rad/s.
     pub fn velocity<const D: usize>(&self, x: &[Node<D>], v: &[Node<D>]) -> Vector3<f64> {
         let spin = self.spin(x, v);
         match self.leans {
@@ -190,8 +191,8 @@ impl SectionFrame {
         turned_by(&axes, &angular(&self.slope(x), &self.slope(dx), spin[0]))
     }
 
-    /// What a momentum conjugate to the spins, N m s, asks for where the section turns: of a rod the force `P (t x t') / |u|` on the
-    /// slope; of a beam the moment `-w x P` along the axes; N m.
+    /// Returns the gyroscopic term of a momentum conjugate to the spins, N m s. For a rod it is the force `P (t x t') /
+    /// |u|` on the slope. For a beam it is the moment `-w x P` along the axes, N m.
     pub fn gyroscopic<N: Number>(
         &self,
         momentum: [N; 3],
@@ -204,7 +205,8 @@ impl SectionFrame {
         slope.cross(rate) * (momentum[0] / (square * square.sqrt()))
     }
 
-    /// The same at coordinates and rates of the nodes, added to forces: on the slope of the line, or on the frame.
+    /// Adds the gyroscopic term at coordinates and rates of the nodes to forces: on the slope of the line for a rod, on
+    /// the frame for a beam.
     pub fn add_gyroscopic<const D: usize, N: Number>(
         &self,
         momentum: [N; 3],
@@ -238,12 +240,12 @@ impl SectionFrame {
 }
 
 impl RotationMaps {
-    /// Those that rods carry.
+    /// Returns the section frames of rods and beams.
     pub fn carried(&self) -> &[SectionFrame] {
         &self.carried
     }
 
-    /// The same, to be changed.
+    /// Returns mutable access to the section frames.
     pub fn carried_mut(&mut self) -> &mut [SectionFrame] {
         &mut self.carried
     }
@@ -400,8 +402,8 @@ impl RotationMaps {
         }
     }
 
-    /// What a force on the position of a marker and a moment along the axes of its carried frame do to the nodes that have
-    /// coordinates.
+    /// Pulls a force on the position of a marker and a moment along the axes of its section frame back to nodal
+    /// coordinates, passed to `term`.
     pub(super) fn pull_on_carried<const D: usize, N: Number>(
         frame: &SectionFrame,
         (force, moment): (&[N; D], &Vector3<N>),

@@ -12,7 +12,7 @@ use crate::math::rotation::{Quaternion, normalized, product};
 pub struct RotationIncrement {
     /// Rotation, rad.
     pub rotation: Vector3<f64>,
-    /// Its rate, rad/s.
+    /// Time derivative of `rotation`, rad/s.
     pub rate: Vector3<f64>,
     /// Angular velocity along the body's axes, rad/s.
     pub spin: Vector3<f64>,

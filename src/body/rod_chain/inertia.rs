@@ -22,7 +22,8 @@ impl RodChain {
         self.momenta_of(j, &self.rates(j, motion, frames))
     }
 
-    /// The same of these velocities; of their rates, what changes it.
+    /// Returns the conjugate momenta of these velocities, N m s, as inertia times rates. For rates of velocities it
+    /// returns the change of momenta.
     pub(super) fn momenta_of<N: Number>(&self, j: usize, rates: &Rates<N>) -> [[N; 3]; 3] {
         let (_, inertia) = &self.elements[j];
         let rates = [rates.spin[0], rates.inner, rates.spin[1]];
@@ -150,8 +151,8 @@ impl RodChain {
         }
     }
 
-    /// What element `j` lacks for equilibrium: elastic and damping forces less the inertia of spins, with the force that these ask for
-    /// where tangents turn, in a scene that turns at this rate, rad/s.
+    /// Returns the force residual of element `j`: elastic and damping forces minus the inertia forces of spins. Inertia
+    /// forces include the gyroscopic terms of rotating tangents and of a scene that rotates at `rotation`, rad/s.
     pub fn lack<const D: usize, N: Number>(
         &self,
         j: usize,

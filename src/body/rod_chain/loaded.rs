@@ -29,7 +29,8 @@ impl RodChain {
         self.element(j).outward(&self.at(j, x), vectors)
     }
 
-    /// What moments per reference length, N m/m, with these global components at the Gauss points do to element `j`.
+    /// Returns the force of distributed moments on element `j`. `moments` holds global components per reference length
+    /// at the Gauss points, N m/m.
     pub fn loaded<const D: usize, N: Number>(
         &self,
         j: usize,

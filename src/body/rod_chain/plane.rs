@@ -29,7 +29,7 @@ pub fn axes<const D: usize, N: Number>(d: &[N; D]) -> [[N; 3]; 3] {
     [[c, s, zero], [zero, zero, one], [s, -c, zero]]
 }
 
-/// Its angular velocity along its axes at this rate of the direction.
+/// Returns the angular velocity along the section axes for a direction `d` and its rate, rad/s.
 pub(super) fn spin<const D: usize, N: Number>(d: &[N; D], rate: &[N; D]) -> [N; 3] {
     let [c, s] = turned(d);
     [N::of(0.0), c * rate[0] + s * rate[1], N::of(0.0)]
@@ -70,7 +70,7 @@ fn turned<const D: usize, N: Number>(d: &[N; D]) -> [N; 2] {
     [-d[1] / square, d[0] / square]
 }
 
-/// What of inertia along the axes counts.
+/// Selects the entry of an inertia block that planar sections use.
 pub(super) fn inertia(block: &[[f64; 3]; 3]) -> f64 {
     block[PARTS.start][PARTS.start]
 }

@@ -23,7 +23,7 @@ use crate::math::jet::Number;
 type Rotation = [f64; 3];
 
 impl RodChain {
-    /// What the rotation of the scene adds to the inertia of spins of element `j`, as a force on it.
+    /// Returns the force that the rotation of the scene adds to the spin inertia of element `j`.
     pub fn turning<const D: usize, N: Number>(
         &self,
         j: usize,
