@@ -46,7 +46,7 @@ impl LumpedMass {
     }
 }
 
-/// What a system is made of.
+/// Parts from which a system is built.
 #[derive(Clone, Debug)]
 pub struct Parts<const D: usize = 2> {
     /// Nodal coordinates as described; bodies need not fit together yet.

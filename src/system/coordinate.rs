@@ -53,7 +53,7 @@ impl<const D: usize> Translation<D> {
         self.along(x, false).dot(&self.between(x))
     }
 
-    /// Its derivatives.
+    /// Returns the derivatives with respect to positions and directions of the ends.
     pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
         let (none, along) = (Vector::zeros(), self.along(x, false));
         let [sin, cos] = self.turn.map(N::of);
@@ -69,7 +69,7 @@ impl<const D: usize> Translation<D> {
         }
     }
 
-    /// Its second derivative in time but for the part of accelerations, m/s^2.
+    /// Returns the second time derivative at zero nodal accelerations, m/s^2.
     pub fn bend<N: Number>(&self, v: &[Node<D, N>]) -> N {
         let [a, b] = self.ends.map(|end| end.lift().velocity(v));
         N::of(2.0) * self.along(v, true).dot(&(b - a))
@@ -90,7 +90,7 @@ impl<const D: usize> Translation<D> {
 }
 
 impl<const D: usize> Angle<D> {
-    /// Its derivatives.
+    /// Returns the derivatives with respect to positions and directions of the ends.
     #[inline(always)]
     pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
         if let Some(turn) = self.about() {
@@ -103,7 +103,7 @@ impl<const D: usize> Angle<D> {
         }
     }
 
-    /// Its second derivative in time but for the part of accelerations, rad/s^2.
+    /// Returns the second time derivative at zero nodal accelerations, rad/s^2.
     pub fn bend<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         if let Some(turn) = self.about() {
             return turn.bend(x, v);
@@ -135,7 +135,7 @@ impl<const D: usize> Angle<D> {
 }
 
 impl<const D: usize> Coordinate<D> {
-    /// Its value, m or rad: the angle that is nearest to that among `angles`.
+    /// Returns the value, m or rad. An angle is the one nearest to its entry in `angles`.
     pub fn value<N: Number>(&self, x: &[Node<D, N>], angles: &[N]) -> N {
         match self {
             Self::Translation(way) => way.value(x),
@@ -143,7 +143,8 @@ impl<const D: usize> Coordinate<D> {
         }
     }
 
-    /// Its derivatives; the second entry is on the second body.
+    /// Returns the derivatives with respect to positions and directions of the ends. The second entry belongs to the
+    /// second body.
     #[inline(always)]
     pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
         match self {
@@ -152,13 +153,13 @@ impl<const D: usize> Coordinate<D> {
         }
     }
 
-    /// Its rate, m/s or rad/s.
+    /// Returns the time derivative, m/s or rad/s.
     #[inline(always)]
     pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         self.gradient(x).along(v)
     }
 
-    /// Its second derivative in time but for the part of accelerations, 1/s^2.
+    /// Returns the second time derivative at zero nodal accelerations, m/s^2 or rad/s^2.
     pub fn bend<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         match self {
             Self::Translation(way) => way.bend(v),
@@ -192,7 +193,7 @@ impl<const D: usize> Coordinate<D> {
         }
     }
 
-    /// What it is measured between.
+    /// Returns the two ends that the coordinate is measured between.
     pub fn ends(&self) -> [Attachment<D>; 2] {
         match self {
             Self::Translation(way) => way.ends,

@@ -10,13 +10,13 @@ use crate::system::gradient::Gradient;
 /// A direction: of a marker, or fixed in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction<const D: usize> {
-    /// That of a marker.
+    /// Direction of a marker.
     Of(Marker),
     /// A unit vector.
     Fixed(Vector<D>),
 }
 
-/// The turn of one body against another about an axis.
+/// Rotation of one body relative to another about an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisTurn<const D: usize> {
     /// Unit vectors `n` and `m` across the axis, fixed in the first body.
@@ -26,7 +26,7 @@ pub struct AxisTurn<const D: usize> {
 }
 
 impl<const D: usize> Direction<D> {
-    /// Its components now.
+    /// Returns the components in global axes.
     pub fn value<N: Number>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Of(marker) => marker.lift().direction(x),
@@ -34,7 +34,7 @@ impl<const D: usize> Direction<D> {
         }
     }
 
-    /// Their rates.
+    /// Returns the rates of the components in global axes, 1/s.
     pub fn rate<N: Number>(&self, v: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Of(marker) => marker.lift().direction(v),
@@ -42,7 +42,7 @@ impl<const D: usize> Direction<D> {
         }
     }
 
-    /// Its end; the ground where it is fixed.
+    /// Returns the end that the direction belongs to: the ground for a fixed direction.
     pub fn end(&self) -> Attachment<D> {
         match self {
             Self::Of(marker) => Attachment::Body(*marker),
@@ -105,13 +105,13 @@ impl<const D: usize> AxisTurn<D> {
         }
     }
 
-    /// Its rate, rad/s.
+    /// Returns the rate of the angle, rad/s.
     pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         let ([p, q], [p_rate, q_rate]) = (self.products(x), self.rates(x, v));
         (p * q_rate - q * p_rate) / (p * p + q * q)
     }
 
-    /// The rate of that but for the part of accelerations, rad/s^2.
+    /// Returns the second time derivative of the angle at zero nodal accelerations, rad/s^2.
     pub fn bend<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         let ([p, q], [p_rate, q_rate]) = (self.products(x), self.rates(x, v));
         let ([p_bend, q_bend], two) = (self.bends(v), N::of(2.0));

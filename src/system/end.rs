@@ -97,7 +97,7 @@ impl<const D: usize, N: Number> Attachment<D, N> {
 }
 
 impl<const D: usize> Attachment<D> {
-    /// The same end in another kind of numbers.
+    /// Converts the end to constants of another number type.
     #[inline(always)]
     pub fn lift<N: Number>(&self) -> Attachment<D, N> {
         match self {
@@ -171,7 +171,7 @@ impl<const D: usize> Angle<D> {
         hint + (cos * across - sin * along).atan2(cos * along + sin * across)
     }
 
-    /// Its rate, rad/s.
+    /// Returns the rate of the angle, rad/s.
     pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         if let Some(turn) = self.about() {
             return turn.rate(x, v);

@@ -31,7 +31,7 @@ impl<const D: usize, N: Number> Gradient<D, N> {
         sum
     }
 
-    /// The same times a factor.
+    /// Multiplies the gradient by a factor.
     pub fn scaled(mut self, factor: N) -> Self {
         for (_, [position, direction]) in &mut self.ends {
             *position *= factor;

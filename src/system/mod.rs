@@ -209,8 +209,8 @@ impl<const D: usize> System<D> {
         &self.redundant
     }
 
-    /// What an evaluation costs, in parts: elements, lumped masses, constraints, and what any evaluation costs
-    /// besides them, which is about as much as four elements.
+    /// Returns the cost of an evaluation as a number of parts: elements, lumped masses and constraints. The rest of an
+    /// evaluation counts as four elements.
     pub fn parts(&self) -> usize {
         let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
         let rigid = self.lumped_masses.len() + self.frames.list().len();

@@ -3,7 +3,7 @@
 /// A rigid body along its direction, its mass uniform and its node in the middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidRod {
-    /// Its node.
+    /// Index of the node.
     pub node: usize,
     /// Length, m.
     pub length: f64,

@@ -67,12 +67,12 @@ pub enum Drive {
     },
 }
 
-/// What inputs say of a driven coordinate.
+/// Inputs that prescribe a driven coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputSignal {
-    /// Its value, then derivatives: index of the first, and how many numbers there are.
+    /// Value and derivatives of the coordinate: index of the first input, and the number of inputs.
     Coordinate(usize, usize),
-    /// An orientation, of whose quaternion it is this part.
+    /// Part of the quaternion of an orientation, by its index.
     Part(Attitude, usize),
 }
 
@@ -142,8 +142,9 @@ impl InputSignal {
         }
     }
 
-    /// Its course from a time on, through a step of length `h`: from where it is, with the second derivative that inputs give at
-    /// once, to where they say, each told with two derivatives.
+    /// Returns the trajectory through a step of length `h` (s) that begins at `time`. It leads from the present value
+    /// and derivatives to those that the inputs prescribe at the end. The second derivative that inputs prescribe
+    /// applies at once.
     pub fn course<const N: usize>(
         self,
         (time, h): (f64, f64),

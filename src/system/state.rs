@@ -2,8 +2,8 @@
 
 use crate::math::rotation::Quaternion;
 
-/// What the integrators in use got for their operations so far: plain numbers, so that a restored state goes on with
-/// the same methods (`integrators/selection.rs`).
+/// Statistics of the integrators in use: time advanced and operations spent. These are plain numbers, so a restored
+/// state continues with the same methods (`integrators/selection.rs`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MethodStatistics {
     /// Index of the method in use, 0 or 1; 2 more where the explicit one goes on with its second tableau.
@@ -28,7 +28,7 @@ impl MethodStatistics {
     /// How many numbers it is.
     pub const NUMBERS: usize = 8;
 
-    /// Its numbers.
+    /// Returns the fields as numbers, in the order of a saved state.
     pub fn numbers(&self) -> [f64; Self::NUMBERS] {
         [
             self.method,
@@ -82,9 +82,9 @@ impl MethodStatistics {
 /// of its collocation polynomial. Plain numbers: inputs that change take it back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DenseStep {
-    /// Where it began, s.
+    /// Start of the step, s.
     pub start: f64,
-    /// Its length, s; 0 where there is none.
+    /// Length of the step, s. It is 0 if there is no step.
     pub length: f64,
     /// Whether it is under way (1) or over (0): then it is what the next one begins with.
     pub under_way: f64,
@@ -118,7 +118,7 @@ impl DenseStep {
         }
     }
 
-    /// Its numbers.
+    /// Returns the scalar fields as numbers, in the order of a saved state.
     pub fn numbers(&self) -> [f64; Self::NUMBERS] {
         let [[a, b], [c, d], [e, f]] = self.powers;
         let [input, lost] = self.work;
@@ -185,7 +185,7 @@ impl DenseStep {
         self.held += 1.0;
     }
 
-    /// It is forgotten; the next may be kept after so many communication points more.
+    /// Discards the step. The next step may be kept after `points` further communication points.
     pub fn forget(&mut self, points: f64) {
         (self.length, self.under_way, self.held) = (0.0, 0.0, 0.0 - points);
     }
@@ -221,7 +221,7 @@ pub struct State {
     pub time: f64,
     /// Step that the integrator proposes next, s; 0 before the first.
     pub step: f64,
-    /// What integrators got for their operations.
+    /// Cost statistics of the integrators.
     pub pace: MethodStatistics,
     /// Generalized coordinates `q`, m sqrt(kg).
     pub coordinates: Vec<f64>,
@@ -234,7 +234,7 @@ pub struct State {
     pub angles: Vec<f64>,
     /// Where slides are on their cables, m.
     pub travel: Vec<f64>,
-    /// Of every joint that lets go: 1 where it has done so, 0 where it holds.
+    /// Release state of every joint that can be released: 1 when released, 0 otherwise.
     pub released: Vec<f64>,
     /// Motions that inputs drive: value and four derivatives.
     pub driven: Vec<[f64; 5]>,

@@ -45,7 +45,7 @@ pub struct Winch<const D: usize = 2> {
 /// A cable that is paid out, at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct PaidOut<'a, const D: usize, N> {
-    /// Its winch.
+    /// Winch that pays the cable out.
     pub winch: &'a Winch<D>,
     /// The cable.
     pub chain: &'a LineChain<D>,
@@ -71,12 +71,12 @@ pub fn longer_by<const D: usize, N: Number>(paid_out: Option<&PaidOut<'_, D, N>>
     paid_out.map_or_else(|| N::of(1.0), |paid_out| paid_out.now.longer_by())
 }
 
-/// How long a cable is.
+/// Ratio `g` of present and reference length of a cable, with its time derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length<N> {
     /// Reference length over the length now, `1 / g`.
     pub by: N,
-    /// `s = sqrt(1 / g)` and its derivatives by time.
+    /// Square root `s = sqrt(1 / g)` and its first two time derivatives.
     pub root: [N; 3],
     /// `L' / L`, 1/s.
     pub rate: N,
@@ -85,7 +85,7 @@ pub struct Length<N> {
 }
 
 impl<N: Number> Length<N> {
-    /// What chains are told of it.
+    /// Returns `1 / g` and `L' / L` (1/s), which the chain of the cable needs.
     pub fn longer(&self) -> [N; 2] {
         [self.by, self.rate]
     }
@@ -95,7 +95,7 @@ impl<N: Number> Length<N> {
         N::of(1.0) / self.by
     }
 
-    /// Of a cable that is as long as its reference length.
+    /// Returns the ratio of a cable at its reference length.
     pub fn same() -> Self {
         let [zero, one] = [0.0, 1.0].map(N::of);
         Self {
@@ -108,7 +108,7 @@ impl<N: Number> Length<N> {
 }
 
 impl<const D: usize> Winch<D> {
-    /// Of this chain.
+    /// Builds the winch of a chain. `at_last` selects the paid-out end, `drive` is the driven coordinate.
     pub fn new(
         (index, chain): (usize, &LineChain<D>),
         (at_last, drive): (bool, usize),
@@ -133,7 +133,7 @@ impl<const D: usize> Winch<D> {
         }
     }
 
-    /// Its nodes.
+    /// Returns the range of nodes of the cable.
     pub fn range(&self) -> std::ops::Range<usize> {
         let [first, count] = self.nodes;
         first..first + count

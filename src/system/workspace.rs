@@ -32,7 +32,7 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) trajectories: Vec<Trajectory>,
     /// For every drive, what the function of time that it is gave last.
     pub(super) recent: Vec<Recent>,
-    /// What driven rows are to equal, with two derivatives.
+    /// Target values of driven rows with two time derivatives, `[rows][3]`.
     pub(super) targets: Vec<[f64; 3]>,
     /// First and last time at which functions of time are taken in the smooth interval under way.
     pub(super) smooth_interval: Option<[f64; 2]>,
@@ -47,7 +47,7 @@ pub struct Workspace<const D: usize = 2> {
     /// Frames that rotations are counted from, and how bodies have turned from there.
     pub(super) frames: Vec<Quaternion>,
     pub(super) turns: Vec<RotationIncrement>,
-    /// The same of frames that rods carry.
+    /// States of the section frames of rods and beams.
     pub(super) carries: Vec<SectionFrameState>,
     /// Both where the tangent was made, and of frames that lean at the stages of an implicit method too.
     pub(super) base_turns: Vec<RotationIncrement>,
@@ -68,7 +68,7 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) is_tree: bool,
     /// Whether the last acceleration was found with these, without multipliers.
     pub(super) is_without_multipliers: bool,
-    /// What constraints ask for.
+    /// Right-hand side of constraints.
     pub(super) right: Vec<f64>,
     pub(super) tangent: Tangent<D>,
     /// Power that comes in and that is dissipated at the last acceleration, W; what of the latter cables take out.
@@ -76,7 +76,7 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) dissipated: f64,
 }
 
-/// What constraints depend on beside rates.
+/// Arguments of constraints other than rates.
 #[derive(Clone, Debug)]
 pub(super) struct Configuration<const D: usize> {
     x: Vec<Node<D>>,
@@ -123,7 +123,7 @@ impl<const D: usize> Workspace<D> {
         (self.jacobian_at).is_outdated(&self.x, &self.drives, held)
     }
 
-    /// The same of the factors of the tree.
+    /// Tells whether the factors of the tree are outdated for the configuration in place, and marks them as current.
     pub(super) fn outdates_tree(&mut self) -> bool {
         let held = (&self.travel[..], &self.released[..]);
         (self.tree_at).is_outdated(&self.x, &self.drives, held)

@@ -224,7 +224,7 @@ fn link_rod<const D: usize>(chain: &RodChain, links: &mut Links) {
     }
 }
 
-/// What mass, stiffness and constraints couple.
+/// Lists the couplings of nodes by mass, stiffness and constraints.
 pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Links {
     let mut links = Links::default();
     for chain in &parts.chains {

@@ -21,8 +21,8 @@ pub struct Clamp {
 }
 
 impl Clamp {
-    /// Its rows, at a place of the ground and as it stands in these nodes. They belong to no joint: the reaction follows from what acts on
-    /// the section (`outputs/clamp.rs`).
+    /// Returns the linear rows of the clamp at a point of the ground, for the section as it is in these nodes. The rows
+    /// belong to no joint. The reaction follows from the loads on the section (`outputs/clamp.rs`).
     pub(super) fn rows<const D: usize>(
         &self,
         ground: &Vector<D>,

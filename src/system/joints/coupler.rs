@@ -14,11 +14,11 @@ use crate::system::end::{Add, Attachment};
 pub struct Coupler<const D: usize> {
     /// Coordinates and their factors: one or two.
     pub terms: Vec<(f64, Coordinate<D>)>,
-    /// What the sum is where nothing drives it, m or rad.
+    /// Constant part of the sum, m or rad.
     pub offset: f64,
     /// Driven coordinate to add to it.
     pub drive: Option<usize>,
-    /// What residuals are relative to: m, or 1 for angles.
+    /// Reference size of residuals: m, or 1 for angles.
     pub size: f64,
 }
 

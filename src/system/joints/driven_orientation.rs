@@ -116,7 +116,7 @@ impl DrivenOrientation {
         self.along(view, 2, view.x) + self.along(view, 1, view.v) * N::of(2.0)
     }
 
-    /// What it joins: the ground and the body.
+    /// Returns the two ends: the ground and the body.
     pub fn ends<const D: usize>(&self) -> Vec<Attachment<D>> {
         vec![
             Attachment::Ground(Vector::zeros()),

@@ -11,7 +11,7 @@ use crate::system::end::{Add, Attachment, bilinear};
 /// A driven turn.
 #[derive(Clone, Debug)]
 pub struct DrivenTurn<const D: usize> {
-    /// What is driven.
+    /// Driven rotation about an axis.
     pub turn: AxisTurn<D>,
     /// Driven coordinate: the angle, rad.
     pub drive: usize,
@@ -66,7 +66,7 @@ impl<const D: usize> DrivenTurn<D> {
         }
     }
 
-    /// What it joins.
+    /// Returns the two ends of the constraint.
     pub fn ends(&self) -> Vec<Attachment<D>> {
         vec![self.turn.across[0].end(), self.turn.of.end()]
     }

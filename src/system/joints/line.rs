@@ -15,7 +15,7 @@ pub struct PointOnLine<const D: usize> {
     pub ends: [Attachment<D>; 2],
     /// UnitLength direction of the line in the axes of the first end.
     pub along: Vector<D>,
-    /// What residuals are relative to, m.
+    /// Reference size of residuals, m.
     pub size: f64,
 }
 

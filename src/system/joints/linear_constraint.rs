@@ -13,9 +13,9 @@ pub struct LinearConstraint<const D: usize> {
     pub ends: [Attachment<D>; 2],
     /// Coefficients on position and direction of both.
     pub on_ends: [[Vector<D>; 2]; 2],
-    /// What it equals.
+    /// Right-hand side of the row.
     pub target: Target,
-    /// What residuals are relative to, m; 1 for directions.
+    /// Reference size of residuals: m, or 1 for directions.
     pub size: f64,
     /// Whether it is the same in every configuration over the coordinates.
     pub is_constant: bool,

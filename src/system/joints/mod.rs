@@ -41,7 +41,7 @@ use crate::body::{ConnectivityRow, Marker, Node, RotationMaps};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
-/// What joints and motions are made of: a condition on the second end, seen from the first.
+/// Primitive of joints and motions: a condition on the second end relative to the first.
 #[derive(Clone, Debug)]
 pub enum Primitive<const D: usize = 2> {
     /// Both ends are at one place.
@@ -80,17 +80,17 @@ pub enum Primitive<const D: usize = 2> {
 /// A joint or a motion.
 #[derive(Clone, Debug)]
 pub struct JointEquations<const D: usize = 2> {
-    /// What it holds.
+    /// Primitives of the joint.
     pub holds: Vec<Primitive<D>>,
-    /// What it joins.
+    /// Ends of the joint.
     pub ends: [Attachment<D>; 2],
     /// Index of its spring among the loads.
     pub spring: Option<usize>,
-    /// In space the turn about its axis, where it has one.
+    /// Rotation about the joint's axis in space, if it has an axis.
     pub turn: Option<AxisTurn<D>>,
-    /// The way that its second end can go along a line of the first, where that stands still or belongs to a rigid body.
+    /// Displacement of the second end along a line of the first, if the first is fixed or on a rigid body.
     pub way: Option<Translation<D>>,
-    /// When it lets go, if it does.
+    /// Time or input of the release, if the joint can be released.
     pub release: Option<Release>,
 }
 
@@ -101,9 +101,9 @@ pub struct Linear<const D: usize = 2> {
     pub joint: Option<usize>,
     /// The row of `Phi`.
     pub row: ConnectivityRow<D>,
-    /// What it equals.
+    /// Right-hand side of the row.
     pub target: Target,
-    /// Its coefficients on position and direction of both ends.
+    /// Coefficients on position and direction of both ends.
     pub on_ends: [[Vector<D>; 2]; 2],
 }
 
@@ -130,11 +130,11 @@ pub struct View<'a, const D: usize, N = f64> {
 pub struct Constraint<const D: usize = 2> {
     /// Index of the joint, if it belongs to one.
     pub joint: Option<usize>,
-    /// What is held.
+    /// Kind of constraint with its parameters.
     pub kind: ConstraintKind<D>,
-    /// What `g` is to equal: 0, but where joints that do not fit yet are closed little by little.
+    /// Right-hand side of `g`: 0, except while the gaps of joints are closed step by step at the start.
     pub offset: f64,
-    /// Place of its joint among those that let go.
+    /// Index of the joint among those that can be released.
     pub release: Option<usize>,
 }
 
@@ -181,7 +181,7 @@ macro_rules! each {
 }
 
 impl<const D: usize> Constraint<D> {
-    /// That of a joint, by its index.
+    /// Builds a constraint of the joint with this index.
     pub(super) fn of(joint: usize, kind: ConstraintKind<D>) -> Self {
         Self {
             joint: Some(joint),
@@ -228,7 +228,7 @@ impl<const D: usize> Constraint<D> {
         call(&gradient);
     }
 
-    /// The same as terms over the nodes.
+    /// Passes the gradient to `term` as terms over the nodes.
     pub fn for_each<N: Number>(
         &self,
         view: &View<'_, D, N>,
@@ -237,7 +237,8 @@ impl<const D: usize> Constraint<D> {
         self.for_each_pair(view, |pair| pair.for_each(&mut term));
     }
 
-    /// The same as terms over the nodes that have coordinates: of rigid bodies of space the first one.
+    /// Passes the gradient to `term` as terms over the nodes that have coordinates. Of rigid bodies in space that is
+    /// the first node.
     pub fn for_each_pulled<N: Number>(
         &self,
         (view, frames): (&View<'_, D, N>, &RotationMaps),
@@ -403,8 +404,8 @@ impl<const D: usize> JointEquations<D> {
         matches!(self.holds[..], [Primitive::Coincident])
     }
 
-    /// What the joint adds to the linear and to the non-linear constraints; `index` is its own, `nodes` are where bodies
-    /// are at the start.
+    /// Appends the linear and the non-linear constraints of the joint. `index` is the joint's own index, `nodes` are
+    /// the nodal coordinates at the start.
     pub fn constraints(
         &self,
         (index, nodes): (usize, &[Node<D>]),

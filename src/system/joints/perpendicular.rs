@@ -13,7 +13,7 @@ use crate::math::space::Vector;
 use crate::system::direction::Direction;
 use crate::system::end::{Add, Attachment, bilinear};
 
-/// What a direction is perpendicular to.
+/// Vector that a direction is perpendicular to.
 #[derive(Clone, Debug)]
 pub enum Across<const D: usize> {
     /// A direction.
@@ -27,7 +27,7 @@ pub enum Across<const D: usize> {
 pub struct Perpendicular<const D: usize> {
     /// The direction.
     pub direction: Direction<D>,
-    /// What it is perpendicular to.
+    /// Vector that the direction is perpendicular to.
     pub across: Across<D>,
 }
 
@@ -47,7 +47,7 @@ impl<const D: usize> Perpendicular<D> {
         matches!(self.across, Across::Direction(_))
     }
 
-    /// What residuals are relative to: 1 for directions, m for ways.
+    /// Returns the reference size of residuals: 1 for directions, m for displacements.
     pub fn size(&self) -> f64 {
         match self.across {
             Across::Direction(_) => 1.0,

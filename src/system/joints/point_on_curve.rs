@@ -16,7 +16,7 @@ const ITERATIONS: usize = 20;
 pub struct PointOnCurve<const D: usize> {
     /// The chain.
     pub chain: usize,
-    /// What slides along it.
+    /// End that slides along the curve.
     pub end: Attachment<D>,
     /// Number of the slide: where it is, is part of the state.
     pub slide: usize,

@@ -2,7 +2,7 @@
 
 use crate::math::jet::Number;
 
-/// What a row is to equal.
+/// Right-hand side of a linear row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// A fixed number.

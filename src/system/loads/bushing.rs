@@ -66,8 +66,8 @@ impl<const D: usize> Bushing<D> {
         }
     }
 
-    /// What moves the point works against the spring as fast as its position changes, and against the
-    /// damper with its velocity: inputs say both, and masters need not hold them together.
+    /// Returns the power supplied by the moving point and the power dissipated, W. The spring force works on the rate
+    /// of the position input, the damper force on the velocity input. The two inputs need not be consistent.
     pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let [stretch, rate] = self.stretch(at);
         let speed: Vector<D, N> = self.position.each_ref().map(|c| c.rate(at)).into();
@@ -101,7 +101,7 @@ pub struct RotationalBushing {
     pub damping: f64,
     /// The angle, rad.
     pub angle: Signal,
-    /// Its rate, rad/s.
+    /// Rate of the angle, rad/s.
     pub velocity: Signal,
 }
 

@@ -18,7 +18,7 @@ use crate::math::space::Vector;
 use crate::system::end::{Attachment, between};
 use crate::system::winch::{PaidOut, longer_by};
 
-/// What is touched; it stands still in the frame of the scene.
+/// Surface of a contact, fixed in the frame of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactSurface<const D: usize = 2> {
     /// All that is below a point along a unit vector.
@@ -53,7 +53,7 @@ pub struct ContactPoint {
 pub struct Contact<const D: usize = 2> {
     /// A single marker, or the Gauss points of all stretches of a body in turn: of the elements of a chain, of the panels of a rod.
     pub places: Vec<ContactPoint>,
-    /// What is touched.
+    /// Surface that is touched.
     pub surface: ContactSurface<D>,
     /// Stiffness, N/m; along a body N/m per reference length.
     pub stiffness: f64,
@@ -332,7 +332,7 @@ impl<const D: usize> Contact<D> {
         sum * longer_by(paid_out.as_ref())
     }
 
-    /// What comes in with material that touches where a winch pays it out, and what is dissipated, W.
+    /// Returns the power of touching material that a winch pays out, and the dissipated power, W.
     pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let mut comes_in = N::of(0.0);
         if let Some(paid_out) = self.paid_out(at) {

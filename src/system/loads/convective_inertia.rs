@@ -8,7 +8,7 @@ use crate::system::LineChain;
 use crate::system::loads::on_coordinates;
 use crate::system::winch::PaidOut;
 
-/// What a winch does to its cable.
+/// Inertia forces of material that a winch moves through the mesh of its cable.
 #[derive(Clone, Debug)]
 pub struct ConvectiveInertia {
     /// Index of the winch.

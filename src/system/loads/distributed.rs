@@ -12,7 +12,7 @@ use crate::math::space::Vector;
 use crate::system::winch::{PaidOut, longer_by};
 use crate::system::{LineChain, RigidRod};
 
-/// What a force is distributed along.
+/// Line that a load is distributed along.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LoadedLine {
     /// A chain.
@@ -24,7 +24,7 @@ pub enum LoadedLine {
 /// A distributed force.
 #[derive(Clone, Debug)]
 pub struct DistributedForce<const D: usize = 2> {
-    /// What it is distributed along. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
+    /// Line that the force acts along. Its segments are the elements of a chain, or [`PANELS`] equal parts of a rod.
     pub on: LoadedLine,
     /// Components, N/m.
     pub density: LineLoad<D>,
@@ -48,7 +48,7 @@ pub(in crate::system) fn on_coordinates<const D: usize, N: Number>(
 }
 
 impl<const D: usize> DistributedForce<D> {
-    /// What is the same along the body, N/m.
+    /// Returns the uniform part of the load in global axes, N/m.
     pub(in crate::system) fn uniform<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
         self.density.uniform(at) * self.longer_by(at)
     }
@@ -65,7 +65,7 @@ impl<const D: usize> DistributedForce<D> {
         longer_by(self.paid_out(at).as_ref())
     }
 
-    /// What changes along the body, in a stretch, N/m.
+    /// Returns the varying part of the load at the Gauss points of a segment, N/m.
     pub(in crate::system) fn changing<N: Number>(
         &self,
         at: Instant<'_, D, N>,

@@ -14,7 +14,7 @@ use crate::math::jet::Number;
 /// A distributed moment.
 #[derive(Clone, Debug)]
 pub struct DistributedMoment {
-    /// What it acts along: which rod or beam. Its stretches are the elements.
+    /// Index of the rod or beam that the moment acts along. Its segments are the elements.
     pub on: usize,
     /// The first end of that.
     pub end: Marker,

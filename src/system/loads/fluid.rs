@@ -25,7 +25,7 @@ use crate::system::LineChain;
 use crate::system::signal::Signal;
 use crate::system::winch::{PaidOut, longer_by};
 
-/// What a fluid does at a place along a line, per reference length.
+/// Coefficients of a fluid at a point of a line, per reference length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FluidSegment {
     /// Drag across the line and along it: force by the square of the velocity, N s^2/m^3.
@@ -39,9 +39,9 @@ pub struct FluidSegment {
 /// A fluid along a body.
 #[derive(Clone, Debug)]
 pub struct Fluid<const D: usize = 2> {
-    /// What it streams past. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
+    /// Line that the fluid acts on. Its segments are the elements of a chain, or [`PANELS`] equal parts of a rod.
     pub on: LoadedLine,
-    /// What it does at the Gauss points of every stretch in turn.
+    /// Coefficients at the Gauss points of all segments, one segment after another.
     pub strips: Vec<FluidSegment>,
     /// Velocity of the fluid, m/s.
     pub current: LineLoad<D>,
@@ -273,7 +273,8 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    /// What its force changes by as the line turns is left out: it is not symmetric, and steps converge without it.
+    /// Adds the damping matrix of drag. Its derivatives with respect to the rotation of the line are left out: they are
+    /// not symmetric, and steps converge without them.
     pub(super) fn add_damping(&self, at: Instant<'_, D>, damping: Add<'_, D>) {
         if !self.is_damped() {
             return;
@@ -306,7 +307,7 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    /// What the fluid supplies where it moves or lifts, and what drag takes out of the motion against it.
+    /// Returns the power that the fluid supplies by its motion and by buoyancy, and the power that drag dissipates, W.
     pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let (mut on_line, mut lost) = (N::of(0.0), N::of(0.0));
         for stretch in 0..self.stretches() {
@@ -321,7 +322,7 @@ impl<const D: usize> Fluid<D> {
         [on_line + lost, lost]
     }
 
-    /// That of forces which stay as they are before.
+    /// Returns the work from one instant to another of forces that stay as they were at the first, J.
     pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let mut sum = 0.0;
         for stretch in 0..self.stretches() {

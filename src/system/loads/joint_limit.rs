@@ -14,7 +14,7 @@ use crate::system::end::Attachment;
 /// Stops at the ends of the range of a coordinate.
 #[derive(Clone, Debug)]
 pub struct JointLimit<const D: usize = 2> {
-    /// What they limit.
+    /// Coordinate that the stops limit.
     pub coordinate: Box<Coordinate<D>>,
     /// Limits below and above, m or rad; infinite where there is none.
     pub limits: [f64; 2],

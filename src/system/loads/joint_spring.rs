@@ -9,7 +9,7 @@ use crate::system::end::Attachment;
 /// A spring and a damper in parallel.
 #[derive(Clone, Debug)]
 pub struct JointSpring<const D: usize = 2> {
-    /// What they act on.
+    /// Coordinate that spring and damper act on.
     pub coordinate: Box<Coordinate<D>>,
     /// Stiffness, N/m or N m/rad.
     pub stiffness: f64,

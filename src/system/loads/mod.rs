@@ -45,14 +45,14 @@ use crate::system::LineChain;
 /// Even parts of a body that does not bend in which what changes along it is integrated.
 pub const PANELS: usize = 8;
 
-/// What acts.
+/// Load on bodies.
 #[derive(Clone, Debug)]
 pub enum AppliedLoad<const D: usize = 2> {
     /// A force at a marker, dead or follower.
     Force(Force<D>),
     /// A moment on one end, and its opposite on another, in the plane.
     Moment(Moment<D>),
-    /// The same in space.
+    /// A moment on one end, and its opposite on another, in space.
     SpatialMoment(SpatialMoment<D>),
     /// A dead force per reference length of a cable or a rod.
     DistributedForce(DistributedForce<D>),
@@ -74,7 +74,7 @@ pub enum AppliedLoad<const D: usize = 2> {
     Bushing(Bushing<D>),
     /// A rotational spring with a damper from the direction of a marker to an angle.
     RotationalBushing(RotationalBushing),
-    /// The same in space, between a rigid body and an orientation.
+    /// Rotational springs with dampers from a rigid body to an orientation, in space.
     OrientationBushing(Box<OrientationBushing>),
     /// A cable that a winch pays out.
     ConvectiveInertia(ConvectiveInertia),
@@ -121,8 +121,8 @@ impl<const D: usize> AppliedLoad<D> {
         }
     }
 
-    /// What it exerts along the body with this first node that changes along it, at the Gauss points of a stretch, N/m; none of
-    /// another load.
+    /// Returns the varying load along the body with this first node, at the Gauss points of a segment, N/m. `None` for
+    /// other loads and bodies.
     pub(in crate::system) fn changing<N: Number>(
         &self,
         at: Instant<'_, D, N>,
@@ -226,7 +226,7 @@ impl<const D: usize> AppliedLoad<D> {
         }
     }
 
-    /// The same load held as it is at an instant; dead and follower loads at a fraction of their size.
+    /// Returns a copy of the load frozen at an instant. Dead and follower loads are scaled by `fraction`.
     pub fn held(&self, at: Instant<'_, D>, fraction: f64) -> Self {
         let mut held = self.clone();
         let hold = |signals: &mut [Signal], fraction: f64| {
@@ -322,7 +322,7 @@ impl<const D: usize> AppliedLoad<D> {
         }
     }
 
-    /// Its sizes that change in time.
+    /// Returns the time-dependent sizes of the load.
     pub fn signals(&self) -> impl Iterator<Item = &Signal> {
         let one = std::slice::from_ref;
         let (first, second): (&[Signal], &[Signal]) = match self {

@@ -27,7 +27,7 @@ pub struct OrientationBushing {
     pub damping: f64,
     /// Quaternion of the orientation, scalar first, of any length and either sign.
     pub quaternion: [Signal; 4],
-    /// Its angular velocity, rad/s.
+    /// Angular velocity of the orientation, rad/s.
     pub velocity: [Signal; 3],
 }
 

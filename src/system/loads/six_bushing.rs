@@ -245,7 +245,7 @@ impl<const D: usize> SixBushing<D> {
         self.damping.as_flattened().iter().any(|c| *c > 0.0)
     }
 
-    /// What it is fixed to; the axes belong to the same bodies.
+    /// Returns the two ends of the bushing. The axes belong to the same bodies.
     pub fn ends(&self) -> [Attachment<D>; 2] {
         self.ways[0].ends
     }

@@ -11,7 +11,7 @@ use crate::system::signal::Signal;
 /// A spring and a damper in parallel between two points.
 #[derive(Clone, Debug)]
 pub struct Spring<const D: usize = 2> {
-    /// Its ends.
+    /// Ends of the spring.
     pub ends: [Attachment<D>; 2],
     /// Stiffness, N/m.
     pub stiffness: f64,

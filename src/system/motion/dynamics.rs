@@ -35,7 +35,7 @@ pub trait Dynamics {
     /// Factors `m I + r R + K` for real weights `[m, r]` of inertia (1/s^2) and damping (1/s); false when it is not
     /// positive definite.
     fn factor(&mut self, weights: [f64; 2]) -> bool;
-    /// The same for complex weights, beside the real factors; false when it is singular.
+    /// Factors the matrix for complex weights, beside the real factors. Returns false if it is singular.
     fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool;
     /// Solves in place with the real factors.
     fn solve(&mut self, x: &mut [f64]);
@@ -74,8 +74,8 @@ pub trait Dynamics {
     }
     /// Whether it has done as much work as it may.
     fn is_exhausted(&self) -> bool;
-    /// What it has done so far: accelerations, and other operations by what they cost beside one. By counting it two
-    /// methods are compared; 0 where nobody counts.
+    /// Returns the operations so far, in accelerations: other operations count by their cost relative to one. Methods
+    /// are compared by this count. It is 0 without counting.
     fn operations(&self) -> f64 {
         0.0
     }
@@ -83,20 +83,20 @@ pub trait Dynamics {
     fn end_smooth_interval(&mut self, state: &mut State) -> StepOutcome;
 }
 
-/// What became of an accepted state.
+/// Outcome of the check of an accepted state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepOutcome {
-    /// It stands.
+    /// The state stays as it is.
     AsIs,
-    /// It was brought back to the constraints.
+    /// The state was projected back onto the constraints.
     Moved,
-    /// A slide would have left its cable; the joint. The state is that before the step.
+    /// A slider would have left its cable, by the index of the joint. The state is that before the step.
     SliderLeftCable(usize),
-    /// A winch has taken in its whole cable; its driven coordinate.
+    /// A winch has taken in its whole cable, by the index of its driven coordinate.
     WinchEmpty(usize),
     /// An element of a rod is bent or twisted beyond what its frames hold: the rod, among the bodies, and the element.
     ElementOverDeformed(usize, usize),
-    /// It is off the constraints and cannot be brought back.
+    /// The state violates the constraints and the projection failed.
     ConstraintsViolated,
     /// A driven coordinate jumps; its index.
     Jumped(usize),
@@ -120,7 +120,7 @@ const BROKEN: f64 = 1e-8;
 pub struct DrivenSystem<'a, const D: usize = 2> {
     /// The system.
     pub system: &'a System<D>,
-    /// Its inputs at the beginning.
+    /// Inputs at the start of the model's time.
     pub inputs: &'a [f64],
     /// Their first and second derivatives; empty where they are held.
     slopes: &'a [[f64; 2]],
@@ -193,7 +193,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         self
     }
 
-    /// What inputs drive moves to where they say by `until`.
+    /// Prepares trajectories of the coordinates that inputs drive, to the values that the inputs prescribe at `until`.
     pub fn until(self, state: &State, until: f64) -> Self {
         let h = until - state.time;
         if h > 0.0 {

@@ -35,7 +35,7 @@ const EXACT: f64 = 2e-15;
 pub struct ConstraintRow<'a, const D: usize> {
     constraint: &'a Constraint<D>,
     view: &'a View<'a, D>,
-    /// Its size, which residuals are relative to.
+    /// Reference size of residuals.
     pub size: f64,
     rows: &'a SparseRows,
     row: usize,
@@ -52,7 +52,7 @@ impl<const D: usize> ConstraintRow<'_, D> {
         constraint_rate(self.constraint, self.view)
     }
 
-    /// Its derivatives by the coordinates, a row of `J`.
+    /// Returns the derivatives with respect to the coordinates, a row of `J`.
     pub fn gradient(&self, coordinates: usize) -> Vec<f64> {
         let mut gradient = vec![0.0; coordinates];
         self.rows.add(self.row, 1.0, &mut gradient);
@@ -169,7 +169,7 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// What constraints ask of accelerations, into `work.right`.
+    /// Computes the right-hand side of the constraints on accelerations, into `work.right`.
     pub(in crate::system) fn ask_accelerations(&self, work: &mut Workspace<D>) {
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
         let is_still = self.driven.is_empty() && self.winches.is_empty();

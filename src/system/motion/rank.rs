@@ -226,7 +226,8 @@ impl<const D: usize> System<D> {
         self.project_velocities(&mut state.rates, work);
     }
 
-    /// What did not count at accepted states since the last call, but for what was told before, and since when (s).
+    /// Reports the constraints that became dependent at accepted states since the last call, with the time of the
+    /// first, s. Constraints that were reported before are left out.
     pub fn newly_singular(&self, work: &mut Workspace<D>) -> Option<(f64, HoldingParts)> {
         let watch = &mut work.rank;
         let time = watch.time.take()?;
@@ -244,8 +245,8 @@ impl<const D: usize> System<D> {
         (!due.holders.is_empty() || !due.bodies.is_empty()).then_some((time, due))
     }
 
-    /// What holds, at least in part, what others hold already at a state, and bodies that need not be kept rigid, since joints
-    /// do. What is told to hold nearly so is not told again.
+    /// Finds constraints that repeat others at a state, exactly or nearly, and bodies that joints keep rigid. Nearly
+    /// redundant constraints are not reported again later.
     pub fn redundant_at(&self, state: &State, work: &mut Workspace<D>) -> Redundant {
         let dependent = self.dependent(RANK, state, work);
         let released = self.released_rows(work);
@@ -300,7 +301,7 @@ impl<const D: usize> System<D> {
         aligned
     }
 
-    /// What is held by others at a state but for less than a part, relative, and not everywhere.
+    /// Finds constraints that others imply at this state up to a relative remainder `part`, but not at every state.
     pub fn held_within(&self, part: f64, state: &State, work: &mut Workspace<D>) -> HoldingParts {
         let rows = self.dependent(part, state, work);
         let mut held = self.holding(rows);

@@ -301,8 +301,9 @@ impl<const D: usize> System<D> {
         );
     }
 
-    /// What is missing in every constraint, into `right`: minus `of_point`, of how the points that a joint holds differ, less
-    /// what that is to be; minus `of_other` of the others.
+    /// Computes the right-hand side of every constraint into `right`. It is minus `of_other` for constraints in
+    /// general. For the points that a joint of the tree holds together it is the difference of `of_point` between the
+    /// two ends, plus the gap that is still open.
     #[inline(always)]
     pub(in crate::system) fn fill_right(
         &self,

@@ -108,7 +108,7 @@ impl<const D: usize> Evaluation<D> {
         self.dynamics_moving(system, state, (inputs, &[]), work);
     }
 
-    /// The same while inputs move with these first and second derivatives.
+    /// Evaluates the dynamics while inputs move with these first and second derivatives.
     pub fn dynamics_moving(
         &mut self,
         system: &System<D>,
@@ -389,7 +389,8 @@ impl<const D: usize> System<D> {
         self.rod_chains().iter().find(|rod| rod.line() == first)
     }
 
-    /// The same; at a node the element after it, but at the last end.
+    /// Returns the chain, the element and the place inside it of a marker of a cable. At an inner node it is the
+    /// element after the node.
     pub(in crate::system) fn element_after(
         &self,
         marker: &Marker,

@@ -28,8 +28,8 @@ const PARTS: u32 = 4;
 const STIFFENING: f64 = 1.0 / 240.0;
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
-    /// What curvature is off times the square of the length of the element, m: the largest over the nodes between elements
-    /// where nothing exerts a moment; over such ends where there are no such nodes, since there curvature vanishes.
+    /// Returns the curvature error times the square of the element length, m. The result is the largest over inner
+    /// nodes without a moment. A cable without such nodes uses its free ends, where curvature vanishes.
     pub fn missed(&self, system: &System<D>, chain: &LineChain<D>) -> N {
         let (elements, x) = (chain.elements(), &self.x[..]);
         let length = |j: usize| elements[j].length();

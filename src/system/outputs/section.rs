@@ -127,8 +127,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         (force(xi), turned)
     }
 
-    /// What an element lacks for equilibrium, on its coordinates: elastic and damping forces and loads less
-    /// inertia, N and N m; and the moments on the sections at the ends of an element of a rod or beam, N m. Its neighbours exert the opposite.
+    /// Returns the force residual of an element on its coordinates, N and N m: elastic forces, damping forces and loads
+    /// minus inertia forces. The second part holds the moments on the sections at both ends of a rod or beam element, N
+    /// m. The neighbours exert the opposite.
     pub(super) fn lack(
         &self,
         system: &System<D>,

@@ -32,7 +32,7 @@ pub(super) struct Linearization<'a, const D: usize> {
     pub elimination: &'a Elimination<D>,
     pub stiffness: General<f64>,
     pub damping: General<f64>,
-    /// What elements of cables and of rods add to both, element by element, and both without that.
+    /// Contributions of cable elements to both matrices, element by element.
     pub elements: Vec<Elastic<D>>,
     pub rods: Vec<RodElastic<'a>>,
     pub others: [General<f64>; 2],

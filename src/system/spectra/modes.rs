@@ -78,7 +78,7 @@ pub fn modes<const D: usize>(
     }
 }
 
-/// What damping at rest takes along ways of the coordinates: `w^T R w`, 1/s where these are of length 1.
+/// Computes the damping at rest along displacements `w` in coordinates: `w^T R w`, 1/s if these have length 1.
 pub fn damping_along<const D: usize>(
     system: &System<D>,
     inputs: &[f64],

@@ -91,7 +91,7 @@ impl NodeBlocks {
         Self { nodes, whole }
     }
 
-    /// The same over the coordinates of bodies, at this configuration: rotations in place of axes.
+    /// Transforms the matrix to the coordinates of bodies at this configuration: rotations replace axes.
     pub(super) fn pulled<const D: usize>(self, frames: &RotationMaps, x: &[Node<D>]) -> Self {
         if frames.is_empty() {
             return self;

@@ -30,7 +30,7 @@ impl RodElastic<'_> {
 }
 
 impl<const D: usize> System<D> {
-    /// What forces on the axes that rods carry add where these turn.
+    /// Adds the geometric stiffness of forces on section axes, which rotate.
     pub(super) fn linearize_carried(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
         if self.frames.carried().is_empty() {
             return;
@@ -50,7 +50,7 @@ impl<const D: usize> System<D> {
         made.stiffness.add_symmetric(1.0, &stiffness);
     }
 
-    /// What a scene that turns adds to the inertia of spins.
+    /// Adds the contributions of the scene's rotation to the spin inertia of sections.
     pub(super) fn linearize_turning(
         &self,
         work: &Workspace<D>,

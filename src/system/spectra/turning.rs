@@ -44,7 +44,7 @@ impl<const D: usize> Linearization<'_, D> {
 }
 
 impl<const D: usize> System<D> {
-    /// What the turning of constraints adds to `K`.
+    /// Adds the part of `K` due to the rotation of constraint directions.
     pub(super) fn add_turning(
         &self,
         work: &Workspace<D>,

@@ -26,7 +26,7 @@ impl<const D: usize> System<D> {
         if largest > 0.0 { largest } else { 1.0 }
     }
 
-    /// What a body is turned about: the mean of its nodes, m.
+    /// Returns the point that placement rotates a body about: the mean of its nodes, m.
     pub(super) fn center(&self, body: usize, x: &[Node<D>]) -> Vector<D> {
         let nodes = self.bodies[body].clone();
         if self.frames.of_node::<D>(nodes.start).is_some() {
@@ -59,7 +59,7 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// What is missing of every joint, by positions and by angles, beyond `least` relative to the size of the system.
+    /// Lists the position and angle gaps of every joint that exceed `least`, relative to the size of the system.
     pub(super) fn gaps_by_joint(&self, x: &[Node<D>], work: &Workspace<D>, least: f64) -> Vec<Gap> {
         let size = self.extent(x);
         let gaps = self.gaps(x, work, size);
@@ -136,7 +136,7 @@ impl<const D: usize> System<D> {
         !nodes.any(|node| self.frames.holds(node))
     }
 
-    /// What a row is more than it is to equal.
+    /// Returns the left-hand side of a row minus its target.
     pub(super) fn gap_of(&self, linear: &Linear<D>, x: &[Node<D>], work: &Workspace<D>) -> f64 {
         if !self.is_seen(linear) {
             return 0.0;
@@ -146,7 +146,7 @@ impl<const D: usize> System<D> {
         value - linear.target.derivatives(&work.drives)[0]
     }
 
-    /// What is missing of every row and constraint; lengths relative to `size`.
+    /// Returns the gaps of every row and constraint. Lengths are relative to `size`.
     pub(super) fn gaps(&self, x: &[Node<D>], work: &Workspace<D>, size: f64) -> Vec<f64> {
         let mut gaps = Vec::new();
         for linear in &self.linear {

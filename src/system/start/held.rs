@@ -18,8 +18,8 @@ pub(in crate::system) struct OpenGaps<const D: usize> {
 }
 
 impl<const D: usize> System<D> {
-    /// The same system with loads and motions held as they are at the time and under the inputs in
-    /// `work`, and with the loads of the initial state where asked for.
+    /// Returns a system whose loads and motions are frozen at the time and under the inputs in `work`. `with_initial`
+    /// adds the loads of the initial state.
     pub(in crate::system) fn held(
         &self,
         time: f64,

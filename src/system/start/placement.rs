@@ -36,7 +36,7 @@ const ABSURD: f64 = 100.0;
 /// Mean strain of a cable from which on joints that it would have to close cannot be meant.
 const STRETCHED: f64 = 0.5;
 
-/// What is missing for a joint to fit.
+/// Gap of a joint that bodies do not close at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
     /// The joint, by index.

@@ -40,14 +40,14 @@ pub enum NotSteady {
 }
 
 impl<const D: usize> Steady<D> {
-    /// Its field over nodes at these coordinates.
+    /// Returns the velocities of nodes at these coordinates.
     pub fn rates(&self, x: &[Node<D>]) -> Vec<Node<D>> {
         let turned = |v: [f64; D]| spun(self.rate, Vector::from(v));
         let rate = |[p, d]: &Node<D>| [(self.velocity + turned(*p)).into(), turned(*d).into()];
         x.iter().map(rate).collect()
     }
 
-    /// What it is seen from the turning frame: nothing where it does not turn.
+    /// Returns the rotation of the frame in which the motion is at rest. `None` if the motion does not rotate.
     pub fn turning(&self) -> Option<SteadyRotation<D>> {
         let square: f64 = self.rate.iter().map(|rate| rate * rate).sum();
         (square != 0.0).then(|| SteadyRotation {

@@ -56,7 +56,7 @@ const ROUNDINGS: f64 = 1e3;
 pub struct NoEquilibrium {
     /// Fraction of the way that was reached.
     pub reached: f64,
-    /// What was missing there.
+    /// Reason why the search stopped there.
     pub why: Failure,
 }
 
@@ -82,28 +82,28 @@ pub enum Failure {
     /// The work was done that is allowed.
     #[error("the work limit is reached; expected an equilibrium within it")]
     Work,
-    /// It ended where forces do not balance.
+    /// The iteration ended where forces do not balance.
     #[error(
         "expected forces that cancel to roundoff, found {:.1e} {} left, {:.1e} times that", .0.size, .0.unit(), .0.relative()
     )]
     Rest(Rest),
 }
 
-/// What is left of the forces on a body where they ought to balance.
+/// Residual of the force balance of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
     /// The body.
     pub body: usize,
     /// Whether it is moments that are left, in N m, or forces, in N.
     pub is_moment: bool,
-    /// What is left over its nodes.
+    /// Residual over the body's nodes, N or N m.
     pub size: f64,
-    /// What roundoff leaves there.
+    /// Roundoff expected there, N or N m.
     pub roundoff: f64,
 }
 
 impl Rest {
-    /// What is left relative to roundoff.
+    /// Returns the residual relative to roundoff.
     pub fn relative(&self) -> f64 {
         self.size / self.roundoff
     }
@@ -113,7 +113,7 @@ impl Rest {
     }
 }
 
-/// What is known of an equilibrium that was found.
+/// Properties of an equilibrium that was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FoundEquilibrium {
     /// Whether no motion lowers the potential, as far as roundoff lets see; true where the loads have none.

@@ -37,7 +37,7 @@ const EXACT: f64 = 1e-14;
 /// Change of the potential, relative to its terms, that roundoff hides.
 pub(super) const NOISE: f64 = 1e-10;
 
-/// What a Newton iteration must respect.
+/// Acceptance test of the steps of a Newton iteration.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum AcceptanceTest {
     /// No slope turns too far: fast, and right for most loads.
@@ -120,7 +120,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         }
     }
 
-    /// That the work is done that was allowed.
+    /// Returns [`Failure::Work`] if the work limit is reached.
     pub(super) fn exhausted(&self) -> Option<Failure> {
         (self.model.is_exhausted()).then_some(Failure::Work)
     }
