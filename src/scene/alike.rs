@@ -29,7 +29,7 @@ pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) ->
     format!("; did you mean {}?", alike.join(" or "))
 }
 
-/// What there is where that is short, in parentheses, as the end of what is expected.
+/// Lists the known names in parentheses if the list is short, as the end of an expectation in an error message.
 pub(super) fn listed(known: &[&str]) -> String {
     let letters: usize = known.iter().map(|name| name.len() + 2).sum();
     match known.len() {

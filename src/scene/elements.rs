@@ -8,16 +8,16 @@ use super::description::{Body, LineBody, SectionNumbers, Sections};
 use super::resolved::{First, Hold, Place, Resolved};
 use super::{Error, Scene};
 
-/// What a body of `"element": "auto"` becomes.
+/// Choice of the planner for a body of `"element": "auto"`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chosen {
-    /// Its place among the bodies.
+    /// Index among all bodies.
     pub body: usize,
-    /// Its name.
+    /// Name of the body.
     pub name: String,
-    /// What its sections do.
+    /// Chosen kind of sections.
     pub sections: Sections,
-    /// Why.
+    /// Reason for the choice.
     pub why: String,
     /// The body as a beam, where it could be one and is none: shear decides.
     pub beam: Option<Box<LineBody>>,
@@ -71,7 +71,8 @@ impl Chosen {
         }
     }
 
-    /// The same by the share that shear has in how far the body bends statically, where there is no experiment to compare in.
+    /// Decides on shear by its share in the static deflection. Serves scenes without an experiment in which two runs
+    /// could be compared.
     pub fn estimate_shear(&mut self, error: f64, dimension: usize) {
         if let Some(beam) = &self.beam {
             let part = beam.shear_to_bending(dimension);
@@ -168,7 +169,8 @@ impl LineBody {
 }
 
 impl Scene {
-    /// What every body of `"element": "auto"` becomes. Shear has decided where nothing is left to the planner.
+    /// Chooses an element for every body of `"element": "auto"`. Shear decides here if the planner has nothing else to
+    /// choose.
     ///
     /// # Errors
     /// What is not valid, whatever they become.

@@ -20,7 +20,7 @@ pub(super) fn difference(to: [f64; 3], from: [f64; 3]) -> [f64; 3] {
 pub(super) fn length(of: [f64; 3]) -> f64 {
     norm(&of)
 }
-/// What stands for the ground where a marker is named.
+/// Name of the ground in references to markers.
 pub(super) const GROUND: &str = "ground";
 
 impl<'a> Resolved<'a> {
@@ -105,7 +105,7 @@ impl Scene {
         cable.unwrap_or_else(|| unreachable!("a number of a cable is that of a cable"))
     }
 
-    /// The same, to be changed.
+    /// Returns mutable access to a line body.
     pub fn cable_mut(&mut self, id: LineId) -> &mut LineBody {
         let cable = self.bodies[id.body].cable_mut();
         cable.unwrap_or_else(|| unreachable!("a number of a cable is that of a cable"))
@@ -293,7 +293,7 @@ impl<'a> Ends<'a> {
 }
 
 impl<'a> Joint<'a> {
-    /// What is declared of its kind.
+    /// Returns the specification of the joint's kind.
     pub fn declaration(&self) -> JointSpec {
         self.kind.declaration()
     }
@@ -411,7 +411,7 @@ impl<'a> JointCoordinate<'a> {
         }
     }
 
-    /// What the joint joins.
+    /// Returns the two ends of the joint.
     pub fn ends(&self) -> Ends<'a> {
         match self {
             Self::Displacement(slider) => slider.ends,

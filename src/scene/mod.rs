@@ -49,13 +49,13 @@ pub fn example() -> Scene {
     Scene::from_json(include_str!("example.json")).expect("a valid scene")
 }
 
-/// What is wrong with a scene, and where.
+/// Error in a scene, with its place.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{path}: {message}")]
 pub struct Error {
     /// Path of the value inside the scene, e.g. `bodies[0].material.density`.
     pub path: String,
-    /// What was expected and what was found.
+    /// Expectation and finding, in words.
     pub message: String,
 }
 

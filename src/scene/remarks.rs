@@ -15,7 +15,8 @@ const LENGTHS: [f64; 2] = [1e-3, 1e3];
 /// First frequency above which hardly any body is, Hz.
 const FASTEST: f64 = 1e6;
 
-/// What is likely a slip of a unit in a scene, in words, with its place: one remark a kind of slip, whatever the number of bodies.
+/// Lists probable mistakes of units in a scene, in words, with their places. Each kind of mistake is listed once,
+/// whatever the number of bodies.
 pub fn remarks(scene: &Scene) -> Vec<String> {
     let kinds: [fn(&Body) -> Option<String>; 4] = [softness, lightness, length, frequency];
     let told = |slip: &fn(&Body) -> Option<String>| {

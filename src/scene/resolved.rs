@@ -30,7 +30,7 @@ macro_rules! numbers {
 numbers! {
     /// A marker among those of all bodies.
     MarkerId;
-    /// What holds something in the system: joints, then gears, then motions, then what ports drive.
+    /// Owner of constraints in the system. Joints come first, then gears, motions and the constraints of ports.
     ConstraintOwnerId;
     /// A joint of kind `along` among those of its kind.
     SlideId;
@@ -47,7 +47,7 @@ numbers! {
 }
 
 impl PointId {
-    /// The one so many after it.
+    /// Returns the point `count` places after this one.
     pub fn after(self, count: usize) -> Self {
         Self(self.0 + count)
     }
@@ -56,19 +56,19 @@ impl PointId {
 /// A cable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LineId {
-    /// Its place among all bodies.
+    /// Index among all bodies.
     pub(super) body: usize,
-    /// What it is in the system.
+    /// Form of the line body in the system.
     pub(super) form: Form,
 }
 
 impl LineId {
-    /// Its place among all bodies.
+    /// Returns the index among all bodies.
     pub fn body_index(self) -> usize {
         self.body
     }
 
-    /// Its place among the chains of the system, if it is flexible.
+    /// Returns the index among the chains of the system, if the body is flexible.
     pub fn chain(self) -> Option<usize> {
         match self.form {
             Form::Chain(chain) => Some(chain),
@@ -77,12 +77,12 @@ impl LineId {
     }
 }
 
-/// What a cable is in the system.
+/// Form of a line body in the system, with its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Flexible: its place among the chains.
+    /// Flexible, by the index among the chains.
     Chain(usize),
-    /// Rigid: its place among the rods.
+    /// Rigid, by the index among the rods.
     Rod(usize),
 }
 
@@ -109,7 +109,7 @@ pub struct Rigid<'a> {
 pub enum BodyReference<'a> {
     /// A cable, flexible or rigid.
     Cable(Cable<'a>),
-    /// Of kind `rigid`.
+    /// A body of kind `rigid`.
     Rigid(Rigid<'a>),
 }
 
@@ -127,7 +127,7 @@ pub enum Place<'a> {
 pub struct Marker<'a> {
     /// Which one.
     pub id: MarkerId,
-    /// Its name: `body.marker` where it is referred to, without the body among those of all bodies.
+    /// Name: `body.marker` in references, without the body in the list of all markers.
     pub name: &'a str,
     /// Where it is on which body.
     pub place: Place<'a>,
@@ -164,7 +164,7 @@ pub struct Pivot<'a> {
     pub name: &'a str,
     /// Which holder it is.
     pub joint: ConstraintOwnerId,
-    /// What it joins.
+    /// Ends of the joint.
     pub ends: Ends<'a>,
     /// In space its axis at the start, in global axes.
     pub axis: Option<[f64; 3]>,
@@ -177,18 +177,18 @@ pub struct Slider<'a> {
     pub name: &'a str,
     /// Which holder it is.
     pub joint: ConstraintOwnerId,
-    /// What it joins.
+    /// Ends of the joint.
     pub ends: Ends<'a>,
     /// Direction of the line as [`Hold::Line`] has it.
     pub direction: [f64; 3],
-    /// The same at the start, in global axes, a unit vector.
+    /// Direction of the line at the start, a unit vector in global axes.
     pub along: [f64; 3],
 }
 
 /// A coordinate of a joint.
 #[derive(Clone, Copy, Debug)]
 pub enum JointCoordinate<'a> {
-    /// The way along its line, m.
+    /// Displacement along the line, m.
     Displacement(Slider<'a>),
     /// The angle about its axis, rad.
     Angle(Pivot<'a>),
@@ -201,18 +201,18 @@ pub struct Gear<'a> {
     pub name: &'a str,
     /// Which holder it is.
     pub holder: ConstraintOwnerId,
-    /// What it couples.
+    /// Coordinates of the two joints that the gear couples.
     pub coordinates: [JointCoordinate<'a>; 2],
     /// Change of the second by that of the first.
     pub ratio: f64,
 }
 
-/// What has a direction: a marker, or a joint between two.
+/// Object with an angle: a marker, or a joint between two markers.
 #[derive(Clone, Copy, Debug)]
 pub enum Turning<'a> {
     /// Direction at a marker.
     Marker(Marker<'a>),
-    /// Direction of the second marker less that of the first.
+    /// Angle of the second marker minus that of the first.
     Pivot(Pivot<'a>),
 }
 
@@ -236,17 +236,17 @@ pub struct Joint<'a> {
     pub holder: ConstraintOwnerId,
     /// As described.
     pub(super) kind: JointKind,
-    /// Whether the scene is one of the plane.
+    /// Whether the scene is planar.
     pub(super) is_planar: bool,
-    /// What it joins.
+    /// Ends of the joint.
     pub ends: Ends<'a>,
-    /// What it holds.
+    /// Primitives of the joint.
     pub holds: Vec<Hold>,
-    /// When it lets go, if it does.
+    /// Time or input of the release, if the joint can be released.
     pub release: Option<Release>,
 }
 
-/// What a joint holds. Angles (rad) and lengths (m) that are not given are those at the start.
+/// Primitive of a joint. An angle (rad) or a length (m) that is not given is that at the start.
 #[derive(Clone, Copy, Debug)]
 pub enum Hold {
     /// The position.
@@ -261,7 +261,7 @@ pub enum Hold {
     Across([f64; 3], [f64; 3]),
     /// The position in a plane through the first end: the direction across it at the start, in global axes.
     Plane([f64; 3]),
-    /// The way along the line that it is on, in proportion to the angle about it: way a full turn, m.
+    /// Displacement along a line in proportion to the angle about it: the displacement of one full turn, m.
     Screw(f64),
     /// The distance.
     Distance(Option<f64>),
@@ -285,13 +285,13 @@ pub struct Motion<'a> {
     pub name: &'a str,
     /// Which holder it is.
     pub holder: ConstraintOwnerId,
-    /// What is driven and how.
+    /// Driven quantity and the course of each of its coordinates.
     pub kind: MotionKind<'a>,
-    /// Its course as written; nothing if the master sets it.
+    /// Course as written in the scene. Empty if the master sets it.
     pub values: &'a [Value],
 }
 
-/// What is driven, and the course of every coordinate.
+/// Driven quantity, with the course of every coordinate.
 #[derive(Clone, Debug)]
 pub enum MotionKind<'a> {
     /// An angle, rad.
@@ -300,7 +300,7 @@ pub enum MotionKind<'a> {
     Position(Marker<'a>, Vec<Drive>),
     /// How the frame of a rigid body stands in space: the four parts of a quaternion, scalar first.
     Orientation(Marker<'a>, Vec<Drive>),
-    /// The way along a line, m.
+    /// Displacement along a line, m.
     Displacement(Slider<'a>, Drive),
     /// The length that is paid out at the end of a cable, m.
     Winch(Marker<'a>, Drive),
@@ -309,7 +309,7 @@ pub enum MotionKind<'a> {
 /// An input.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {
-    /// What is set.
+    /// Quantity that the input sets.
     pub kind: InputKind<'a>,
     /// Place of its first component among the numbers that the master sets; the others follow.
     pub first: usize,
@@ -317,15 +317,15 @@ pub struct Input<'a> {
     pub start: Vec<f64>,
 }
 
-/// What an input sets.
+/// Quantity that an input sets.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there are few")]
 pub enum InputKind<'a> {
     /// A force or a moment.
     Action(Action<'a>),
-    /// Length at rest of the spring-damper of this name, m.
+    /// Rest length of the spring-damper of this name, m.
     RestLength(&'a str),
-    /// Whether the joint of this name lets go.
+    /// Release of the joint of this name.
     Release(&'a str),
     /// Velocity of the fluid of this name, m/s.
     Current(&'a str),
@@ -338,30 +338,30 @@ pub struct Port<'a> {
     pub name: &'a str,
     /// Where it is.
     pub marker: Marker<'a>,
-    /// What comes in and what goes out.
+    /// Inputs and outputs of the port.
     pub kind: PortKind<'a>,
     /// As described.
     pub given: &'a GivenPort,
 }
 
-/// What comes in and what goes out.
+/// Kind of a port, with its inputs and outputs.
 #[derive(Clone, Debug)]
 pub enum PortKind<'a> {
-    /// A force, and a moment if it turns, in; the motion of the marker out.
+    /// Input of a force, and of a moment if the port rotates. Output of the marker's motion.
     Force {
-        /// What comes in.
+        /// Forces and moments that the master sets.
         inputs: Vec<Input<'a>>,
-        /// What goes out.
+        /// Motion of the marker.
         outputs: Vec<Output<'a>>,
     },
-    /// A motion that drives the marker in; what it takes out.
+    /// Input of a motion that drives the marker. Output of the force that the motion exerts.
     Motion {
         /// The position.
         position: Box<Motion<'a>>,
         /// The angle, in space the orientation, if it turns.
         angle: Option<Box<Motion<'a>>>,
     },
-    /// A motion in, through a spring and a damper; their force out.
+    /// Input of a motion through a spring and a damper. Output of their force.
     Coupling {
         /// Between positions.
         position: Box<Coupling<'a>>,
@@ -370,10 +370,10 @@ pub enum PortKind<'a> {
     },
 }
 
-/// What comes in through a spring and a damper.
+/// Motion that comes in through a spring and a damper.
 #[derive(Clone, Debug)]
 pub enum Incoming<'a> {
-    /// Value and rate of every coordinate, which lie side by side.
+    /// Value and rate of every coordinate, next to each other.
     Motion(Box<MotionKind<'a>>),
     /// In space how the frame of a rigid body would stand: a quaternion, scalar first, then the angular velocity.
     Orientation(Marker<'a>),
@@ -384,7 +384,7 @@ pub enum Incoming<'a> {
 pub struct Coupling<'a> {
     /// Which one.
     pub id: CouplingId,
-    /// What comes in.
+    /// Motion that the master sets.
     pub incoming: Incoming<'a>,
     /// Place of its first number among those that the master sets.
     pub first: usize,
@@ -394,12 +394,12 @@ pub struct Coupling<'a> {
     pub damping: f64,
 }
 
-/// What holds something in the system.
+/// Owner of constraints in the system: a joint, a gear, a motion or a port.
 #[derive(Clone, Debug)]
 pub struct ConstraintOwner<'a> {
     /// Where it stands in the scene, e.g. `joints[0]`.
     pub path: String,
-    /// Its name.
+    /// Name of the owner.
     pub name: &'a str,
 }
 
@@ -430,7 +430,7 @@ pub struct Resolved<'a> {
     pub outputs: Vec<Output<'a>>,
     /// Ports.
     pub ports: Vec<Port<'a>>,
-    /// What holds something, by [`ConstraintOwnerId`].
+    /// Owners of constraints, by [`ConstraintOwnerId`].
     pub holders: Vec<ConstraintOwner<'a>>,
     /// Angles that are counted, by [`AngleId`].
     pub angles: Vec<Turning<'a>>,

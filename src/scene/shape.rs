@@ -84,7 +84,8 @@ impl Shape {
         sum([0.0; 3], [(along, angle.cos()), (out, -angle.sin())])
     }
 
-    /// What the smallest rotations of tangents along the shape make, at `s`, of a direction across the tangent at the first end.
+    /// Rotates a direction perpendicular to the tangent at the first end along the shape to `s`, by the smallest
+    /// rotations of tangents.
     ///
     /// Source: R. L. Bishop, There is more than one way to frame a curve, Am. Math. Mon. 82 (1975) 246-251: against the normal such a
     /// direction turns by minus the torsion of the curve, of a helix its angle times rise over length.

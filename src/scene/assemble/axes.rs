@@ -78,7 +78,7 @@ impl<const D: usize> Builder<'_, D> {
         self.turn(joint.pivot()?)
     }
 
-    /// The same of what turns; none of a marker.
+    /// Returns the rotation of a joint about its axis. `None` for a marker.
     pub(super) fn axis_turn(&self, turning: &Turning<'_>) -> Option<AxisTurn<D>> {
         match turning {
             Turning::Pivot(pivot) => self.turn(*pivot),
@@ -118,7 +118,7 @@ impl<const D: usize> Builder<'_, D> {
         })
     }
 
-    /// What residuals of ways between these ends are relative to, m.
+    /// Returns the reference size of residuals of displacements between two ends, m.
     pub(super) fn size_of(&self, ends: &[Attachment<D>; 2]) -> f64 {
         let size = reach(ends).max(self.distance_at_start(ends));
         if size > 0.0 { size } else { 1.0 }

@@ -42,7 +42,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    /// Its value in the shapes and positions that the scene describes, m or rad.
+    /// Returns the value in the shapes and positions that the scene describes, m or rad.
     pub(super) fn at_start(&self, coordinate: &Coordinate<D>) -> f64 {
         let angles = vec![0.0; self.parts.angles.len()];
         coordinate.value(&self.parts.nodes, &angles)

@@ -156,7 +156,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 }
 
-/// What is the same all along a body.
+/// Builds a line load that is uniform along a body.
 pub(super) fn uniform<const K: usize>(components: &[Signal]) -> LineLoad<K> {
     LineLoad {
         uniform: each(components),

@@ -86,7 +86,8 @@ impl<const D: usize> Assembled<D> {
         product(&principal, &self.stances[body])
     }
 
-    /// Of both quaternions of each body's frame a run begins with that whose scalar part is not negative.
+    /// Chooses the sign of the quaternion of each body's frame at the start of a run, such that its scalar part is not
+    /// negative.
     pub fn begin(&self, state: &mut State) {
         let State {
             frames,

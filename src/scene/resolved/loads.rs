@@ -11,25 +11,25 @@ use crate::system::Signal;
 pub struct Load<'a> {
     /// Name.
     pub name: &'a str,
-    /// What acts.
+    /// Kind of load with its parameters.
     pub kind: LoadKind<'a>,
 }
 
-/// What acts.
+/// Kind of a load with its parameters.
 #[derive(Clone, Debug)]
 pub enum LoadKind<'a> {
     /// A force or a moment.
     Action {
         /// Which and where.
         action: Action<'a>,
-        /// Its size as written.
+        /// Components as written in the scene.
         values: &'a [Value],
     },
     /// A spring and a damper side by side.
     Spring(Spring<'a>),
     /// A spring and a damper on a coordinate of a joint.
     JointSpring {
-        /// What they act on.
+        /// Coordinate that spring and damper act on.
         on: JointCoordinate<'a>,
         /// Stiffness (N/m or N m/rad) and damping (N s/m or N m s/rad).
         sizes: [f64; 2],
@@ -40,7 +40,7 @@ pub enum LoadKind<'a> {
     Bushing(Bushing<'a>),
     /// Stops of a coordinate of a joint.
     JointLimit {
-        /// What they limit.
+        /// Coordinate that the stops limit.
         on: JointCoordinate<'a>,
         /// Stiffness (N/m or N m/rad) and damping (s/m or s/rad).
         sizes: [f64; 2],
@@ -56,11 +56,11 @@ pub enum LoadKind<'a> {
 /// A fluid along a body.
 #[derive(Clone, Debug)]
 pub struct Fluid<'a> {
-    /// What it streams past.
+    /// Line body that the fluid acts on.
     pub on: Cable<'a>,
-    /// Its density, kg/m^3.
+    /// Density of the fluid, kg/m^3.
     pub density: f64,
-    /// Its velocity, m/s; zero of the components that change along the body.
+    /// Velocity of the fluid, m/s. Components that vary along the body are zero here.
     pub current: Vec<Signal>,
     /// Components that change along the body, and their expressions.
     pub along: Vec<(usize, &'a str)>,
@@ -99,9 +99,9 @@ impl Fluid<'_> {
 /// Contact with a surface of the ground.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact<'a> {
-    /// What touches it.
+    /// Marker or line body that touches the surface.
     pub by: By<'a>,
-    /// What is touched.
+    /// Surface that is touched.
     pub surface: Surface,
     /// Stiffness (N/m, of a body N/m per length) and damping (s/m).
     pub sizes: [f64; 2],
@@ -111,7 +111,7 @@ pub struct Contact<'a> {
     pub slip_velocity: Option<f64>,
 }
 
-/// What touches a surface.
+/// Marker or line body that touches a surface.
 #[derive(Clone, Copy, Debug)]
 pub enum By<'a> {
     /// A marker.
@@ -133,7 +133,7 @@ impl<'a> By<'a> {
 /// Springs and dampers along and about the axes of the first end's body.
 #[derive(Clone, Copy, Debug)]
 pub struct Bushing<'a> {
-    /// What they are fixed to.
+    /// Ends of the bushing.
     pub ends: Ends<'a>,
     /// Stiffness along (N/m) and about (N m/rad) the axes.
     pub stiffness: [[f64; 3]; 2],
@@ -142,7 +142,7 @@ pub struct Bushing<'a> {
 }
 
 impl<'a> LoadKind<'a> {
-    /// What springs between two points are fixed to.
+    /// Returns the ends of springs between two points. `None` for other loads.
     pub fn between(&self) -> Option<Ends<'a>> {
         match self {
             Self::Spring(spring) => Some(spring.ends),
@@ -180,7 +180,8 @@ impl<'a> LoadKind<'a> {
         }
     }
 
-    /// Its largest stiffness against ways (N/m, of contacts of bodies N/m per length) and against turns (N m/rad).
+    /// Returns the largest stiffness against displacements (N/m, of contacts of bodies N/m per length) and against
+    /// rotations (N m/rad).
     pub fn stiffness(&self) -> [f64; 2] {
         match self {
             Self::Action { .. } | Self::Fluid(_) => [0.0; 2],
@@ -202,7 +203,7 @@ impl<'a> LoadKind<'a> {
 /// A spring and a damper between two ends.
 #[derive(Clone, Debug)]
 pub struct Spring<'a> {
-    /// What they are fixed to.
+    /// Ends of the spring.
     pub ends: Ends<'a>,
     /// Stiffness, N/m.
     pub stiffness: f64,
@@ -219,17 +220,17 @@ pub struct Spring<'a> {
 pub struct Action<'a> {
     /// Which.
     pub kind: ActionKind,
-    /// What it acts on; which of these follows from the kind.
+    /// Marker, joint or line body that the load acts on, depending on its kind.
     pub on: On<'a>,
     /// Whether it turns with the marker.
     pub follower: bool,
-    /// Its components, as many as the kind has; zero of those that change along a body.
+    /// Components, as many as the kind has. Components that vary along a body are zero here.
     pub components: Vec<Signal>,
     /// Components that change along a body, and their expressions.
     pub along: Vec<(usize, &'a str)>,
 }
 
-/// What a force or a moment acts on.
+/// Marker, joint or line body that a force or a moment acts on.
 #[derive(Clone, Copy, Debug)]
 pub enum On<'a> {
     /// A marker.

@@ -17,24 +17,24 @@ pub struct Reaction<'a> {
 /// A quantity that the master reads.
 #[derive(Clone, Copy, Debug)]
 pub struct Output<'a> {
-    /// What is read.
+    /// Kind of quantity that is read.
     pub kind: OutputKind,
-    /// What it is read at; which of these follows from the kind.
+    /// Object that the quantity is read at, depending on its kind.
     pub of: Of<'a>,
     /// Along which axes.
     pub along: Along,
 }
 
-/// What an output is read at.
+/// Object that an output is read at.
 #[derive(Clone, Copy, Debug)]
 pub enum Of<'a> {
     /// A marker.
     Marker(Marker<'a>),
     /// A marker of a cable, and another one of the same body.
     Deflected(Marker<'a>, Option<Marker<'a>>),
-    /// What turns.
+    /// Marker or joint with an angle.
     Turning(Turning<'a>),
-    /// What turns, its angle counted on over full turns.
+    /// Marker or joint with an angle that is counted over full turns.
     Angle(Turning<'a>, AngleId),
     /// Points of the section at a marker: the first, and the points as described.
     Points(Marker<'a>, PointId, &'a [Vec<f64>]),
@@ -61,7 +61,7 @@ pub struct SectionPoint<'a> {
     pub marker: Marker<'a>,
     /// The cable, rod or beam.
     pub cable: Cable<'a>,
-    /// Its material coordinate.
+    /// Material coordinate of the section, in [0, 1].
     pub at: f64,
     /// Coordinates along the first and the second axis of the section; in the plane the way from the line to the left, and 0, m.
     pub point: [f64; 2],

@@ -104,7 +104,7 @@ pub fn finite(path: &str, value: f64) -> Result<(), Error> {
     Err(expected(path, "a finite number", value))
 }
 
-/// What a vector looks like in so many dimensions.
+/// Returns the notation of a vector of this dimension, for messages.
 pub fn shape(dimension: usize) -> &'static str {
     match dimension {
         2 => "[x, y]",
@@ -126,7 +126,7 @@ pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error>
     }
 }
 
-/// The same of a direction, which is not zero.
+/// Checks that a direction has as many components as the scene has dimensions, and is not zero.
 pub fn direction(path: &str, dimension: usize, value: &Vector) -> Result<(), Error> {
     vector(path, dimension, value)?;
     if value.full() != [0.0; 3] {

@@ -56,7 +56,7 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// The same of a body with inertia about every axis, as one has whose orientation is driven.
+    /// Finds a marker of a body with inertia about every axis, whose orientation can be driven.
     pub(super) fn require_driven(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_standing(path, name)?;
         match marker.place {
@@ -213,7 +213,7 @@ impl<'a> Resolved<'a> {
         found.ok_or_else(|| self.no_joint(path, name))
     }
 
-    /// What is said where no joint has a name.
+    /// Describes a reference to a joint that does not exist.
     pub(super) fn no_joint(&self, path: &str, name: &str) -> Error {
         let known = self.joints.iter().map(|joint| joint.name);
         unknown(path, "a joint of this scene", name, known)

@@ -7,7 +7,7 @@ use crate::scene::mesh::SHORTEST;
 use crate::scene::{Error, LineBody, Model, Profile, Section, Sections, Strain};
 
 impl LineBody {
-    /// Its cross section, or those at stations, and nothing of a cable that rods alone have.
+    /// Checks the cross section or the sections at stations. A cable may have no keys of rods.
     pub(super) fn validate_sections(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let (at, is_rod) = (|key: &str| format!("{path}.{key}"), self.is_rod());
         match is_rod {
@@ -78,7 +78,7 @@ impl LineBody {
         Ok(())
     }
 
-    /// What an element may have no use for is a value nonetheless.
+    /// Checks values that the chosen element may not use.
     pub(super) fn validate_spare(&self, path: &str) -> Result<(), Error> {
         if let Some(modulus) = self.material.shear_modulus {
             positive(&format!("{path}.material.shear_modulus"), "Pa", modulus)?;

@@ -52,7 +52,8 @@ impl<'a> Resolved<'a> {
         self.winches().any(|(_, of)| of.id == cable.id)
     }
 
-    /// What acts on a cable that is paid out acts at its ends or all along it.
+    /// Checks cables that winches pay out: one winch for each, a frame at rest, and loads at the ends or all along
+    /// only.
     pub(super) fn check_winches(&self) -> Result<(), Error> {
         let mut cables: Vec<(usize, Cable<'a>)> = Vec::new();
         for (index, cable) in self.winches() {
