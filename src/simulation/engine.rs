@@ -33,7 +33,7 @@ pub(super) struct Engine<const D: usize> {
     pub(super) most_work: f64,
     /// Functions of time of the scene, to say which of them ended a step.
     pub(super) timed: Vec<Timed>,
-    /// What holds something in the system, by its list and name, and names of bodies.
+    /// Owners of constraints, as pairs of list and name, by index. `bodies` holds the names of bodies.
     pub(super) holders: Vec<(&'static str, String)>,
     /// What the initial state was found with that a person should know.
     remarks: InitialWarnings,
@@ -69,7 +69,7 @@ fn names(names: &mut dyn Iterator<Item = &str>) -> Vec<String> {
 /// Gap, in sizes of the largest body (or in rad), from which on it is told that bodies were moved to close it.
 const MISFIT: f64 = 0.5;
 
-/// What a person should know about an initial state.
+/// Warnings about an initial state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct InitialWarnings {
     /// Gaps of joints as described.
@@ -224,7 +224,7 @@ impl<const D: usize> Engine<D> {
         Ok(spectra)
     }
 
-    /// What a person should know about the initial state.
+    /// Returns the warnings about the initial state.
     pub(super) fn remarks(&self) -> &InitialWarnings {
         &self.remarks
     }

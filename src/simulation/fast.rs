@@ -49,7 +49,7 @@ impl fmt::Display for TooFast<'_> {
 }
 
 impl FastFunctions {
-    /// Those among functions of time.
+    /// Collects the periodic functions among the functions of time.
     pub(super) fn new(timed: Vec<Timed>) -> Self {
         let waves = timed.into_iter().filter(Timed::is_periodic);
         let waves = waves.map(|timed| Wave {

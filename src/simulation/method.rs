@@ -28,13 +28,13 @@ const PROJECTION: f64 = 2.2;
 /// Rate of motion at the start, relative to what else there is, up to which it is rest: a motion that begins at rest may begin with roundoff.
 const REST: f64 = 1e-6;
 
-/// What a choice is made from.
+/// Start of a run, from which the integrator is chosen.
 pub(super) struct Start<'a, const D: usize> {
     /// The system.
     pub system: &'a System<D>,
     /// The state that it starts from.
     pub state: &'a State,
-    /// Its kinetic energy, J.
+    /// Kinetic energy of the state, J.
     pub kinetic: f64,
     /// Inputs.
     pub inputs: &'a [f64],

@@ -81,7 +81,7 @@ pub enum Error {
     Variable {
         /// Name of the variable, or its index where there is none.
         name: String,
-        /// What was expected and what was found.
+        /// Expectation and finding, in words.
         message: String,
     },
     /// A snapshot of another simulation, or a broken one.
@@ -95,11 +95,11 @@ pub enum Error {
 pub struct StepFailure {
     /// Time of the last accepted sub-step, where the simulation now stands, s.
     pub time: f64,
-    /// What went wrong.
+    /// Reason of the failure, in words.
     pub reason: String,
 }
 
-/// What the last call of [`Simulation::step`] did.
+/// Statistics of the last call of [`Simulation::step`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Name of the integrator.
@@ -210,7 +210,7 @@ impl Simulation {
         self.state.time
     }
 
-    /// What the last step did.
+    /// Returns the statistics of the last step.
     pub fn report(&self) -> Report {
         self.report
     }

@@ -16,7 +16,7 @@ impl<const D: usize> Engine<D> {
         found.map_err(|error| in_words(&self.bodies, error))
     }
 
-    /// What damping at rest takes along ways of the coordinates, 1/s.
+    /// Computes the damping at rest along displacements in coordinates, 1/s.
     pub(super) fn damping_along(
         &mut self,
         state: &State,

@@ -39,7 +39,7 @@ struct Rod {
 pub struct NoPropeller<'a> {
     /// The body.
     pub body: &'a str,
-    /// What the moment would be beside the stiffness of torsion.
+    /// Size of the missing moment relative to the torsional stiffness.
     pub share: f64,
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for NoPropeller<'_> {
 }
 
 impl PropellerWatch {
-    /// Those of a scene.
+    /// Collects the rods of a scene.
     pub(super) fn new(resolved: &Resolved<'_>) -> Self {
         let lines = resolved.bodies.iter().filter_map(|body| match body {
             BodyReference::Cable(cable) => Some(cable),

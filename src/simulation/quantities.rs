@@ -68,9 +68,9 @@ pub enum Quantity {
     ReactionMoment(ConstraintOwnerId, usize, Along),
     /// Displacement of a joint along a line.
     Displacement(ConstraintOwnerId),
-    /// Its rate.
+    /// Velocity of a joint along a line, m/s.
     SlidingVelocity(ConstraintOwnerId),
-    /// The rate of that.
+    /// Acceleration of a joint along a line, m/s^2.
     SlidingAcceleration(ConstraintOwnerId),
     /// Component of the force of a load on its second end.
     LoadForce(LoadId, usize),
@@ -325,7 +325,7 @@ fn component<N: Number>(
     }
 }
 
-/// What quantities are measured by: length, rate and force at which the scene moves by nature, m, 1/s, N.
+/// Natural scales of a scene, by which quantities are compared: length (m), rate (1/s) and force (N).
 #[derive(Clone, Copy)]
 pub(super) struct Scale {
     size: f64,
@@ -334,7 +334,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// That of a system whose errors in time are measured so.
+    /// Returns the scales of a system for the time scale of a tolerance.
     pub(super) fn of<const D: usize>(system: &System<D>, tolerance: &Tolerance) -> Self {
         let (size, rate) = (system.size(), 1.0 / tolerance.time);
         let force = system.mass() * size * rate * rate;
@@ -378,12 +378,13 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
     }
 }
 
-/// What a quantity is computed from.
+/// Returns the evaluation that a quantity is computed from.
 pub(super) fn needs(quantity: Quantity) -> Evaluated {
     nature(quantity).0
 }
 
-/// What a quantity is where the scene moves at its natural rate, if it is compared with that.
+/// Returns the size of a quantity in a motion at the natural scales. `None` for quantities that are not compared with
+/// it.
 pub(super) fn natural(quantity: Quantity, by: Scale) -> Option<f64> {
     nature(quantity).1(by)
 }
@@ -394,7 +395,8 @@ impl<const D: usize> Engine<D> {
         self.assembled.system.size()
     }
 
-    /// What a quantity is where the scene moves at its natural rate, if it is compared with that.
+    /// Returns the size of a quantity in a motion at the natural scales of the scene. `None` for quantities that are
+    /// not compared with it.
     pub(super) fn natural(&self, quantity: Quantity) -> Option<f64> {
         natural(quantity, Scale::of(&self.assembled.system, &self.tolerance))
     }

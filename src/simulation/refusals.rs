@@ -42,7 +42,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// What is wrong with a variable.
+    /// Builds the error that refuses a variable.
     pub(super) fn refuse(&self, index: usize, message: &str) -> Error {
         let name = self.variables[index].name.clone();
         Error::Variable {

@@ -48,7 +48,7 @@ impl Simulation {
         Ok(outlines.unwrap_or_default())
     }
 
-    /// The same where the scene draws them; nothing before [`Self::initialize`].
+    /// Returns the lines of all bodies as the scene draws them, m. The list is empty before [`Self::initialize`].
     pub(super) fn drawn_outlines(&self, parts: impl Fn(usize) -> u32) -> Vec<Vec<[f64; 3]>> {
         let engine = self.engine.as_ref();
         engine
@@ -56,7 +56,8 @@ impl Simulation {
             .unwrap_or_default()
     }
 
-    /// What computed variables are where the scene draws its bodies, in their order; 0 of what is no place, angle or direction.
+    /// Returns the values of computed variables in the configuration that the scene draws, in their order. Variables
+    /// that are no position, angle or direction are 0.
     pub(super) fn drawn(&self) -> Vec<f64> {
         let computed = self.variables.iter().filter(|v| v.is_computed());
         let drawn = |variable: &Variable| match (&self.engine, variable.source) {
@@ -138,7 +139,7 @@ impl<const D: usize> Engine<D> {
         outlines(&assembled.system, x, parts)
     }
 
-    /// The same where the scene draws them.
+    /// Returns the lines of all bodies as the scene draws them, m.
     pub(super) fn drawn_outlines(&self, parts: &dyn Fn(usize) -> u32) -> Vec<Vec<[f64; 3]>> {
         outlines(&self.assembled.system, &self.assembled.nodes, parts)
     }
@@ -175,7 +176,8 @@ impl<const D: usize> Engine<D> {
     }
 }
 
-/// What a place, an angle or a direction is where the scene draws its bodies; 0 of all else.
+/// Returns the value of a position, an angle or a direction in the configuration that the scene draws. Other quantities
+/// are 0.
 pub(super) fn drawn<const D: usize>(quantity: Quantity, assembled: &Assembled<D>) -> f64 {
     use Quantity::*;
     let is_place = matches!(

@@ -152,7 +152,7 @@ impl Signals {
         Ok(())
     }
 
-    /// The same rows with another curve through them.
+    /// Replaces the curve through the rows by one of another interpolation.
     ///
     /// # Errors
     /// Rows that no curve goes through.

@@ -15,7 +15,7 @@ pub struct RedundantNames {
     pub nearly: Vec<String>,
 }
 
-/// What it means that joints nearly hold what others hold already, and what to do.
+/// Meaning of nearly redundant joints, and remedies, for messages.
 pub const NEARLY: &str = "accelerations and reactions here are those without them; give lengths and axes that agree in \
                           all digits, let go what is held twice, or start from another position";
 
@@ -24,7 +24,7 @@ pub const NEARLY: &str = "accelerations and reactions here are those without the
 pub struct Singular {
     /// When, s.
     pub time: f64,
-    /// What holds there what others hold already, exactly or nearly.
+    /// Names of joints, gears, motions and bodies whose constraints repeat others there, exactly or nearly.
     pub names: Vec<String>,
 }
 
@@ -42,7 +42,7 @@ impl std::fmt::Display for Singular {
 }
 
 impl<const D: usize> Engine<D> {
-    /// What holds what others hold already at a state.
+    /// Finds joints, gears, motions and bodies whose constraints repeat others at a state.
     pub(super) fn redundant(&mut self, state: &State) -> RedundantNames {
         let found = (self.assembled.system).redundant_at(state, &mut self.work);
         self.forget();
@@ -52,7 +52,8 @@ impl<const D: usize> Engine<D> {
         }
     }
 
-    /// What holds what others hold already, nearly, at this state but not everywhere, in words.
+    /// Lists the owners of constraints that nearly repeat others at this state but not at every state, in words. `None`
+    /// if there are none.
     pub(super) fn newly_redundant(&mut self, state: &State) -> Option<String> {
         let held = (self.assembled.system).held_within(NEAR, state, &mut self.work);
         self.forget();

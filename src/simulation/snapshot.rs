@@ -27,7 +27,7 @@ pub struct Snapshot {
     pub state: State,
 }
 
-/// What is computed once, about the initial state; nothing before that.
+/// Natural frequencies and eigenvalues about the initial state. They are computed once, and are empty before.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     /// Natural frequencies, rad/s.

@@ -24,7 +24,8 @@ impl<const D: usize> Engine<D> {
         self.most_work = self.most_work.min(most);
     }
 
-    /// What is said of a rod or beam with an element that is bent or twisted too far, and `place`, of where that is seen.
+    /// Describes a rod or beam with an element that is bent or twisted too far. `place` ends the text that names the
+    /// element.
     pub(super) fn overbent(&self, (body, element): (usize, usize), place: &str) -> String {
         format!(
             "expected elements of `{}` that bend by less than a right angle from the middle to an end and twist by less \
@@ -57,7 +58,7 @@ impl<const D: usize> Engine<D> {
         (report, Err(failure))
     }
 
-    /// What ended the way from `start` to `until` at a state.
+    /// Explains in words why a step from `start` to `until` ended at a state.
     pub(super) fn explain(
         &mut self,
         stop: StepError,

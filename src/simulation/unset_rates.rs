@@ -28,7 +28,7 @@ struct MotionInputs {
 }
 
 impl UnsetRates {
-    /// Those among variables.
+    /// Collects the prescribed motions with rate inputs among variables.
     pub(super) fn new(variables: &[Variable]) -> Self {
         let mut motions: Vec<MotionInputs> = Vec::new();
         let drives = variables.iter().filter_map(|variable| variable.drive);

@@ -57,9 +57,9 @@ struct WatchedOutput {
 /// An output that the tolerance does not reach.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Doubtful {
-    /// Its name, without an index.
+    /// Name of the output without an index.
     pub name: String,
-    /// What the errors of steps may have left so far, relative to its largest change.
+    /// Estimate of the accumulated error of steps, relative to the largest change of the output.
     pub error: f64,
     /// The error wanted.
     pub wanted: f64,
@@ -80,7 +80,7 @@ impl std::fmt::Display for Doubtful {
     }
 }
 
-/// What has been seen of the outputs so far.
+/// Observations of the outputs so far.
 #[derive(Default)]
 pub(super) struct Watch {
     groups: Vec<WatchedOutput>,

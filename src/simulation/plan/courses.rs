@@ -60,8 +60,8 @@ fn columns(courses: &[InputCourse], variables: &[Variable]) -> Vec<InputColumn> 
     found
 }
 
-/// What inputs do while a scene is planned, as a table with a row at every communication point and two at every jump and kink; nothing where all
-/// keep their start values.
+/// Builds the table of inputs for the experiment that is planned for. It has a row at every communication point, and
+/// two at every jump and kink. `None` if all inputs keep their start values.
 ///
 /// # Errors
 /// A course of what is no input; one with too many kinks and jumps.

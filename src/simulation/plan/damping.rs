@@ -27,7 +27,7 @@ pub struct Damped {
     pub name: String,
     /// Damping ratio of the mode.
     pub ratio: f64,
-    /// Its angular frequency without damping, rad/s.
+    /// Angular frequency without damping, rad/s.
     pub frequency: f64,
     /// Part of its energy that is strain of the body.
     pub share: f64,

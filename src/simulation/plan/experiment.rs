@@ -19,17 +19,18 @@ pub(super) struct TrialRun {
     pub times: Vec<f64>,
     /// One value a computed variable, in their order, at every time.
     pub rows: Vec<Vec<f64>>,
-    /// What these are where the scene moves by its nature, and its size, m.
+    /// Natural sizes of the computed variables, in their order.
     pub natural: Vec<f64>,
     pub size: f64,
-    /// What these are where the scene draws its bodies: places, angles and directions.
+    /// Values of the computed variables in the configuration that the scene draws. Other variables than positions,
+    /// angles and directions are 0.
     pub drawn: Vec<f64>,
     /// Largest displacements of bodies from where they were drawn, and from a rigid motion of what was drawn, m.
     pub moved: Vec<f64>,
     pub deformed: Vec<f64>,
-    /// What inputs that are held would do.
+    /// Linear responses to inputs that are held.
     pub responses: Responses,
-    /// What errors of every output are measured by, in its unit; filled in by the search.
+    /// Reference size of the errors of every output, in the output's unit. The search fills it in.
     pub scales: Vec<(f64, RelativeTo)>,
     /// Work: operations times parts.
     pub work: f64,

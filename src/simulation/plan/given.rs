@@ -7,12 +7,12 @@ use crate::simulation::{Causality, Error as Refusal, InputTable, Simulation, Var
 /// The name of the tolerance among parameters.
 const TOLERANCE: &str = "relative_tolerance";
 
-/// What is given for the runs of a plan.
+/// Parameters and inputs given for the runs of a plan.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TrialConditions {
     /// Values of parameters and inputs, by their names.
     pub set: Vec<(String, f64)>,
-    /// What inputs do, in place of `accuracy.input_profiles`.
+    /// Table of inputs that replaces `accuracy.input_profiles`.
     pub inputs: Option<InputTable>,
 }
 
@@ -45,7 +45,7 @@ impl TrialConditions {
         Ok(())
     }
 
-    /// The same but for numbers of elements and the tolerance, which a run may have other than planned.
+    /// Removes numbers of elements and the tolerance, which a run may set to other values than planned.
     #[must_use]
     pub fn without_planned(mut self, scene: &Scene) -> Self {
         let variables = variables(scene);
@@ -67,7 +67,8 @@ impl TrialConditions {
         Ok(())
     }
 
-    /// What inputs do in a scene: as given, or by `accuracy.input_profiles`; nothing where all keep their values.
+    /// Returns the table of inputs for a scene: the given one, or that of `accuracy.input_profiles`. `None` if all
+    /// inputs keep their values.
     pub(super) fn moved(&self, scene: &Scene) -> Result<Option<InputTable>, Error> {
         let (table, place) = match &self.inputs {
             Some(table) => (Some(table.clone()), "input"),

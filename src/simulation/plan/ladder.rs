@@ -15,7 +15,7 @@ const BEFORE: f64 = 0.6;
 /// Part of what may change below which nothing more is asked of an output.
 const QUIET: f64 = 0.5;
 
-/// What a run is made with.
+/// Choices that a run is made with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Choice {
     /// Elements of every cable, in the order of the bodies.
@@ -62,7 +62,8 @@ impl Ladder {
         !last.iter().enumerate().any(is_open)
     }
 
-    /// What the next rung would change, where all outputs converge regularly. Nothing where that is more than may be.
+    /// Predicts the differences of the next rung from regular convergence of all outputs. `None` if convergence is not
+    /// regular or a prediction exceeds its limit.
     pub fn foreseen(&self) -> Option<Vec<Difference>> {
         let groups = self.limits.iter().enumerate().map(|(group, limit)| {
             let now = self.rungs.last()?.1[group].largest;

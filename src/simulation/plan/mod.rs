@@ -32,10 +32,10 @@ use crate::scene::{Chosen, Error, Scene};
 use search::Search;
 use shear::Beam;
 
-/// What is under way, for a person who waits: the number of the run, elements of all cables, tolerance.
+/// Progress report of a run: number of the run, elements of all cables, tolerance.
 pub type Progress<'a> = &'a mut dyn FnMut(usize, u32, f64);
 
-/// What planning may cost.
+/// Limit of the effort of planning.
 #[derive(Clone, Copy)]
 pub struct Budget<'a> {
     /// Time, s: runs are counted by their work, so that the same scene gives the same plan.
@@ -66,7 +66,7 @@ impl Budget<'_> {
 /// Work in a second of the budget: a part of what a processor of 2024 does, which leaves time for what is not counted.
 const WORK: f64 = 1.5e6;
 
-/// What was found while packaging, and why.
+/// Findings of planning, with reasons.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Planned {
     /// Elements that were chosen, of bodies of `"element": "auto"`.
@@ -90,7 +90,7 @@ pub fn plan(
     plan_for(scene, &TrialConditions::default(), budget, progress)
 }
 
-/// The same where parameters and inputs are given, as a run will have them. The planned scene keeps its own values.
+/// Plans with given parameters and inputs, as a run will have them. The planned scene keeps its own values.
 ///
 /// # Errors
 /// As [`plan`]; what is given is not what the scene has, or is a number of elements or the tolerance.

@@ -27,7 +27,7 @@ fn parts(elements: usize) -> u32 {
 }
 
 impl LargestDisplacements {
-    /// Of a simulation that has been initialized.
+    /// Starts to record an initialized simulation.
     pub fn new(simulation: &Simulation) -> Self {
         let drawn = simulation.drawn_outlines(parts);
         let bodies = drawn.len();

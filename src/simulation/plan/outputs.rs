@@ -13,25 +13,25 @@ const SMALLEST: f64 = 1e-3;
 const NOTHING: f64 = 1e-14;
 const STIFF: f64 = 1e-11;
 
-/// What an output must show for its errors to be resolved.
+/// Part of the motion that a run must resolve for an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Measure {
     /// Displacement from where its marker was drawn, m.
     Displacement,
     /// Change of an angle (rad) or of a unit vector from how it was drawn.
     Rotation,
-    /// Its largest value: a rate, which follows from the displacement of its body.
+    /// Largest value of a rate, which follows from the displacement of its body.
     Rate,
-    /// Its largest value: a force, a strain or an acceleration, which follows from how its body deforms.
+    /// Largest value of a force, a strain or an acceleration, which follows from the deformation of its body.
     Elastic,
-    /// Its largest value: a frequency, or what the whole scene sums up to.
+    /// Largest value of a frequency or of a sum over the scene.
     Sum,
 }
 
-/// What the errors of an output are relative to.
+/// Reference of the relative errors of an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RelativeTo {
-    /// Its own largest change.
+    /// Largest change of the output itself.
     Own,
     /// A thousandth of the largest change of like outputs of its body.
     Body,
@@ -58,7 +58,7 @@ pub(super) struct OutputGroup {
     pub counts: bool,
 }
 
-/// What an output changes from one run to another.
+/// Difference of an output between two runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Difference {
     /// The largest over the experiment, relative.
@@ -226,7 +226,7 @@ fn own(group: &OutputGroup, run: &TrialRun) -> f64 {
     points(group, run).map(change).fold(0.0, f64::max)
 }
 
-/// Of sizes of outputs that of one, or a thousandth of the largest of like outputs of its body where that is more.
+/// Returns the size of an output, or a thousandth of the largest size of like outputs on its bodies if that is more.
 pub(super) fn like(groups: &[OutputGroup], index: usize, sizes: &[f64]) -> f64 {
     let group = &groups[index];
     let is_like = |(_, other): &(usize, &OutputGroup)| {
@@ -238,7 +238,7 @@ pub(super) fn like(groups: &[OutputGroup], index: usize, sizes: &[f64]) -> f64 {
     sizes[index].max(SMALLEST * others)
 }
 
-/// What the errors of every output are measured by in a run, in its unit, and what that is.
+/// Computes the reference size of errors of every output in a run, in the output's unit, with its origin.
 pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, RelativeTo)> {
     let changes: Vec<f64> = groups.iter().map(|group| own(group, run)).collect();
     let scale = |(index, group): (usize, &OutputGroup)| {
@@ -258,7 +258,7 @@ pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, Relati
     groups.iter().enumerate().map(scale).collect()
 }
 
-/// What an output changes from a run to one that is closer to the truth; `limit` is asked for.
+/// Compares an output between a run and a more accurate one. `limit` is the wanted relative error.
 pub(super) fn difference(
     (group, index): (&OutputGroup, usize),
     run: &TrialRun,

@@ -18,7 +18,8 @@ pub struct Plan {
     pub method: &'static str,
     /// Inputs that kept their start values; meshes were compared by the linear answers to them.
     pub held: Vec<String>,
-    /// What doubling changes of these answers, and of natural frequencies that the communication step resolves, relative.
+    /// Relative changes on doubling the mesh, by name: of these answers, and of the natural frequencies that the
+    /// communication step resolves.
     pub answers: Vec<(String, f64)>,
     /// Outputs that count.
     pub outputs: Vec<PlannedOutput>,
@@ -28,7 +29,7 @@ pub struct Plan {
     pub cheaper: Option<Price>,
     /// See `chosen`.
     pub dearer: Option<Price>,
-    /// What would settle where forces do not.
+    /// Proposal of axial damping for forces that do not converge.
     pub settled: Option<Settled>,
     /// Whether the work that planning may cost ended before the plan was found: it is the best so far.
     pub is_cut: bool,
@@ -38,10 +39,10 @@ pub struct Plan {
     pub runs_cost: f64,
 }
 
-/// What a body became.
+/// Model that was planned for a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedBody {
-    /// Its name.
+    /// Name of the body.
     pub name: String,
     /// `cable`, `rod`, `beam` or `rigid`.
     pub kind: &'static str,
@@ -53,16 +54,16 @@ pub struct PlannedBody {
     pub why: String,
 }
 
-/// What is known of an output.
+/// Planned accuracy of an output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedOutput {
-    /// Its name, without an index.
+    /// Name of the output without an index.
     pub name: String,
     /// Error estimated over the experiment, relative.
     pub error: f64,
-    /// What errors are relative to, in the unit of the output.
+    /// Reference size of relative errors, in the unit of the output.
     pub scale: f64,
-    /// What that is.
+    /// Origin of the reference size.
     pub relative_to: RelativeTo,
     /// Whether the first instant is left out.
     pub skips_start: bool,
@@ -81,7 +82,8 @@ pub enum Settles {
     No,
 }
 
-/// What `"axial": "critically_damped"` would do to forces that do not settle. It is proposed, never chosen: it changes the physics.
+/// Effect of `"axial": "critically_damped"` on forces that do not converge. It is proposed and never chosen, because it
+/// changes the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
     /// Names of the cables.
@@ -89,11 +91,11 @@ pub struct Settled {
     /// Forces that it changes by more than the error wanted: name, what it changes, and what doubling changes then, relative;
     /// nothing where that is not known.
     pub forces: Vec<(String, f64, Option<f64>)>,
-    /// What the choice would cost.
+    /// Price of a plan with this damping.
     pub price: Price,
 }
 
-/// What a choice costs.
+/// Price of a choice of mesh and tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Price {
     /// Elements of every cable.
@@ -110,7 +112,7 @@ pub struct Price {
 const OPERATION: f64 = 36e-9;
 
 impl Plan {
-    /// What was chosen, and what it was chosen by, in one line.
+    /// Summarizes the choice and its criterion in one line.
     pub fn in_a_line(&self) -> String {
         let body = |body: &PlannedBody| match body.elements {
             Some(count) => format!("{} {} with {count} elements", body.name, body.kind),
@@ -135,12 +137,12 @@ impl Plan {
         )
     }
 
-    /// That planning took all the work it may, in words; nothing where it did not.
+    /// Returns the remark that planning used up its budget. `None` if it did not.
     pub fn cut(&self) -> Option<&'static str> {
         self.is_cut.then_some(CUT)
     }
 
-    /// What the plan does not keep, a sentence each.
+    /// Lists the promises that the plan does not keep, one sentence each.
     pub fn missed(&self) -> Vec<String> {
         let wanted = self.error;
         let outputs = self.outputs.iter().filter(|of| of.settles != Settles::Yes);
@@ -231,7 +233,7 @@ impl Price {
         self.error.map(in_words).unwrap_or_default()
     }
 
-    /// What a second of simulated time costs, about, ms: counted, not measured.
+    /// Estimates the time for a second of simulated time, ms. It is counted, not measured.
     pub fn milliseconds(&self) -> f64 {
         1e3 * OPERATION * self.work
     }

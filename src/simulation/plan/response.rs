@@ -19,7 +19,7 @@ const REST: f64 = 0.01;
 const SMALL: f64 = 1e-5;
 const FIRST: f64 = 1e-6;
 
-/// What a mesh answers to inputs that are held, about the initial state.
+/// Linear responses of a mesh to inputs that are held, about the initial state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Responses {
     /// For every input that is held, what every computed variable changes with it.
@@ -32,8 +32,8 @@ pub(super) struct Responses {
 }
 
 impl Responses {
-    /// Of a simulation that has been initialized, to inputs by their places; over an experiment of a length and with communication steps
-    /// of a length, s.
+    /// Computes the responses of an initialized simulation to the inputs `held`, by their indices. `stop` is the length
+    /// of the experiment, `step` that of a communication step, s.
     pub fn new(simulation: &mut Simulation, held: &[usize], (stop, step): (f64, f64)) -> Self {
         let computed = simulation.variables.iter().filter(|v| v.is_computed());
         let sources = computed.map(|variable| match variable.source {
@@ -63,8 +63,9 @@ impl Responses {
         }
     }
 
-    /// What the answer to an input changes from one mesh to a finer one: the largest of the outputs that count, each relative to the
-    /// largest that it is there by a component of the same vector, or to a thousandth of like ones of its body.
+    /// Returns the largest relative difference of the response to an input between this mesh and a finer one, over the
+    /// outputs that count. Each output is relative to its largest response to a component of the same input vector. A
+    /// thousandth of the response of like outputs of its body is the least reference.
     pub fn difference(
         &self,
         closer: &Self,
@@ -144,8 +145,9 @@ impl<const D: usize> Engine<D> {
         solved.then(|| norm(&way) / (system.size() * system.mass().sqrt()))
     }
 
-    /// What quantities change with an input, by its place among inputs with these values, that grows at a rate (1/s) from a state
-    /// at rest; zero of what is none. Nothing where the linearized equations cannot be solved.
+    /// Computes the response of quantities to an input that grows at a rate (1/s) from a state at rest. `place` is the
+    /// index of the input among `inputs`. Missing quantities are 0. `None` if the linearized equations cannot be
+    /// solved.
     pub(in crate::simulation) fn slow_response(
         &mut self,
         state: &State,
@@ -226,7 +228,7 @@ impl<const D: usize> Engine<D> {
     }
 }
 
-/// What natural frequencies are called where errors are told.
+/// Name of natural frequencies in error reports.
 pub(super) const FREQUENCIES: &str = "natural frequencies";
 
 /// Words for what inputs that are held would do, where errors are told.

@@ -288,7 +288,7 @@ impl<'a, 'p> Search<'a, 'p> {
         one == other
     }
 
-    /// What all outputs change from one choice to another that is closer to the truth.
+    /// Compares all outputs between a choice and a more accurate one.
     pub fn compare(
         &mut self,
         choice: &Choice,
@@ -317,7 +317,7 @@ impl<'a, 'p> Search<'a, 'p> {
         Ok(of_outputs.chain(still).collect())
     }
 
-    /// What is said of outputs that could not be compared.
+    /// Returns the differences of outputs that could not be compared: infinite, from the start.
     pub fn unknown(&self) -> Vec<Difference> {
         let unknown = Difference {
             largest: f64::INFINITY,
@@ -338,7 +338,7 @@ impl<'a, 'p> Search<'a, 'p> {
         refined
     }
 
-    /// The same part of the error wanted for every output.
+    /// Returns limits that are the same part of the wanted error for every output.
     pub fn equal(&self, part: f64) -> Vec<f64> {
         vec![part * self.error; self.compared()]
     }

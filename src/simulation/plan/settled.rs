@@ -9,8 +9,8 @@ use crate::scene::Axial;
 const RESERVE: f64 = 0.3;
 
 impl Search<'_, '_> {
-    /// What axial damping would change, where a force that counts does not settle: by one run with it, and by one with
-    /// twice the mesh where that changes more than the error wanted. Nothing where it neither settles them nor is cheaper.
+    /// Tries axial damping for forces that do not converge: by one run, and by one with twice the mesh if the first
+    /// differs by more than the wanted error. `None` if the damping neither makes the forces converge nor is cheaper.
     pub fn settled(&mut self, choice: &Choice, outputs: &[PlannedOutput]) -> Option<Settled> {
         let rings = |(index, output): (usize, &PlannedOutput)| {
             self.groups[index].is_force && output.settles != Settles::Yes

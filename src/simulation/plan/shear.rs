@@ -18,7 +18,7 @@ pub(super) struct Beam {
     fewest: u32,
 }
 
-/// What shear changes.
+/// Influence of the shear of a body on the outputs.
 pub(super) struct Sheared {
     /// Place of the body among those of the scene.
     body: usize,
@@ -58,8 +58,8 @@ impl Beam {
 }
 
 impl Search<'_, '_> {
-    /// What shear changes with the mesh chosen: of all bodies that may be beams, and of each alone where that is more than the
-    /// error wanted. Where none alone is, all of them count.
+    /// Measures the influence of shear with the chosen mesh: for all possible beams together, and for each alone if the
+    /// first exceeds the wanted error. If none alone exceeds it, all count.
     pub fn shear(&mut self, choice: &Choice) -> Vec<Sheared> {
         let all: Vec<usize> = (0..self.beams.len()).collect();
         if all.is_empty() {

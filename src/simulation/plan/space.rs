@@ -159,8 +159,8 @@ impl Search<'_, '_> {
         }
     }
 
-    /// What doubling changes of a mesh, where no work was left to double it with the tolerance that was chosen: at least what the doubling
-    /// before it has changed with that. What is foreseen, or was found with a looser tolerance, promises nothing.
+    /// Replaces predicted differences by measured ones if no work was left for doubling the mesh at the chosen
+    /// tolerance. The differences of the doubling before are a lower bound.
     pub(super) fn measured(
         &mut self,
         choice: &Choice,

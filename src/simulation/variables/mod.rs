@@ -27,19 +27,19 @@ pub struct Variable {
     pub description: String,
     /// Unit, where the variable has one.
     pub unit: Option<Unit>,
-    /// What it stands for.
+    /// Object that the variable represents.
     pub source: Source,
     /// Start value of parameters and inputs, from the scene.
     pub start: Option<f64>,
-    /// Of an input: whether it acts at once, as loads do; a driven motion moves in the next step. Of
-    /// an output: whether it follows at once from such inputs.
+    /// Whether the variable has direct feedthrough. An input acts at once if it is a load, and in the next step if it
+    /// drives a motion. An output is direct if it depends at once on such inputs.
     pub is_direct: bool,
     /// Whether it is an input that sets the length of a spring or where one ends, and with it the energy
     /// in there.
     pub sets_length: bool,
-    /// Of an input: the coupling that it comes in through.
+    /// Coupling of an input, if the input is the motion of one.
     pub coupling: Option<CouplingId>,
-    /// Of an input that prescribes a motion: the part that it has in it.
+    /// Part of an input in a prescribed motion, if it prescribes one.
     pub drive: Option<DrivePart>,
 }
 
@@ -80,7 +80,7 @@ impl DrivePart {
     }
 }
 
-/// What a variable stands for.
+/// Object that a variable represents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
     /// Simulated time.
