@@ -37,7 +37,7 @@ mod words {
     const X87: u16 = 0x37f;
     const X87_FLAGS: u16 = 0x7f;
 
-    /// What a thread has set and raised.
+    /// Floating-point control and status words of a thread.
     pub struct Words {
         sse: u32,
         control: u16,
@@ -111,7 +111,7 @@ mod words {
 mod words {
     use std::arch::asm;
 
-    /// What a thread has set and raised.
+    /// Floating-point control and status words of a thread.
     pub struct Words {
         control: u64,
         status: u64,

@@ -31,7 +31,7 @@ pub struct Instance {
     pub(super) logger: Logger,
     pub(super) simulation: Simulation,
     pub(super) state: InstanceState,
-    /// What the variables of the last set call were set to before.
+    /// Values of the variables of the last set call before that call.
     pub(super) before: Vec<f64>,
     guid: String,
     /// The scene, JSON.

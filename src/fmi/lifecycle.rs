@@ -44,7 +44,7 @@ impl InstanceState {
     }
 }
 
-/// What the guard must know of a function: its name, and the bits of the states in which it may be called.
+/// Name of a function and the states in which it may be called, for the guard.
 #[derive(Clone, Copy, Debug)]
 pub struct Call {
     /// Name in the standard.

@@ -23,7 +23,7 @@ pub enum NoSimulation {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         error: io::Error,
     },
     /// A bad scene.
@@ -31,7 +31,7 @@ pub enum NoSimulation {
     Scene {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Error in the scene.
         error: scene::Error,
     },
     /// A description of another model.
@@ -43,7 +43,7 @@ pub enum NoSimulation {
         argument: &'static str,
         /// GUID of the scene.
         expected: String,
-        /// What the master stated.
+        /// GUID stated by the master.
         found: String,
     },
 }

@@ -35,7 +35,7 @@ const MOVING: u8 = 8;
 pub struct SavedState {
     /// GUID of the model that it belongs to.
     pub guid: String,
-    /// Its scene, JSON.
+    /// Scene of the state, JSON.
     pub scene: Arc<str>,
     /// Lifecycle state.
     pub lifecycle: lifecycle::InstanceState,

@@ -33,9 +33,9 @@ pub enum Fault {
     Argument {
         /// Name of the argument in the standard.
         name: &'static str,
-        /// What it may be.
+        /// Expected range of the argument, in words.
         expected: &'static str,
-        /// What it was.
+        /// Argument that was passed.
         found: f64,
     },
     /// A value reference that no variable has.
@@ -51,7 +51,7 @@ pub enum Fault {
     Type {
         /// Name of the variable.
         name: String,
-        /// Its type.
+        /// Type of the variable.
         actual: &'static str,
         /// The type that the function is for.
         asked: &'static str,
@@ -71,7 +71,7 @@ pub enum Fault {
     Value {
         /// Name of the variable.
         name: String,
-        /// What was expected and what was found.
+        /// Expectation and finding, in words.
         reason: String,
     },
     /// A communication point that is not where the instance is.

@@ -45,7 +45,7 @@ macro_rules! functions {
             /// All functions.
             pub const ALL: &[Self] = &[$(Self::$name,)*];
 
-            /// Its name, and the states in which it may be called.
+            /// Returns the name of the function, and the states in which it may be called.
             pub fn call(self) -> Call {
                 match self {
                     $(Self::$name => Call { name: concat!("fmi2", stringify!($name)), states: $states },)*

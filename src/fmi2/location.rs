@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// What is wrong with a resource location.
+/// Error in a resource location.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LocationError {
     /// Another scheme, or none.

@@ -30,7 +30,7 @@ const ROUNDOFF: f64 = 1e-9;
 pub(super) struct Pitch(Option<f64>);
 
 impl Pitch {
-    /// Of points so far apart (s), or of none.
+    /// Builds the pitch of points at a distance (s), or of none.
     pub fn new(apart: Option<f64>) -> Self {
         Self(apart.filter(|apart| *apart > 0.0))
     }
@@ -70,7 +70,7 @@ impl Pitch {
 /// A step to try.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial {
-    /// Its length, s.
+    /// Length of the step, s.
     pub h: f64,
     /// Whether it reaches the end.
     pub is_last: bool,
@@ -91,7 +91,8 @@ impl Trial {
         }
     }
 
-    /// The same where one of `wanted` (s) was proposed, and `allowed` by a pitch.
+    /// Marks the step as cut if it is shorter than the proposal `wanted`, s. `allowed` is the proposal that a pitch
+    /// allows, s.
     pub fn among(self, pitch: Pitch, wanted: f64, allowed: f64) -> Self {
         let part = match pitch.0 {
             Some(_) => (self.h / allowed).min(1.0),
@@ -104,8 +105,8 @@ impl Trial {
         }
     }
 
-    /// The same where steps have found their length or not: the first proposal is a guess, which no error has confirmed, so that a step
-    /// that is cut short replaces it.
+    /// Removes the mark of a cut unless steps have found their length. The first proposal is a guess that no error
+    /// estimate has confirmed, so a shortened step replaces it.
     pub fn among_settled(self, is_settled: bool) -> Self {
         Self {
             is_cut: self.is_cut && is_settled,

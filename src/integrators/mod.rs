@@ -144,7 +144,7 @@ pub trait OneStepMethod: Send {
     }
 }
 
-/// What a call of [`advance`] did.
+/// Step counts of a call of [`advance`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Accepted steps.

@@ -185,7 +185,7 @@ impl Nystrom {
         Self::pair([tableau; 2], n, frequency)
     }
 
-    /// The same, with the cheaper of two methods. It begins with the first, whose order is lower.
+    /// Builds a pair of methods of which the cheaper one is used. It begins with the first, whose order is lower.
     pub fn pair(tableaux: [&'static Tableau; 2], n: usize, frequency: f64) -> Self {
         let zero = vec![0.0; n];
         let stages = tableaux.map(|tableau| tableau.c.len());

@@ -64,14 +64,14 @@ pub static RK4: Coefficients = Coefficients {
 /// [`RK4`] and `DOPRI853`.
 const LONGER: f64 = 0.7;
 
-/// What steps are bounded by, and what goes with each.
+/// Stability bounds of steps, and the cost of the projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Fastest oscillation, rad/s.
     pub frequency: f64,
     /// Fastest decay, 1/s.
     pub decay: f64,
-    /// What projecting the end of a step costs beside an acceleration.
+    /// Cost of the projection at the end of a step, in accelerations.
     pub projection: f64,
 }
 
@@ -107,7 +107,8 @@ impl RungeKutta {
         Self::pair([method; 2], n, bounds, 1.0)
     }
 
-    /// The same, with the cheaper of two methods at a relative tolerance. It begins with the first, whose order is lower.
+    /// Builds a pair of methods of which the cheaper one at a relative tolerance is used. It begins with the first,
+    /// whose order is lower.
     pub fn pair(
         methods: [&'static Coefficients; 2],
         n: usize,

@@ -35,9 +35,9 @@ const HOPELESS: f64 = 0.5;
 /// How many times fewer accelerations one of a pair of explicit methods must take to be preferred to the one in use.
 const FEWER: f64 = 1.1;
 
-/// Of a pair of explicit methods, of which the second steps so many times longer than the first where errors set steps, the one
-/// that is not in use and the step (s) to propose to it, if it takes fewer accelerations to an end. `price` tells how many a
-/// method takes there where errors allow it steps of a length (s).
+/// Selects the other method of an explicit pair if it needs fewer accelerations, with the step to propose to it, s. The
+/// second method takes steps `longer` times as long where errors limit them. `price` returns the accelerations that a
+/// method needs at an error-limited step, s.
 pub(super) fn cheaper_of_pair(
     used: usize,
     h: f64,
@@ -74,8 +74,8 @@ impl Methods {
         Self { methods, pitch }
     }
 
-    /// The same for a tolerance that was found by runs with communication points so far apart (s): steps are no longer, and the choice
-    /// is the same, wherever points are.
+    /// Prepares for a tolerance that was found with communication points at this distance, s. Steps are no longer than
+    /// at planning, and the choice of methods does not depend on the points.
     pub fn found_with(self, apart: Option<f64>) -> Self {
         let pitch = Pitch::new(apart);
         Self { pitch, ..self }
@@ -87,7 +87,7 @@ impl Methods {
         &mut *self.methods[index]
     }
 
-    /// Its name.
+    /// Returns the name of the integrator in use.
     pub fn name(&self, pace: &MethodStatistics) -> &'static str {
         self.methods[pace.index(self.methods.len())].name()
     }
