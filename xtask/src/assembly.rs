@@ -9,7 +9,7 @@ use fmu_package::shown;
 
 /// Functions that are a single instruction each, by their place in the standard library.
 const INSTRUCTIONS: &str = "core_arch";
-/// Those that ask what the processor can do, once.
+/// Instructions that query the capabilities of the processor. They run once.
 const QUESTIONS: [&str; 2] = ["xgetbv", "cpuid"];
 /// How names of functions of Rust begin where they are linked.
 const MANGLED: [&str; 2] = ["_ZN", "_R"];

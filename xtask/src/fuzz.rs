@@ -28,7 +28,7 @@ const LONGEST: usize = 4096;
 /// How long each target runs, s.
 const SECONDS: u32 = 20;
 
-/// What cargo-fuzz passes to the compiler as well, so that the same targets serve both.
+/// Compiler flags that cargo-fuzz passes as well, so that the same targets serve both.
 const FLAGS: [&str; 7] = [
     "-Cpasses=sancov-module",
     "-Cllvm-args=-sanitizer-coverage-level=4",

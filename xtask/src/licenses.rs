@@ -13,7 +13,7 @@ use crate::cargo::{Workspace, release, rustc};
 use crate::linker::c_library_notices;
 use crate::process::stdout;
 
-/// What to read first.
+/// Introduction of the file.
 const FIRST: &str = include_str!("../license.txt");
 /// Our licenses, at the root of the project: short names of the terms, files.
 const OURS: [(&str, &str); 2] = [("MIT", "LICENSE-MIT"), ("Apache-2.0", "LICENSE-APACHE")];
@@ -70,7 +70,7 @@ fn content(workspace: &Workspace, package: &str, platforms: &[Platform]) -> Resu
     Ok(content)
 }
 
-/// What others a package is linked with on some platform; what runs while compiling is not among it.
+/// Lists the packages that a package is linked with on some platform. Build dependencies are left out.
 fn linked(workspace: &Workspace, package: &str) -> Result<BTreeSet<Linked>> {
     // Of one package: cargo's metadata would add what other packages switch on.
     let mut tree = workspace.cargo("tree");

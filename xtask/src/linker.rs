@@ -20,7 +20,7 @@ const GLIBC: &str = "2.17";
 /// the crate libc names all the same.
 const DARWIN_LIBRARIES: [&str; 4] = ["libSystem", "libc", "libm", "libiconv"];
 
-/// What cargo builds the library of a platform with.
+/// Settings with which cargo builds the library of a platform.
 #[derive(Default)]
 pub struct Linker {
     /// Flags of rustc.

@@ -51,7 +51,7 @@ enum Command {
         /// Where to write [default: target/fmu/<scene name>.fmu]
         #[arg(long, value_name = "FILE.fmu")]
         output: Option<PathBuf>,
-        /// What it is to run on [default: platforms like this one]
+        /// Platforms of the FMU [default: platforms like this one]
         #[arg(long, value_name = "PLATFORM,...", value_delimiter = ',')]
         platform: Vec<Platform>,
         /// Leave out terminalsAndIcons.xml, which FMI Library warns of in every FMU
@@ -73,7 +73,7 @@ enum Command {
     Sweep(Rest),
     /// Makes a Python package with the program and the libraries for FMUs, which needs no compiler
     Wheel {
-        /// What FMUs are to run on that it packages [default: platforms like this one]
+        /// Platforms of the FMUs that it packages [default: platforms like this one]
         #[arg(long, value_name = "PLATFORM,...", value_delimiter = ',')]
         platform: Vec<Platform>,
         /// Where to write [default: target/wheel]
@@ -113,10 +113,10 @@ enum Command {
     },
 }
 
-/// What is passed on as it is.
+/// Arguments that are passed on unchanged.
 #[derive(clap::Args)]
 struct Rest {
-    /// What the program `flexbody` takes: files, then options
+    /// Arguments of the program `flexbody`: files, then options
     #[arg(
         value_name = "ARGUMENT",
         required = true,

@@ -26,7 +26,7 @@ pub fn put_parts(workspace: &Workspace, platforms: &[Platform], folder: &Path) -
     licenses::put(workspace, PACKAGE, platforms, &parts)
 }
 
-/// What FMUs for some platforms are made of.
+/// Parts of FMUs for some platforms.
 pub struct Product {
     /// The program that describes scenes.
     pub program: PathBuf,

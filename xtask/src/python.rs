@@ -13,21 +13,22 @@ use crate::process::run_quietly;
 
 /// The pinned packages of tests and pictures, and their folder among the products.
 const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");
-/// The same of the programs that charts compare the product with; apart, so that no check needs them.
+/// Environment of the programs that charts compare the product with. It is separate, so that no check needs them.
 const PEERS: (&str, &str) = ("crates/studies/exudyn/requirements.txt", "python-peers");
-/// The same of the masters that tests couple FMUs in; apart, so that a picture needs none of them.
+/// Environment of the masters that tests couple FMUs in. It is separate, so that a picture needs none of them.
 const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
-/// What the Python package needs, and what makes its models; apart, so that no picture needs a cluster.
+/// Environment of the Python package and of the generator of its models. It is separate, so that no picture needs a
+/// cluster.
 const OWN: (&str, &str) = ("tests/python/requirements.txt", "python-own");
-/// What scenes with references of their own are reckoned with; apart, so that no picture needs it.
+/// Environment of the references of random scenes. It is separate, so that no picture needs it.
 const PLANS: (&str, &str) = ("tests/plans/requirements.txt", "python-plans");
 /// The linker of libraries; apart, so that what needs no library does not need it.
 const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
 /// The checker of dependencies, built.
 const DENY: (&str, &str) = ("xtask/deny.txt", "python-deny");
-/// What drives a browser in tests; apart, since not every machine has a browser.
+/// Environment of the browser driver in tests. It is separate, since not every machine has a browser.
 const BROWSER: (&str, &str) = ("tests/view/requirements.txt", "python-browser");
-/// What makes the program of pages that move; apart, since that is committed.
+/// Environment that builds the script of moving pages. It is separate, since its result is committed.
 const NODE: (&str, &str) = ("xtask/node.txt", "python-node");
 /// The file in an environment that says what it was made from; the last one written.
 const STAMP: &str = "installed.txt";
@@ -307,7 +308,7 @@ mod tests {
             Python::prepare_one(&workspace, ("nothing.txt", "python"))
         }
 
-        /// What is among the products, the lock aside.
+        /// Lists the products, except the lock.
         fn products(&self) -> Result<Vec<String>> {
             let listing = std::fs::read_dir(self.0.join("target"))?;
             let names = listing.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));

@@ -12,7 +12,7 @@ use crate::package::{PACKAGE, check_readable};
 use crate::process::run;
 use crate::python::Python;
 
-/// What to simulate and where to write.
+/// Arguments of a simulation: files to read and to write.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// A scene (runs natively) or an FMU (runs under fmpy)
@@ -95,7 +95,7 @@ pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
-/// What the program does with these arguments, built if need be.
+/// Runs the program with these arguments, and builds it if necessary.
 pub fn pass_on(workspace: &Workspace, command: &str, arguments: &[OsString]) -> Result<()> {
     let mut program = Command::new(workspace.program(PACKAGE)?);
     run(program.arg(command).args(arguments))

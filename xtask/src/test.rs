@@ -17,14 +17,14 @@ use crate::{assembly, describe, fuzz};
 /// Tells the tests of FMUs that every case is meant.
 const ALL: &str = "FLEXBODY_ALL";
 
-/// What became of a check.
+/// Outcome of a check.
 #[derive(Clone, Copy, PartialEq)]
 enum Outcome {
-    /// It passed.
+    /// The check passed.
     Passed,
-    /// This machine has not what it needs.
+    /// The check was skipped: this machine lacks a requirement.
     Skipped,
-    /// It passed before, for the same files.
+    /// The check passed before, for the same files.
     Unchanged,
 }
 
@@ -129,7 +129,7 @@ pub fn test(workspace: &Workspace, words: &[String], all: bool) -> Result<()> {
     Ok(())
 }
 
-/// What is said of a check.
+/// Describes the outcome of a check in words.
 fn told(outcome: Outcome, took: Duration) -> String {
     let seconds = took.as_secs_f64();
     match outcome {
@@ -148,7 +148,7 @@ fn table(times: &[(&str, Outcome, Duration)]) -> String {
         .collect()
 }
 
-/// What a check answers that has run to its end.
+/// Outcome of a check that has run to its end.
 fn passed((): ()) -> Outcome {
     Outcome::Passed
 }
@@ -207,7 +207,7 @@ fn declared_rust(workspace: &Workspace) -> Result<Outcome> {
     .map(passed)
 }
 
-/// What FMUs are made of is compiled meanwhile: in one unit, which keeps one core busy.
+/// Runs the Rust tests. The parts of FMUs compile meanwhile, in one unit that keeps one core busy.
 fn rust_tests(workspace: &Workspace) -> Result<Outcome> {
     std::thread::scope(|scope| {
         let products = scope.spawn(|| {

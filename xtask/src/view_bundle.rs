@@ -11,7 +11,7 @@ use crate::python::Python;
 
 /// Sources, with the pinned packages.
 const SOURCES: &str = "src/view/script";
-/// What is made of them.
+/// Generated file.
 const BUNDLE: &str = "src/view/bundle.txt";
 /// Runs node and npm.
 const NODE: &str = "xtask/node.py";

@@ -14,7 +14,7 @@ use crate::python::Python;
 
 /// Where the sources of the Python package are.
 const SOURCES: &str = "python";
-/// What tells the package's build where the product is, and for which platform.
+/// Environment variable that passes the product and its platform to the build of the package.
 const PRODUCT: &str = "FLEXBODY_WHEEL_PRODUCT";
 const TAG: &str = "FLEXBODY_WHEEL_PLATFORM";
 
@@ -55,7 +55,7 @@ fn put_product(workspace: &Workspace, platforms: &[Platform], folder: &Path) -> 
     Ok(())
 }
 
-/// What pip calls the platform; of Linux with the glibc that everything is linked for.
+/// Returns pip's tag of the platform. On Linux it names the glibc that everything is linked for.
 fn tag(platform: Platform) -> &'static str {
     match platform {
         Platform::Linux64 => "manylinux_2_17_x86_64",

@@ -88,11 +88,11 @@ impl Table {
     }
 }
 
-/// What pictures are drawn from: where markers and points along bodies are.
+/// Positions of markers and of points along bodies, for pictures.
 pub struct Shapes {
     /// The first line: bodies and their markers.
     pub header: String,
-    /// Of every body, whether it is rigid.
+    /// Whether each body is rigid, `[bodies]`.
     is_rigid: Vec<bool>,
     /// Number of markers of every body.
     markers: Vec<usize>,

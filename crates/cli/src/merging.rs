@@ -15,7 +15,7 @@ pub struct Merge {
     /// An FMU.
     #[arg(value_name = "A.fmu")]
     first: PathBuf,
-    /// The same for other platforms.
+    /// FMU of the same scene for other platforms.
     #[arg(value_name = "B.fmu")]
     second: PathBuf,
     /// Where to write [default: merged/<name of A>.fmu].
@@ -46,7 +46,7 @@ pub fn merge(arguments: &Merge) -> Result<()> {
     announced("packaging", &done, || write(&joined, &output))
 }
 
-/// What two FMUs hold together; their names are for errors.
+/// Joins the content of two FMUs. `names` serve error messages.
 fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content> {
     for (content, name) in [&first, &second].into_iter().zip(names) {
         if !content.contains_key(DESCRIPTION) {

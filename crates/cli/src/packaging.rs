@@ -12,13 +12,13 @@ use crate::describing::describe;
 use crate::planning::Within;
 use crate::reading::is_fmu;
 
-/// What says which variables make up a port; only FMUs of scenes with ports have it.
+/// Folder with the description of ports. Only FMUs of scenes with ports have it.
 const TERMINALS: &str = "terminalsAndIcons/";
 
 /// Which scene, and where to write.
 #[derive(clap::Args)]
 pub struct Package {
-    /// What planning may cost.
+    /// Limits of planning.
     #[command(flatten)]
     pub within: Within,
     /// Scene file.
@@ -26,7 +26,7 @@ pub struct Package {
     /// FMU, or the folder for one that is named like the scene [default: the current folder].
     #[arg(long, value_name = "FILE.fmu|FOLDER")]
     pub output: Option<PathBuf>,
-    /// What it is to run on [default: every platform that there is a library for].
+    /// Platforms of the FMU [default: all with an installed library].
     #[arg(long, value_name = "PLATFORM,...", value_delimiter = ',')]
     pub platform: Vec<Platform>,
     /// Leaves out terminalsAndIcons.xml, which FMI Library warns of in every FMU.
@@ -86,7 +86,7 @@ pub fn checked_output(file: &Path) -> Result<PathBuf> {
     prepared(file)
 }
 
-/// What goes into every FMU, where this program was installed with it.
+/// Returns the folder with the parts of every FMU, which is installed beside this program.
 fn beside() -> Result<PathBuf> {
     let program = std::env::current_exe().context("cannot find this program itself")?;
     // A link from elsewhere leads to where the libraries are.
@@ -94,7 +94,7 @@ fn beside() -> Result<PathBuf> {
     Ok(program.with_file_name(PARTS))
 }
 
-/// What goes into an FMU for some platforms, or for all that there are libraries for where none is named.
+/// Collects libraries and licenses for some platforms, or for all available ones if none is named.
 fn libraries_and_licenses(parts: &Path, wanted: &[Platform]) -> Result<Content> {
     let folder = parts.join(BINARIES);
     let listing = std::fs::read_dir(&folder).with_context(|| {

@@ -13,7 +13,7 @@ use crate::inputs::{Inputs, signals};
 use crate::reading::{at, read};
 use crate::settings::assignments;
 
-/// What planning may cost, and what becomes of a plan that misses the error wanted.
+/// Limits of planning, and the treatment of a plan that misses the wanted error.
 #[derive(Clone, clap::Args)]
 pub struct Within {
     /// Most time that planning may take, s; what is best so far is taken then, and told.
@@ -60,7 +60,7 @@ pub struct Planning {
     /// CSV file for what inputs do by `accuracy.input_profiles`, which `simulate --input` reads; not written where none moves.
     #[arg(long)]
     courses: Option<PathBuf>,
-    /// What inputs do in place of `accuracy.input_profiles`.
+    /// Inputs in place of `accuracy.input_profiles`.
     #[command(flatten)]
     inputs: Inputs,
     /// Value of a parameter or input that is planned for, e.g. `rod.density=7800`; may be repeated.
@@ -92,7 +92,7 @@ pub fn planned_for(
     Ok(found)
 }
 
-/// The same, where the plan is told otherwise.
+/// Plans a scene without printing the plan. The caller reports it.
 fn planned_quietly(
     path: &Path,
     scene: &Scene,

@@ -53,7 +53,7 @@ pub struct Simulate {
 /// Communication points, about, that bodies are drawn at.
 const SNAPSHOTS: u64 = 11;
 
-/// What all communication steps of a run took together; set-up and output do not count.
+/// Total cost of the communication steps of a run, without set-up and output.
 struct Cost {
     method: &'static str,
     steps: u64,

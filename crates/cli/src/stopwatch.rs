@@ -9,11 +9,11 @@ const EMPTY: usize = 101;
 
 /// CPU time that this thread spends in calls, with other work between them that does not count.
 pub struct Stopwatch {
-    /// What all calls took, each with what reading the clock adds.
+    /// Total time of all calls, each with the overhead of reading the clock.
     total: Duration,
     calls: u64,
-    /// What reading the clock adds to a call: the median of empty ones. Some tenths of a microsecond, as much as a cheap
-    /// step takes; it slows what comes after it by a little more, which stays in the total.
+    /// Overhead of reading the clock: the median over empty calls. It is some tenths of a microsecond, as much as a
+    /// cheap step takes. Reading the clock also slows the following code a little, and that stays in the total.
     reading: Duration,
 }
 

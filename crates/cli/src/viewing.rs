@@ -14,7 +14,7 @@ use crate::planning::{Within, planned_for};
 use crate::reading::{at, is_fmu, read};
 use crate::simulating::progress_bar;
 
-/// What to show, and where to write.
+/// Arguments of `flexbody view`: files to read and to write.
 #[derive(clap::Args)]
 pub struct View {
     #[command(flatten)]
@@ -27,7 +27,7 @@ pub struct View {
     /// Writes the page without opening it.
     #[arg(long)]
     no_open: bool,
-    /// What inputs do, as of `simulate`; what `accuracy.input_profiles` says of them if no table is given.
+    /// Inputs as for `simulate`. Without a table they follow `accuracy.input_profiles`.
     #[command(flatten)]
     inputs: Inputs,
     /// Folder for the surfaces of bodies in every frame as files of VTK, which ParaView opens (`motion.pvd`); no page is written unless it

@@ -62,7 +62,7 @@ impl Component {
     }
 }
 
-/// What every function on an instance passes: NULL, refusals, panics.
+/// Runs a function on an instance and guards it: against NULL, refusals and panics.
 unsafe fn guard(c: *mut Component, body: impl FnOnce(&mut Instance) -> Outcome) -> c_int {
     // SAFETY: module contract.
     let Some(component) = (unsafe { c.as_mut() }) else {

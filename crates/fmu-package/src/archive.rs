@@ -14,7 +14,7 @@ use crate::files::{entry_name, files, shown, write_whole};
 /// Names of files in an archive, with forward slashes, and what is in them.
 pub type Content = BTreeMap<String, Vec<u8>>;
 
-/// What an archive may hold and take, so that one from elsewhere fits into memory whatever it says of itself.
+/// Limits of an archive, so that one from elsewhere fits into memory whatever its headers claim.
 #[derive(Clone, Copy)]
 struct Limits {
     /// Files and folders.

@@ -42,7 +42,7 @@ impl Platform {
         Self::host().is_ok_and(|host| host == self)
     }
 
-    /// Its folder below `binaries/`.
+    /// Returns the name of the platform's folder below `binaries/`.
     pub fn folder(self) -> &'static str {
         match self {
             Self::Linux64 => "linux64",
@@ -53,7 +53,7 @@ impl Platform {
         }
     }
 
-    /// Its name in Rust.
+    /// Returns the platform's target triple in Rust.
     pub fn target(self) -> &'static str {
         match self {
             Self::Linux64 => "x86_64-unknown-linux-gnu",
@@ -74,7 +74,7 @@ impl Platform {
         matches!(self, Self::Darwin64 | Self::Aarch64Darwin)
     }
 
-    /// What the file name of a shared library ends in.
+    /// Returns the extension of shared libraries, with its dot.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::Linux64 | Self::Aarch64Linux => ".so",

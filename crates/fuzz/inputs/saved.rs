@@ -23,7 +23,7 @@ pub fn written(scene: &str) -> String {
     Scene::from_json(scene).expect("a valid scene").to_json()
 }
 
-/// What the fuzzer sees of a state of a scene.
+/// Returns the part of a saved state that the fuzzer changes, without header, hash and scene.
 #[allow(dead_code, reason = "for the program that writes seeds")]
 pub fn opened<'a>(state: &'a [u8], scene: &str) -> &'a [u8] {
     &state[HEADER..state.len() - HASH - scene.len()]

@@ -17,8 +17,8 @@ const STEP: f64 = 0.01;
 const LEFT: f64 = 0.5 - 1e-11;
 const RIGHT: f64 = 0.5;
 
-/// What a rod did at the communication points that it reached: gaps between the two elements that meet in the middle, distances of
-/// the first end from its pin (m), places of the tip.
+/// Motion of a rod at the communication points that it reached: gaps between the two elements that meet in the middle,
+/// distances of the first end from its pin (m), positions of the tip.
 struct Moved {
     gap: Vec<f64>,
     pin: Vec<f64>,
@@ -71,7 +71,7 @@ fn as_printed(bench: &Bench, scene: &Value, elements: u32) -> Result<Moved> {
     })
 }
 
-/// What a run of the product did.
+/// Reads the motion of a run of the product.
 fn weighted(table: &Table) -> Result<Moved> {
     let marker = |name: &str| table.marker(&format!("rod.{name}"));
     let (left, right, root) = (marker("left")?, marker("right")?, marker("root")?);

@@ -50,15 +50,15 @@ impl std::fmt::Display for TooLong {
 
 impl std::error::Error for TooLong {}
 
-/// What became of a scene that was planned.
+/// Plan of a scene, with its report.
 pub struct Planned {
-    /// What `flexbody plan --report` says.
+    /// Report of `flexbody plan --report`.
     pub report: Value,
-    /// What inputs do, where they do anything.
+    /// Table of inputs, if inputs move.
     pub inputs: Option<PathBuf>,
 }
 
-/// What takes the steps.
+/// Program that takes the steps.
 #[derive(Clone)]
 enum By {
     Product,
@@ -126,7 +126,7 @@ impl Run {
     }
 }
 
-/// What came out of a run: outputs at the communication points, and what the steps took.
+/// Results of a run: outputs at the communication points, and the cost of the steps.
 pub struct Ran {
     /// The outputs.
     pub table: Table,

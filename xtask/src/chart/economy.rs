@@ -143,7 +143,7 @@ impl Case {
         Ok(run.within(Duration::from_secs_f64(most)))
     }
 
-    /// What counts as the truth, and what it was run with.
+    /// Runs the reference of a scene, and returns it with its mesh and tolerance.
     fn fine(&self, bench: &Bench, plan: &Planned, planned: &[Choice]) -> Result<(Ran, Choice)> {
         let most = |cable: usize| planned.iter().map(move |(counts, _)| counts[cable]).max();
         let counts: Vec<u32> = (0..planned[0].0.len()).filter_map(most).collect();

@@ -42,7 +42,7 @@ fn change(table: &Table, scale: f64) -> Result<Vec<(f64, f64)>> {
         .collect())
 }
 
-/// Its largest size and its last value.
+/// Returns the largest size and the last value of a curve.
 fn ends(curve: &[(f64, f64)]) -> [f64; 2] {
     let last = curve.last().map_or(0.0, |point| point.1);
     [largest(curve.iter().map(|point| point.1.abs())), last]

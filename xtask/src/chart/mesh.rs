@@ -11,7 +11,7 @@ use super::numbers::{distance, largest};
 
 const MESHES: [u32; 7] = [2, 4, 8, 16, 32, 64, 128];
 const PENDULUM_MESHES: [u32; 6] = [5, 10, 20, 40, 80, 160];
-/// The same soft pendulum in the three strain measures.
+/// Scenes of one soft pendulum in the three strain measures.
 const PENDULUMS: [(&str, &str); 3] = [
     ("thetaPrime", "soft_pendulum"),
     ("GreenLagrange_FrenetKappa", "soft_pendulum_green"),

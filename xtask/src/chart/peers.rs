@@ -68,7 +68,7 @@ impl Peers {
         Ok(largest_distance(path, &self.reference) / number(&self.setting["length"])?)
     }
 
-    /// What the marker did, against the reference.
+    /// Returns the error of the marker's motion against the reference.
     fn error_of(&self, ran: &Ran) -> Result<f64> {
         self.error(&ran.table.marker(text(&self.setting["marker"])?)?)
     }

@@ -14,7 +14,7 @@ const PEERS: &str = "soft_pendulum steel_pendulum flying_spaghetti spin_up slide
 
 /// A scene to plan.
 pub struct Case {
-    /// Its name on the page.
+    /// Name on the page.
     pub name: String,
     /// `ready` or `peers`.
     pub of: &'static str,
@@ -22,7 +22,7 @@ pub struct Case {
     pub scene: Value,
 }
 
-/// What a run is made with: elements of every cable (none of one that became rigid), and a tolerance.
+/// Choice that a run is made with: elements of every cable (0 for one that became rigid), and a tolerance.
 pub type Choice = (Vec<u32>, f64);
 
 /// The scenes of the chart `peers`, in the order of the page, with their settings.
@@ -58,7 +58,7 @@ impl Case {
         Ok(Self { name, of, scene }.left_to_the_planner())
     }
 
-    /// The same without the numbers of elements that the scene gives: what they leave is none of the planner's.
+    /// Leaves the numbers of elements to the planner, also where the scene gives them.
     pub fn left_to_the_planner(mut self) -> Self {
         for body in cables(&mut self.scene) {
             if body["elements"].is_u64() {
@@ -68,7 +68,7 @@ impl Case {
         self
     }
 
-    /// What the planner finds for an error.
+    /// Plans the scene for a relative error.
     pub fn plan(&self, bench: &Bench, error: f64) -> Result<Planned> {
         let mut scene = self.scene.clone();
         scene["accuracy"]["error"] = json!(error);
@@ -119,7 +119,7 @@ pub fn counts(report: &Value, key: &str) -> Vec<u32> {
         .collect()
 }
 
-/// What a plan chose.
+/// Reads the choice of a plan.
 pub fn chosen(plan: &Planned) -> Result<Choice> {
     Ok((
         counts(&plan.report, "elements"),

@@ -20,7 +20,7 @@ const ROUNDS: usize = 2;
 /// The product's meshes and tolerances.
 const MESHES: [u32; 6] = [2, 4, 8, 12, 17, 32];
 const TOLERANCES: [f64; 2] = [1e-3, 1e-4];
-/// Its elements, in which `crates/studies/exudyn/space.py` has the same section.
+/// Element models, for each of which `crates/studies/exudyn/space.py` has a section with the same properties.
 const MODELS: [&str; 2] = ["rod", "beam"];
 /// Shear factors of beams, as those of Exudyn.
 const SHEAR: [f64; 2] = [5.0 / 6.0; 2];
@@ -51,7 +51,7 @@ struct Timed {
 
 /// Converged answers.
 struct Converged {
-    /// Of the product, with every model.
+    /// Paths of the product, one for every model.
     own: [Path<3>; MODELS.len()],
     exudyn: Path<3>,
 }

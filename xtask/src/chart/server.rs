@@ -25,7 +25,7 @@ pub struct Server {
     output: BufReader<ChildStdout>,
 }
 
-/// What a run gave.
+/// Results of a run.
 pub struct Answer<const D: usize = 2> {
     /// Places of the marker, m.
     pub path: Path<D>,

@@ -13,12 +13,12 @@ use crate::process::{run_quietly, stdout};
 use crate::product::Product;
 use crate::python::Python;
 
-/// What varies, between which values.
+/// Varied parameter, with its least and largest value.
 const VARIED: (&str, f64, f64) = ("rod.density", 5000.0, 6000.0);
 /// Runs of a sweep, and of a loop.
 const RUNS: usize = 800;
 const LOOPED: usize = 100;
-/// What a run simulates and how often it is read, s.
+/// End of a run and time between the points at which it is read, s.
 const STOP_TIME: f64 = 1.1;
 const STEP: f64 = 0.01;
 /// Rounds, of which the median counts; all ways take turns.

@@ -90,7 +90,7 @@ impl Axes {
         names.map(String::as_str).collect()
     }
 
-    /// What the variables are in a run.
+    /// Returns the values of the varied variables in a run.
     pub fn values(&self, run: usize) -> Vec<f64> {
         let mut left = run;
         let mut parts = Vec::new();

@@ -106,7 +106,7 @@ impl Journal {
         Ok(())
     }
 
-    /// What came of a finished run.
+    /// Reads the outcome of a finished run.
     pub fn outcome(&mut self, run: usize) -> Result<Outcome> {
         let at = self.lines[run].with_context(|| format!("run {run} is not finished"))?;
         self.file.seek(SeekFrom::Start(at))?;

@@ -28,8 +28,8 @@ pub struct Sweep {
     within: Within,
     /// Scene file, or FMU.
     scene: PathBuf,
-    /// What varies: a parameter or input and its values, `NAME=FROM:TO:COUNT`, `NAME=A,B,...` or `NAME=@FILE.csv` (the column of
-    /// that name; columns move together, row by row). May be repeated: runs are all combinations.
+    /// Varied parameter or input with its values: `NAME=FROM:TO:COUNT`, `NAME=A,B,...` or `NAME=@FILE.csv` (the column
+    /// of that name; columns move together, row by row). May be repeated: runs are all combinations.
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     vary: Vec<String>,
     /// Value of a parameter or input in all runs, e.g. `rod.density=7800`; may be repeated.
@@ -64,11 +64,11 @@ pub struct Series {
     pub times: Vec<f64>,
     /// Values of all outputs at each.
     pub values: Vec<Vec<f64>>,
-    /// What the steps gave reason to warn of.
+    /// Warnings about the steps.
     pub warnings: Vec<String>,
 }
 
-/// What is told of an output in a run.
+/// Summary of an output in a run.
 pub struct Summary {
     /// Value at the end.
     pub last: f64,
@@ -78,31 +78,31 @@ pub struct Summary {
     pub largest: f64,
 }
 
-/// What came of a run.
+/// Outcome of a run.
 pub enum Outcome {
-    /// Why there is no result.
+    /// Reason why there is no result.
     Failed(String),
-    /// What came of it.
+    /// Results of a completed run.
     Finished(Finished),
 }
 
 /// A run that came to its end.
 pub struct Finished {
-    /// Of every output.
+    /// Summaries of all outputs.
     pub summaries: Vec<Summary>,
-    /// What the steps gave reason to warn of.
+    /// Warnings about the steps.
     pub warnings: Vec<String>,
     /// Communication points and outputs at each, where they are wanted.
     pub series: Option<(Vec<f64>, Vec<Vec<f64>>)>,
 }
 
-/// What all runs have in common.
+/// Settings that all runs have in common.
 struct Common {
     scene: Scene,
     axes: Axes,
     /// Places of what varies among the variables, in the order of the axes.
     varied: Vec<usize>,
-    /// What is set in all runs: place, name and value.
+    /// Variables that are fixed in all runs: index, name and value.
     fixed: Vec<(usize, String, f64)>,
     /// Places of outputs.
     outputs: Vec<usize>,
