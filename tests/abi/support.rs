@@ -100,7 +100,7 @@ pub fn text(text: &str) -> CString {
     CString::new(text).expect("no NUL inside")
 }
 
-/// What the logger received: instance name, status, category, message.
+/// Line that the logger received: instance name, status, category, message.
 pub type Line = (String, Status, String, String);
 
 /// A record of messages; its address is the component environment.

@@ -20,7 +20,7 @@ pub struct Place<'a> {
     pub folder: &'a Path,
     /// The scene that it is about.
     pub scene: &'a Path,
-    /// What takes the steps.
+    /// Integrator that takes the steps.
     pub method: &'a Method,
 }
 

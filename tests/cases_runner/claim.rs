@@ -12,7 +12,7 @@ pub struct Claim {
     pub scene: Option<String>,
     /// Values of variables for a run.
     pub values: Given,
-    /// What is claimed.
+    /// Kind of the claim with its keys.
     pub kind: Kind,
 }
 
@@ -33,7 +33,7 @@ pub struct Change {
     pub set: BTreeMap<String, f64>,
 }
 
-/// What may be claimed.
+/// Kind of a claim.
 pub enum Kind {
     /// Columns of a reference agree at every communication point that it has.
     Series(Series),
@@ -122,7 +122,7 @@ pub struct Drift {
 }
 
 impl Kind {
-    /// Its name in a `case.json`.
+    /// Returns the name in a `case.json`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Series(_) => "series",

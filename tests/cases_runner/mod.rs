@@ -28,7 +28,7 @@ pub struct Case {
     claims: Vec<Result<Claim, String>>,
 }
 
-/// What came of a claim.
+/// Verdict on a claim.
 pub struct Verdict {
     place: String,
     kind: &'static str,
@@ -36,15 +36,15 @@ pub struct Verdict {
     seconds: f64,
 }
 
-/// What a claim was about and how well it holds, in its own unit.
+/// Measured quantity of a claim, its error and the allowed one, in its own unit.
 pub struct Measured {
-    /// Of what.
+    /// Name of the measured quantity.
     pub what: String,
     /// The error found.
     pub found: f64,
     /// The largest or smallest that is allowed, with its relation.
     pub allowed: String,
-    /// What is wrong, if it fails.
+    /// Reason why the claim fails, if it does.
     pub failure: Option<String>,
 }
 

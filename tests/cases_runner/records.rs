@@ -6,7 +6,7 @@ use std::path::Path;
 use super::claim::{Claim, Given, Kind};
 use super::run::{Method, Run, SAME_TIME};
 
-/// What a claim asks of a run.
+/// Demands of a claim on a run.
 pub struct Demand<'a> {
     /// Last communication point, s.
     pub stop_time: f64,
@@ -26,7 +26,7 @@ pub struct Record {
 }
 
 impl<'a> Demand<'a> {
-    /// What the claim asks of a run, if one run decides it.
+    /// Returns the demands of a claim, if one run decides it.
     pub fn of(claim: &'a Claim) -> Option<Self> {
         let (stop_time, step, names) = match &claim.kind {
             Kind::Series(c) => (c.stop_time, Some(c.step), c.columns.keys().collect()),

@@ -76,8 +76,7 @@ fn renamed(value: &Value, from: &str, to: &str) -> Value {
     }
 }
 
-/// What could stand at a place where something else stands. Of numbers the first that is accepted
-/// decides.
+/// Lists values that could replace the value at a place. Of numbers the first that is accepted decides.
 pub fn changes(scene: &Value, place: &Place) -> Vec<Mutant> {
     let found = scene.pointer(&place.pointer).expect("a value");
     let plain = |value: Value| Mutant {
@@ -165,7 +164,7 @@ fn a_few_names(scene: &Value) -> Vec<String> {
     names
 }
 
-/// What could stand at a place where nothing stands.
+/// Lists scenes with a value at a place that is empty now.
 pub fn plants(scene: &Value, place: &Place) -> Vec<Value> {
     let samples = place.samples.iter().flatten().cloned();
     let mut values: Vec<Value> = samples.collect();

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use flexbody::scene::Scene;
 use serde_json::{Value, json};
 
-/// What may stand at a place.
+/// Kind of value that may be at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sort {
     Number,
@@ -19,12 +19,12 @@ pub enum Sort {
 /// A place in a scene.
 #[derive(Clone, Debug)]
 pub struct Place {
-    /// Its key, the same for all scenes: `joints{revolute}.stiffness`, `loads{force}.value[0]#number`.
+    /// Key of the place, equal for all scenes: `joints{revolute}.stiffness`, `loads{force}.value[0]#number`.
     pub key: String,
     /// JSON pointer: of the value or, where nothing stands, of the optional key that holds the place.
     pub pointer: String,
     pub sort: Sort,
-    /// What could stand at the pointer; where nothing stands only.
+    /// Values that could be at the pointer, if it is empty now.
     pub samples: Option<Vec<Value>>,
     /// The innermost optional key that holds the place.
     pub removal: Option<String>,

@@ -19,12 +19,12 @@ pub struct Specimen {
     start: f64,
     /// Time of what is claimed or set next.
     now: f64,
-    /// What the master sets: when, what, to what.
+    /// Settings of the master: time, variable and value.
     pub settings: Vec<(f64, String, f64)>,
     pub claims: Vec<Claim>,
 }
 
-/// What a variable, or a fact about the unit, must be.
+/// Expected value of a variable, or of a fact about the unit.
 #[derive(Clone)]
 pub struct Claim {
     pub time: f64,
@@ -40,7 +40,7 @@ pub enum Expected {
     Text(String),
 }
 
-/// What comes of a scene that is held against claims.
+/// Outcome of a scene that is held against claims.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// No scene, and why.
@@ -79,7 +79,7 @@ impl Specimen {
         self
     }
 
-    /// What follows is set or claimed at this time.
+    /// Sets the time of the settings and claims that follow, s.
     pub fn at(mut self, time: f64) -> Self {
         self.now = time;
         self
@@ -139,13 +139,13 @@ impl Specimen {
         names.collect()
     }
 
-    /// What comes of the claims in another scene. Variables that have another name there are found by
-    /// their place in the list, if it is as long as `known`.
+    /// Judges another scene by the claims. Variables that have another name there are found by their index, if the list
+    /// is as long as `known`.
     pub fn judge(&self, scene: &Value, known: &[String]) -> Outcome {
         self.judge_set(scene, known, &[])
     }
 
-    /// The same, after the master has set more before the start: places in the list and values.
+    /// Judges another scene by the claims, after the master has set more values before the start: indices and values.
     pub fn judge_set(&self, scene: &Value, known: &[String], set: &[(usize, f64)]) -> Outcome {
         let described = match Scene::from_json(&scene.to_string()) {
             Ok(scene) => scene,

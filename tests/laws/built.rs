@@ -133,7 +133,7 @@ impl Mechanism {
         }
     }
 
-    /// What the system is made of.
+    /// Returns the parts of the system.
     pub fn parts(&self) -> Parts {
         let (mut rigid, mut lumped_masses) = (Vec::new(), Vec::new());
         let mut bodies = Vec::new();

@@ -15,7 +15,7 @@ use proptest::prelude::*;
 
 use crate::laws::specimen::{decades, noise, strains};
 
-/// What a joint to the ground holds.
+/// Kind of a joint to the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hold {
     Revolute,
@@ -166,7 +166,7 @@ impl Chain {
         }
     }
 
-    /// What the system is made of.
+    /// Returns the parts of the system.
     pub fn parts(&self) -> Parts {
         let node = |node: &[Vector2<f64>; 2]| node.map(Into::into);
         let nodes: Vec<Node> = self.nodes.iter().map(node).collect();

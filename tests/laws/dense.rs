@@ -111,10 +111,10 @@ pub fn orthogonal(b: &DMatrix<f64>) -> Orthogonal {
     Orthogonal { q, r, order }
 }
 
-/// What the augmented equations say of an acceleration.
+/// Solution of the augmented equations for an acceleration.
 pub struct Augmented {
-    /// What is left of the forces when inertia and the best multipliers are taken out, and what is left
-    /// of the constraints, relative to the size of the acceleration.
+    /// Residual of the forces after inertia and the best multipliers are taken out, and residual of the constraints,
+    /// relative to the size of the acceleration.
     pub lack: f64,
     pub gap: f64,
     /// Force and moment of every hold on its second end.
@@ -136,7 +136,7 @@ impl Mechanism {
         [self.end(first, x), second]
     }
 
-    /// What is missing of all holds and of the connections inside bodies.
+    /// Returns the gaps of all holds and of the connections inside bodies.
     pub fn missing(&self, t: f64, x: &DVector<f64>) -> DVector<f64> {
         let mut missing = Vec::new();
         for hold in &self.holds {

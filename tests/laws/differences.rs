@@ -7,7 +7,7 @@ use flexbody::elements::{Blocks, Nodal};
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestError, TestRunner};
 
-/// What a law says of one case.
+/// Outcome of a law in one case.
 pub type Outcome = Result<(), TestCaseError>;
 
 /// Checks a law on this many random cases, the same ones every time.

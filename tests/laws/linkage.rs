@@ -83,7 +83,7 @@ impl Body {
         self.center + self.axes * at
     }
 
-    /// The same body moved along twists for a while.
+    /// Moves the body along twists for `time`, s.
     pub fn moved(&self, velocity: &V, spin: &V, time: f64) -> Self {
         Self {
             center: self.center + velocity * time,
@@ -94,7 +94,7 @@ impl Body {
 }
 
 impl Held {
-    /// What is missing.
+    /// Returns the gaps of the joint.
     pub fn gaps(&self, bodies: &[Body]) -> Vec<f64> {
         let at = |i: usize| match self.bodies[i] {
             Some(body) => (

@@ -67,7 +67,7 @@ impl Wave {
     }
 }
 
-/// What a joint or motion holds between two points.
+/// Kind of a joint or motion between two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Revolute,
@@ -94,7 +94,7 @@ pub struct Hold {
     pub ends: [Point; 2],
 }
 
-/// What acts on bodies.
+/// Load on bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Acting {
     Force {

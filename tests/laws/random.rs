@@ -11,7 +11,7 @@ use proptest::prelude::*;
 
 use crate::laws::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave, left};
 
-/// What may be part of a mechanism.
+/// Parts that a random mechanism may have.
 #[derive(Clone, Copy)]
 pub struct Scope {
     /// Most bodies, joints beyond a tree, loads.

@@ -352,8 +352,9 @@ fn condition(mechanism: &Mechanism) -> f64 {
     largest / least.fold(largest, |least, size| least.min(*size))
 }
 
-/// Of a mechanism at rest with loads, but for what is not symmetric. Whether it was compared: not near a singular position,
-/// where the differences, which are off by the fourth power of the step times the condition, say nothing.
+/// Compares the symmetric part of the stiffness of a mechanism at rest under loads with differences. Returns whether it
+/// was compared. Near a singular position it is not: the error of the differences is the fourth power of the step times
+/// the condition.
 pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Parts<3>) -> bool {
     const STEP: f64 = 1e-4;
     const LIMIT: f64 = 1e-5;

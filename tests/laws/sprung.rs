@@ -13,7 +13,7 @@ use nalgebra::{DVector, Matrix3, Rotation3};
 use crate::laws::chance::Chance;
 use crate::laws::linkage::{Body, DRIVE, Held, Kind, Mechanism, Of, THREAD, V};
 
-/// What acts beside gravity.
+/// Springs, stops and bushings beside gravity.
 #[derive(Clone, Debug)]
 pub enum Sprung {
     /// On the angle of a joint, or on its way: stiffness, damping, value at rest.
@@ -49,7 +49,7 @@ fn placed(
 }
 
 impl Held {
-    /// Its angle about the third axis (from -pi to pi), or the way along it.
+    /// Returns the angle about the third axis (from -pi to pi), or the displacement along it.
     pub fn coordinate(&self, bodies: &[Body], is_angle: bool) -> f64 {
         let at = |i: usize| placed(self.bodies[i], &self.points[i], &self.axes[i], bodies);
         let ((p, a), (q, b)) = (at(0), at(1));
@@ -72,7 +72,7 @@ impl Held {
 }
 
 impl Sprung {
-    /// What it stretches.
+    /// Returns the strains that the load resists.
     pub fn strains(&self, joints: &[Held], bodies: &[Body]) -> Vec<f64> {
         match self {
             Self::Spring((joint, is_angle), _) | Self::JointLimit((joint, is_angle), ..) => {
@@ -267,7 +267,7 @@ impl Mechanism {
         })));
     }
 
-    /// What springs, stops and bushings do along twists of all bodies, and what they store.
+    /// Returns the forces of springs, stops and bushings along twists of all bodies, and their energy.
     pub fn sprung_forces(&self) -> (DVector<f64>, f64) {
         let n = 6 * self.bodies.len();
         let (mut force, mut energy) = (DVector::zeros(n), 0.0);

@@ -25,7 +25,7 @@ pub struct Problem {
     pub breaks: Vec<f64>,
     /// Whether steps may lead beyond communication points.
     pub is_smooth: bool,
-    /// What becomes of accepted states.
+    /// Projection of accepted states.
     pub settle: fn(&mut State) -> StepOutcome,
 }
 

@@ -19,7 +19,7 @@ use crate::scene::{Outcome, Start, at, read};
 /// Into how many pieces a step is divided at most.
 const MOST_PIECES: f64 = 64.0;
 
-/// What to integrate and how.
+/// Arguments of an integration: scene, method and outputs.
 #[derive(clap::Args)]
 pub struct Integrate {
     /// Scene file.
@@ -63,7 +63,7 @@ enum Constraints {
     Partitioning,
 }
 
-/// What all steps took together.
+/// Total cost of the steps.
 #[derive(Default)]
 struct Cost {
     counts: Counts,

@@ -6,7 +6,7 @@ use flexbody::scene::{Assembled, InitialState, MarkerId, Scene};
 use flexbody::system::{Drive, State, Workspace, equilibrium};
 use serde_json::Value;
 
-/// What is wrong, in words.
+/// Result with an error in words.
 pub type Outcome<T> = Result<T, String>;
 
 /// Reads a scene with values set: `BODY.NAME=NUMBER` (a number of the body, its material or its section;
@@ -59,7 +59,7 @@ fn assign(scene: &mut Value, assignment: &str) -> Outcome<()> {
 pub struct Start {
     /// The scene.
     pub scene: Scene,
-    /// Its system.
+    /// System of the scene.
     pub assembled: Assembled,
     /// Values of the inputs.
     pub inputs: Vec<f64>,

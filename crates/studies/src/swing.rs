@@ -46,7 +46,7 @@ pub struct Swing {
     every: f64,
 }
 
-/// What a rod did.
+/// Motion of a rod that falls.
 pub struct Fall {
     /// Times (s) and positions of the tip, m.
     pub path: Vec<[f64; 3]>,
@@ -165,7 +165,8 @@ impl Motion {
     }
 }
 
-/// Of small oscillations about rest, rad/s: power iteration on differences of accelerations.
+/// Returns the largest frequency of small oscillations about rest, rad/s, by power iteration on differences of
+/// accelerations.
 fn largest_frequency(mut system: System) -> f64 {
     let n = system.transformation.coordinates();
     let mut z: Vec<f64> = (0..n).map(|i| (1.7 * i as f64).sin()).collect();

@@ -7,7 +7,7 @@ use super::space::array;
 use super::tapers::{LENGTH, SHEAR, YOUNG, body, hung};
 use crate::claims::specimen::Specimen;
 
-/// Those of rods, which are those of beams too.
+/// Returns the specimens of rods, which serve beams too.
 pub fn all() -> Vec<Specimen> {
     let mut all = vec![rope()];
     for axial in [[0.0; 3], [40.0, -60.0, 50.0]] {

@@ -96,7 +96,7 @@ pub fn extra() -> Value {
            "markers": {"a": [0.1, 0.05], "b": [-0.2, 0.1]}})
 }
 
-/// The same at rest, for scenes that start at rest.
+/// Returns the extra body at rest, for scenes that start at rest.
 pub fn resting() -> Value {
     let mut body = extra();
     body["motion"] = json!({});

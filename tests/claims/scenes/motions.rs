@@ -295,7 +295,8 @@ fn described() -> Specimen {
     specimen
 }
 
-/// What is wanted at the end of a step of length `h`, of motions with 0, 1 and 2 derivatives that are set, as far as they are given.
+/// Returns value, rate and acceleration at the end of a step of length `h`, for motions with 0, 1 and 2 derivatives as
+/// inputs.
 pub(super) fn ends([value, rate, second]: [f64; 3], h: f64) -> [[f64; 3]; 3] {
     [
         [value, 0.0, 0.0],

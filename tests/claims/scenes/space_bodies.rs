@@ -92,7 +92,7 @@ impl Body {
         self.axes * self.inertia * self.axes.transpose()
     }
 
-    /// What a moment must overcome without turning the body any faster: `w x J w`.
+    /// Returns the moment that keeps the rotation constant: `w x J w`.
     pub fn gyroscopic(&self) -> Vector3<f64> {
         self.spin.cross(&(self.tensor() * self.spin))
     }

@@ -20,7 +20,7 @@ pub fn all() -> Vec<Specimen> {
     ]
 }
 
-/// Those in which rotary inertia of bending does not count.
+/// Returns the specimens for which rotary inertia of bending does not count.
 pub fn statics() -> Vec<Specimen> {
     let all = all().into_iter();
     all.filter(|specimen| specimen.name != "bending rod")

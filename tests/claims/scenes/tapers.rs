@@ -16,7 +16,7 @@ pub fn all() -> Vec<Specimen> {
     all
 }
 
-/// Those of rods.
+/// Returns the specimens of rods.
 pub fn rods() -> Vec<Specimen> {
     let mut rods = of(true);
     rods.extend([twisted(), helix(true)]);

@@ -11,7 +11,7 @@ use super::rule::{Rule, legendre};
 /// A vector in the plane.
 pub type Vector = [f64; 2];
 
-/// What the rod is made of.
+/// Stiffness and mass of the rod.
 #[derive(Clone, Copy, Debug)]
 pub struct Material {
     /// Axial stiffness EA, N.

@@ -23,7 +23,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// Its points.
+    /// Returns the points of the rule.
     pub fn points(self) -> Vec<Point> {
         match self {
             Self::Gauss(n) => (0..n).map(|i| gauss(n, i)).collect(),

@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 use crate::scene::Outcome;
 use support::Row;
 
-/// What to measure.
+/// Arguments that select rows.
 #[derive(clap::Args)]
 pub struct Failures {
     /// Only rows with this in their name.

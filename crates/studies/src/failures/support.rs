@@ -49,9 +49,9 @@ pub struct Row {
     pub place: &'static str,
     /// The method that fails, and its setting.
     pub method: String,
-    /// What it does.
+    /// Figure of the failing method.
     pub failing: Figure,
-    /// What the product does.
+    /// Figure of the product.
     pub product: Figure,
     /// The test that holds both.
     pub test: &'static str,
@@ -119,10 +119,10 @@ impl Product {
     }
 }
 
-/// What happens to a state after a step of a method.
+/// Treatment of a state after a step of a method.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum After {
-    /// What the product does.
+    /// Projection as in the product.
     All,
     /// Dependent coordinates follow, chosen once at the start.
     Dependent,
@@ -143,7 +143,7 @@ pub fn named(start: &Start, name: &str) -> Outcome<Box<dyn OneStepMethod>> {
 
 /// A method at fixed steps.
 pub struct March<'a> {
-    /// What moves.
+    /// Scene at its start.
     pub start: &'a Start,
     /// The method.
     pub method: Box<dyn OneStepMethod>,
@@ -209,7 +209,7 @@ impl March<'_> {
 pub struct Reader<'a> {
     start: &'a Start,
     work: Workspace,
-    /// What the last state read amounts to.
+    /// Evaluation of the last state read.
     pub values: Evaluation,
 }
 

@@ -32,11 +32,11 @@ pub enum Formulation {
     AsPrinted,
     /// `M = L L^T`, `L^-1 Phi^T = Q R`, `T = L^-T Q2` dense
     QrDense,
-    /// The same `T`, applied interface by interface
+    /// `T` by QR, applied interface by interface
     QrApplied,
     /// Elements assembled, `M = W W^T`, `T = W^-T` applied
     Cholesky,
-    /// The same as the product does it
+    /// `T` as the product applies it
     Product,
     /// Coordinates of the nodes, `M^-1` by a factorization
     Assembled,

@@ -175,7 +175,7 @@ pub fn matrix(mass: &Mass) -> Matrix4<f64> {
     Matrix4::from_fn(|r, c| mass[r][c])
 }
 
-/// Its entries.
+/// Converts a matrix to an array of its entries.
 pub fn entries(matrix: &Matrix4<f64>) -> Mass {
     std::array::from_fn(|r| std::array::from_fn(|c| matrix[(r, c)]))
 }

@@ -38,7 +38,7 @@ use crate::scene::{Outcome, Start};
 
 pub use probe::{Probe, Tally};
 
-/// What methods are made from.
+/// Arguments that methods are built from.
 pub struct Build<'a> {
     /// The system at its start.
     pub start: &'a Start,

@@ -4,7 +4,7 @@
 use flexbody::integrators::Tolerance;
 use flexbody::system::Dynamics;
 
-/// What a step solves: `r = 0`, with corrections `(m I + w R + K)^-1 r`.
+/// Equation `r = 0` of a step, with corrections `(m I + w R + K)^-1 r`.
 pub trait Equation {
     /// Residual, an acceleration.
     fn residual(&mut self, dynamics: &mut dyn Dynamics, r: &mut [f64]);

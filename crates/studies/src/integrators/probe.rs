@@ -9,7 +9,7 @@ use nalgebra::Complex;
 
 use super::partitioning::Partition;
 
-/// What was asked.
+/// Counts of operations.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     /// Accelerations.
@@ -37,12 +37,12 @@ pub struct Probe<'a> {
     model: DrivenSystem<'a>,
     nodes: Option<Arc<Mutex<Vec<Node>>>>,
     partition: Option<Partition>,
-    /// What was asked so far.
+    /// Operations so far.
     pub tally: Tally,
 }
 
 impl<'a> Probe<'a> {
-    /// Of a model.
+    /// Wraps a model.
     pub fn new(model: DrivenSystem<'a>, nodes: Option<Arc<Mutex<Vec<Node>>>>) -> Self {
         let tally = Tally::default();
         Self {

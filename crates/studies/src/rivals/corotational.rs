@@ -16,7 +16,7 @@ use crate::elements::rule::Rule;
 /// Mass of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inertia {
-    /// Of the cubic deflection in the turning frame
+    /// Mass of the cubic deflection in the rotating frame
     Cubic,
     /// Half of it on either node, and inertia of the angles: a diagonal, for explicit steps
     Lumped,
@@ -26,7 +26,7 @@ pub enum Inertia {
 /// Zienkiewicz, A note on mass lumping and related processes, Earthq. Eng. Struct. Dyn. 4 (1976) 245-249.
 const LUMPED: f64 = 1.0 / 78.0;
 
-/// What an element does in its own frame.
+/// Elastic law of an element in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Local {
     /// The chord alone stretches
@@ -72,7 +72,7 @@ struct Energy {
 }
 
 impl Corotational {
-    /// Of a rod.
+    /// Builds the body of a rod.
     pub fn new(rod: Rod, elements: usize, local: Local, inertia: Inertia) -> Self {
         let length = rod.length / elements as f64;
         let points = Rule::Gauss(POINTS).points();

@@ -32,7 +32,7 @@ pub enum Kind {
     Explicit(f64),
 }
 
-/// What a run gave.
+/// Results of a run.
 #[derive(Clone, Debug)]
 pub struct Seen {
     /// Positions of the markers at every time, m.

@@ -61,12 +61,12 @@ pub enum Marker {
     End,
 }
 
-/// What a straight body is given at the start: a place, and a rigid motion.
+/// Placement of a straight body at the start, with a rigid motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
-    /// Its first end, m.
+    /// Position of the first end, m.
     pub start: Vector,
-    /// Its direction, rad.
+    /// Direction of the line, rad.
     pub angle: f64,
     /// Velocity of the first end, m/s.
     pub velocity: Vector,

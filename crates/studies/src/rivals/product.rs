@@ -56,7 +56,7 @@ fn follow(played: Played, scene: &serde_json::Value) -> Outcome<(Path, Duration)
     Ok((path, spent))
 }
 
-/// Its equations at fixed steps of generalized-alpha.
+/// Runs the product's equations at fixed steps of generalized-alpha.
 pub fn alpha(played: Played, elements: usize, step: f64) -> Outcome<(Path, Duration)> {
     let start = start(&scene(played, elements, 1e-6))?;
     let times = played.times();

@@ -40,7 +40,7 @@ pub struct Rotations {
 }
 
 impl Rotations {
-    /// Of a rod.
+    /// Builds the body of a rod.
     pub fn new(rod: Rod, elements: usize, interpolation: Interpolation) -> Self {
         let degree = interpolation.degree;
         let length = rod.length / elements as f64;

@@ -39,7 +39,7 @@ pub enum Choice {
 }
 
 impl Choice {
-    /// Its name in tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Frame(.., true) => "floating_frame_foreshortened",
@@ -138,7 +138,7 @@ const SPAGHETTI: &str = include_str!("../../../../tests/cases/flying_spaghetti/t
 const SHEAR: f64 = 5.0 / 6.0 / 2.6;
 
 impl Played {
-    /// Its name in tables.
+    /// Returns the name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::SteelPendulum => "steel_pendulum",
@@ -166,7 +166,7 @@ impl Played {
         usize::from(self == Self::SliderCrank)
     }
 
-    /// What is looked at, as the product calls it.
+    /// Returns the markers that are compared, by their names in the product.
     pub fn markers(self) -> &'static [&'static str] {
         match self {
             Self::SteelPendulum | Self::SoftPendulum | Self::SpinUp => &["rod.tip"],
@@ -175,7 +175,7 @@ impl Played {
         }
     }
 
-    /// The same on bodies of [`Played::system`].
+    /// Returns the markers that are compared, on bodies of [`Played::system`].
     pub fn places(self) -> &'static [(usize, Marker)] {
         match self {
             Self::SteelPendulum | Self::SoftPendulum | Self::SpinUp => &[(0, Marker::End)],
@@ -258,7 +258,7 @@ impl Played {
         self.with(self.rod(), choice)
     }
 
-    /// The same with another rod.
+    /// Builds the system with another rod.
     pub fn with(self, rod: Rod, choice: Choice) -> System {
         let rod = choice.rod(rod, self.held());
         let placement = self.line().0;

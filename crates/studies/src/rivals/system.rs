@@ -3,7 +3,7 @@
 use super::band::Band;
 use super::{Block, Body, Columns, Marker, Motion, Placement, Vector, plus};
 
-/// What a pin holds a marker to.
+/// Partner that a pin holds a marker to.
 #[derive(Clone, Copy, Debug)]
 pub enum To {
     /// A point of the ground, m
@@ -58,7 +58,7 @@ pub struct Load {
     pub value: Box<dyn Fn(f64) -> [f64; 3]>,
 }
 
-/// What a system is made from, in a row.
+/// Part of a system, in the order of building.
 pub enum Item {
     /// A body at its start
     Body(Box<dyn Body>, Placement),
@@ -263,7 +263,7 @@ impl System {
         }
     }
 
-    /// What is missing in the equations of motion, with multipliers; in their places what joints lack.
+    /// Computes the residual of the equations of motion with multipliers, followed by the gaps of joints.
     pub fn residual(&mut self, time: f64, motion: Motion<'_>, multipliers: &[f64], r: &mut [f64]) {
         self.forces(time, motion, r);
         for j in 0..self.joints.len() {

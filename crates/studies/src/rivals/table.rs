@@ -17,7 +17,7 @@ const LONGEST: f64 = 2.0;
 /// What is worse than this is no result.
 const LOST: f64 = 3.0;
 
-/// What to measure.
+/// Arguments that select rows.
 #[derive(clap::Args)]
 pub struct Rivals {
     /// Only scenes with this in their name.
@@ -49,8 +49,8 @@ pub fn apart(found: &Path, reference: &Path, length: f64) -> f64 {
     far.fold(0.0, f64::max) / length
 }
 
-/// What is converged: the product's cable, which formulations without shear share, and Simo and Vu-Quoc's beam, which
-/// shears and has rotary inertia.
+/// Converged references: the product's cable, which formulations without shear share, and Simo and Vu-Quoc's beam with
+/// shear and rotary inertia.
 pub struct References {
     /// Without shear.
     pub cable: Path,

@@ -21,7 +21,7 @@ const GAUSS: [[f64; 2]; 3] = [
 ];
 const LOBATTO: [[f64; 2]; 3] = [[0.0, 1.0 / 6.0], [0.5, 2.0 / 3.0], [1.0, 1.0 / 6.0]];
 
-/// What resists.
+/// Stiffness of a section.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
     /// EA, N.
@@ -65,7 +65,7 @@ impl Node {
         [r, u, turned]
     }
 
-    /// The same after a step, with roundoff across the slope and in the length taken off.
+    /// Moves the node by a step, and removes the roundoff across the slope and in the length.
     pub fn accept(&mut self, step: &[f64]) {
         let step: Vec<Number> = step.iter().copied().map(number).collect();
         let [r, u, d] = self.moved(&step).map(|v| real(&v));
@@ -81,7 +81,7 @@ impl Node {
 /// A rod, straight without stress.
 #[derive(Clone, Debug)]
 pub struct Rod {
-    /// Its nodes.
+    /// Nodes of the rod.
     pub nodes: Vec<Node>,
     /// Internal twists of its elements, rad.
     pub bubbles: Vec<f64>,
@@ -117,7 +117,7 @@ impl Rod {
         &self.nodes[self.nodes.len() - 1]
     }
 
-    /// The same under a dead force (N) and a dead moment (N m) at its last node.
+    /// Loads the rod with a dead force (N) and a dead moment (N m) at its last node.
     pub fn under(mut self, force: Real3, moment: Real3) -> Self {
         self.load = [force, moment];
         self

@@ -12,14 +12,14 @@ use super::hermite::{ALL, ELEMENT, NODE, Node, Rod, Section};
 use super::statics::Line;
 use crate::elements::rule::Rule;
 
-/// What is thrown.
+/// Rod that is thrown, with its rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct Thrown {
     /// Length, m.
     pub length: f64,
     /// Elements.
     pub elements: usize,
-    /// What resists.
+    /// Stiffness of the sections.
     pub section: Section,
     /// Mass (kg/m) and moment of inertia about the line (kg m) by length.
     pub inertia: [f64; 2],
@@ -34,9 +34,9 @@ pub struct Thrown {
 /// Largest changes of the energy, relative to it, and of the angular momentum, relative to that.
 #[derive(Clone, Copy, Debug)]
 pub struct Changes {
-    /// Of the energy.
+    /// Change of the energy.
     pub energy: f64,
-    /// Of the angular momentum.
+    /// Change of the angular momentum.
     pub momentum: f64,
 }
 

@@ -21,7 +21,7 @@ pub trait Line {
     fn held(&self) -> Vec<usize>;
     /// Derivatives of the energy of an element by the numbers of its first node, of its last, and inside, at a step.
     fn slopes(&self, element: usize, step: &[f64]) -> Vec<f64>;
-    /// What part of the load does with the numbers of the last node, at a step of it.
+    /// Returns the generalized forces of a part of the load on the numbers of the last node, at a step of these.
     fn load(&self, part: f64, step: &[f64]) -> Vec<f64>;
     /// Moves.
     fn accept(&mut self, step: &[f64]);

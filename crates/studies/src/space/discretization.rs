@@ -28,15 +28,15 @@ const GRADING: f64 = 2.0;
 pub enum Discretization {
     /// Cubic Hermite, consistent mass, axial strain at 3 points, bending at 2 Gauss points.
     Cubic,
-    /// The same with elements that shrink towards the end.
+    /// Cubic Hermite with elements that shrink towards the end.
     CubicGraded,
     /// Cubic Hermite with the mass of high order.
     CubicMass,
-    /// The same with bending at 3 Gauss points.
+    /// Cubic Hermite with the mass of high order and bending at 3 Gauss points.
     CubicMassBending,
     /// Quintic Hermite: position, slope, rate of slope at the nodes.
     Quintic,
-    /// The same with extra mass.
+    /// Quintic Hermite with extra mass.
     QuinticMass,
     /// Cubic B-spline with continuous curvature.
     Spline3,

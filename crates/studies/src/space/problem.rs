@@ -11,7 +11,7 @@ use crate::elements::rod::{Material, Rod, Vector};
 pub struct Problem {
     /// Ends of the straight line, m.
     ends: [Vector; 2],
-    /// What the rod is made of.
+    /// Stiffness and mass of the rod.
     pub material: Material,
     /// Gravity, m/s^2.
     pub gravity: Vector,

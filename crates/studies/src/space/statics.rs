@@ -10,7 +10,7 @@ const PARTS: usize = 20;
 /// Newton's correction, relative to the length, at which an equilibrium is found.
 const SMALL: f64 = 1e-12;
 
-/// What acts on a cantilever.
+/// Loads on a cantilever.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Loads {
     /// Dead force on the tip, N.
