@@ -34,7 +34,10 @@ fn usable<T>(data: *const T, count: usize) -> bool {
     !data.is_null() && count <= isize::MAX as usize / size_of::<T>()
 }
 
-/// An array that the master lends for reading.
+/// Borrows an array of the master for reading.
+///
+/// # Errors
+/// [`Fault::Pointer`] for NULL or an impossible count, unless the count is 0.
 pub unsafe fn lent<'a, T>(
     name: &'static str,
     data: *const T,
@@ -48,7 +51,10 @@ pub unsafe fn lent<'a, T>(
     }
 }
 
-/// An array that the master lends for writing; nobody says that it holds values yet.
+/// Borrows an array of the master for writing. Its values are not initialized.
+///
+/// # Errors
+/// [`Fault::Pointer`] for NULL or an impossible count, unless the count is 0.
 pub unsafe fn lent_mut<'a, T>(
     name: &'static str,
     data: *mut T,
@@ -62,7 +68,10 @@ pub unsafe fn lent_mut<'a, T>(
     }
 }
 
-/// A place that the master lends for one result.
+/// Borrows a place of the master for one result.
+///
+/// # Errors
+/// [`Fault::Pointer`] for NULL.
 pub unsafe fn place<'a, T>(
     name: &'static str,
     data: *mut T,
@@ -71,7 +80,10 @@ pub unsafe fn place<'a, T>(
     unsafe { data.cast::<MaybeUninit<T>>().as_mut() }.ok_or(Fault::Pointer(name))
 }
 
-/// A text that the master lends; `None` for NULL.
+/// Borrows a text of the master. `None` for NULL.
+///
+/// # Errors
+/// [`Fault::Text`] for bytes that are not UTF-8.
 pub unsafe fn text<'a>(name: &'static str, data: *const c_char) -> Result<Option<&'a str>, Fault> {
     if data.is_null() {
         return Ok(None);
@@ -81,7 +93,10 @@ pub unsafe fn text<'a>(name: &'static str, data: *const c_char) -> Result<Option
     bytes.to_str().map(Some).map_err(|_| Fault::Text(name))
 }
 
-/// A saved state that the master holds.
+/// Borrows a saved state that the master holds.
+///
+/// # Errors
+/// [`Fault::Pointer`] for NULL.
 pub unsafe fn saved<'a>(name: &'static str, state: *mut c_void) -> Result<&'a SavedState, Fault> {
     // SAFETY: NULL, or a state of this library (contract of this file).
     unsafe { state.cast::<SavedState>().as_ref() }.ok_or(Fault::Pointer(name))

@@ -140,7 +140,10 @@ impl Instance {
         }
     }
 
-    /// Keeps what holds for the whole run.
+    /// Stores tolerance, start time and stop time of the run.
+    ///
+    /// # Errors
+    /// A time that is not finite, a stop time before the start time, or a tolerance out of range.
     pub fn set_up_experiment(
         &mut self,
         tolerance: Option<f64>,
@@ -181,13 +184,19 @@ impl Instance {
         self.logger.log(Status::Warning, Category::Warning, message);
     }
 
-    /// From here on values exist.
+    /// Builds the system and makes its values available.
+    ///
+    /// # Errors
+    /// The scene cannot be simulated.
     pub fn enter_initialization_mode(&mut self) -> Result<(), Fault> {
         let outcome = self.simulation.initialize(self.start_time);
         self.passed_on(outcome, InstanceState::Initialization)
     }
 
-    /// To the first communication point.
+    /// Computes the initial state at the first communication point.
+    ///
+    /// # Errors
+    /// There is no initial state. An equilibrium that is not stable is reported as [`Fault::Remark`].
     pub fn exit_initialization_mode(&mut self) -> Result<(), Fault> {
         let outcome = self.simulation.start();
         self.passed_on(outcome, InstanceState::StepComplete)?;
@@ -238,7 +247,10 @@ impl Instance {
         outcome.map_err(Fault::from)
     }
 
-    /// To the end.
+    /// Ends the run.
+    ///
+    /// # Errors
+    /// None: termination always succeeds.
     pub fn terminate(&mut self) -> Result<(), Fault> {
         self.state = InstanceState::Terminated;
         let time = self.simulation.time();
@@ -246,7 +258,10 @@ impl Instance {
         Ok(())
     }
 
-    /// Back to a life as new.
+    /// Starts again as a new instance.
+    ///
+    /// # Errors
+    /// None: a reset always succeeds.
     pub fn reset(&mut self) -> Result<(), Fault> {
         self.simulation = Simulation::new(self.simulation.scene().clone());
         self.state = InstanceState::Instantiated;
@@ -256,7 +271,11 @@ impl Instance {
         Ok(())
     }
 
-    /// To the next communication point.
+    /// Advances to the next communication point.
+    ///
+    /// # Errors
+    /// A communication point other than the current time, a step that is not positive or passes the stop time, or a
+    /// step that the integrator cannot finish.
     pub fn do_step(&mut self, current: f64, step: f64) -> Result<(), Fault> {
         let until = self.end_of_step(current, step)?;
         let outcome = self.simulation.step(until);
@@ -336,7 +355,10 @@ impl Instance {
         }
     }
 
-    /// Goes on from a saved state.
+    /// Restores a saved state.
+    ///
+    /// # Errors
+    /// [`Fault::SavedState`] for a state of another model or of other variables.
     pub fn restore(&mut self, saved: &SavedState) -> Result<(), Fault> {
         if saved.guid != self.guid {
             let reason = format!(
@@ -375,12 +397,18 @@ impl Instance {
         Ok(simulation)
     }
 
-    /// A saved state from its bytes.
+    /// Reads a saved state from its bytes.
+    ///
+    /// # Errors
+    /// [`Fault::SavedState`] for bytes that are no state of this model.
     pub fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Fault> {
         SavedState::from_bytes(bytes, &self.guid)
     }
 
-    /// Chooses what is logged.
+    /// Selects the categories that are logged.
+    ///
+    /// # Errors
+    /// A category that does not exist, or an error of `categories`.
     pub fn set_debug_logging<'a>(
         &mut self,
         on: bool,

@@ -8,7 +8,10 @@ use super::status::Fault;
 use crate::simulation::{Causality, Variable};
 
 impl Instance {
-    /// Real numbers; a number that is not finite is no answer.
+    /// Reads real variables into `values`.
+    ///
+    /// # Errors
+    /// A reference to no real variable, a state that cannot be computed, or a value that is not finite.
     pub fn get_real(
         &mut self,
         references: &[u32],
@@ -23,7 +26,10 @@ impl Instance {
         Ok(())
     }
 
-    /// Integers.
+    /// Reads integer variables into `values`.
+    ///
+    /// # Errors
+    /// A reference to no integer variable.
     pub fn get_integer(
         &mut self,
         references: &[u32],
@@ -39,6 +45,10 @@ impl Instance {
     }
 
     /// Sets real numbers: all or none.
+    ///
+    /// # Errors
+    /// A reference to no real variable, one that cannot be set now, or a value out of range. No variable is changed
+    /// then.
     pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Fault> {
         for (reference, value) in references.iter().zip(values) {
             let variable = self.settable(*reference, self.names.real)?;
@@ -62,6 +72,10 @@ impl Instance {
     }
 
     /// Sets integers: all or none.
+    ///
+    /// # Errors
+    /// A reference to no integer variable, one that cannot be set now, or a value out of range. No variable is changed
+    /// then.
     pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
         for reference in references {
             self.settable(*reference, self.names.integer)?;
@@ -77,7 +91,11 @@ impl Instance {
         Ok(())
     }
 
-    /// Sets derivatives of inputs in time: all or none.
+    /// Sets time derivatives of inputs: all or none.
+    ///
+    /// # Errors
+    /// A reference to no input, an order other than 1 or 2, or a value that is not finite. No derivative is changed
+    /// then.
     pub fn set_input_derivatives(
         &mut self,
         references: &[u32],
@@ -98,7 +116,10 @@ impl Instance {
         Ok(())
     }
 
-    /// Derivatives of outputs in time.
+    /// Reads time derivatives of outputs into `values`.
+    ///
+    /// # Errors
+    /// A reference to no output, an order that is not available, or a derivative that is not finite.
     pub fn get_output_derivatives(
         &mut self,
         references: &[u32],
@@ -117,7 +138,11 @@ impl Instance {
         Ok(())
     }
 
-    /// Changes of unknowns with changes of knowns.
+    /// Computes the changes of unknowns for changes of knowns.
+    ///
+    /// # Errors
+    /// A reference to no input or output, a seed that is not finite, or knowns that change the initial state in
+    /// initialization mode.
     pub fn directional_derivative(
         &mut self,
         (knowns, seeds): (&[u32], &[f64]),
@@ -153,7 +178,10 @@ impl Instance {
         Ok(())
     }
 
-    /// Functions for a type that no variable has: nothing to do for no references.
+    /// Answers a function for a type that no variable has. It succeeds without references.
+    ///
+    /// # Errors
+    /// Any reference.
     pub fn no_such_type(&self, references: &[u32], asked: &'static str) -> Result<(), Fault> {
         references
             .iter()

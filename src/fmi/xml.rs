@@ -48,7 +48,10 @@ pub fn about(scene: &Scene) -> Vec<(&str, String)> {
     about
 }
 
-/// All units that variables have.
+/// Writes the units of all variables.
+///
+/// # Errors
+/// Errors of `xml`.
 pub fn units(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
     let mut used: Vec<Unit> = Vec::new();
     for unit in variables.iter().filter_map(|variable| variable.unit) {
@@ -81,7 +84,10 @@ fn write_unit(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
     Ok(())
 }
 
-/// The categories of messages.
+/// Writes the categories of messages.
+///
+/// # Errors
+/// Errors of `xml`.
 pub fn log_categories(xml: &mut Xml) -> io::Result<()> {
     xml.create_element("LogCategories")
         .write_inner_content(|xml| {
@@ -96,7 +102,10 @@ pub fn log_categories(xml: &mut Xml) -> io::Result<()> {
     Ok(())
 }
 
-/// The experiment of a scene.
+/// Writes the experiment of a scene.
+///
+/// # Errors
+/// Errors of `xml`.
 pub fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     let values = [
         ("startTime", 0.0),

@@ -61,8 +61,13 @@ pub(super) fn begin(
     method.keep(step);
 }
 
-/// Goes on within the step under way, to `until` or to its end, whichever comes first. Where constraints cannot be kept, or an element
-/// of a rod is bent or twisted too far, the state is taken back to where the step began, and shorter steps follow.
+/// Advances within the step under way, to `until` or to the end of the step, whichever comes first. A state that cannot
+/// keep constraints, or with an element of a rod that is bent or twisted too far, is taken back to the start of the
+/// step. Shorter steps follow then.
+///
+/// # Errors
+/// Any other end of the step: a slider that leaves its cable, an empty winch, or a driven coordinate that jumps or has
+/// no value.
 pub(super) fn follow(
     method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,

@@ -17,7 +17,10 @@ pub(super) enum Curves {
 }
 
 impl Curves {
-    /// Curves of a kind.
+    /// Builds curves of an interpolation through rows at these times, s.
+    ///
+    /// # Errors
+    /// Rows through which no curve goes, in words.
     pub(super) fn new(
         interpolation: Interpolation,
         times: &[f64],

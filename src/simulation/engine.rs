@@ -86,6 +86,9 @@ fn kind_and_name(holder: &ConstraintOwner<'_>) -> (&'static str, String) {
 
 impl<const D: usize> Engine<D> {
     /// Builds the system of a scene.
+    ///
+    /// # Errors
+    /// The scene cannot be assembled, or its integrator cannot be chosen.
     pub(super) fn new(resolved: &Resolved<'_>, variables: &[Variable]) -> Result<Self, Error> {
         let assembled: Assembled<D> = resolved.assemble()?;
         let system = &assembled.system;
@@ -132,7 +135,11 @@ impl<const D: usize> Engine<D> {
         })
     }
 
-    /// The state to start from, natural frequencies and eigenvalues about it.
+    /// Computes the initial state with the natural frequencies and eigenvalues about it.
+    ///
+    /// # Errors
+    /// Joints that do not close, loads without equilibrium, motions without steady state, or modes that cannot be
+    /// found.
     pub(super) fn initial_state(
         &mut self,
         time: f64,
@@ -240,7 +247,10 @@ impl<const D: usize> Engine<D> {
         joint.map_or("", |joint| self.name(joint))
     }
 
-    /// Advances the state to `until`, moving inputs with it; what it did is told of a failure as well.
+    /// Advances the state to `until`, s, and moves inputs with it. The report also covers a step that fails.
+    ///
+    /// # Errors
+    /// The step cannot be finished. The state is that of the last sub-step.
     pub(super) fn step(
         &mut self,
         state: &mut State,

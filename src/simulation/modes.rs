@@ -4,7 +4,10 @@ use super::engine::Engine;
 use crate::system::{Mode, SpectrumError, State, damping_along, modes};
 
 impl<const D: usize> Engine<D> {
-    /// Lowest modes at rest, so many at least, or all that there are; else why there are none.
+    /// Computes at least `count` lowest modes at rest, or all if there are fewer.
+    ///
+    /// # Errors
+    /// Reason in words why they are not found.
     pub(super) fn modes(
         &mut self,
         state: &State,

@@ -3,7 +3,10 @@
 use super::{Error, Simulation, Variable};
 
 impl Simulation {
-    /// The variable at a place.
+    /// Returns the variable of an index.
+    ///
+    /// # Errors
+    /// An index beyond the last variable.
     pub(super) fn variable(&self, index: usize) -> Result<&Variable, Error> {
         self.variables.get(index).ok_or_else(|| Error::Variable {
             name: format!("value reference {index}"),
@@ -11,7 +14,10 @@ impl Simulation {
         })
     }
 
-    /// A computed value; a number that is not finite is no answer.
+    /// Returns a computed value that is finite.
+    ///
+    /// # Errors
+    /// A value that is not finite, or inputs that are no orientation.
     pub(super) fn finite(&self, index: usize, found: f64) -> Result<f64, Error> {
         if found.is_finite() {
             return Ok(found);
@@ -23,7 +29,11 @@ impl Simulation {
         Err(self.refuse(index, &message))
     }
 
-    /// Refuses inputs that are no orientation: their parts come one after another, so they are seen together where they count.
+    /// Checks the inputs of orientations. Their parts are set one after another, so they are checked together when they
+    /// are used.
+    ///
+    /// # Errors
+    /// Four parts of length 0 or not finite.
     pub(super) fn check_quaternions(&self) -> Result<(), Error> {
         for place in &self.quaternions {
             let parts = &self.values[*place..][..4];

@@ -54,6 +54,10 @@ pub enum SignalError {
     Wrong(String),
 }
 
+/// Returns an error in words.
+///
+/// # Errors
+/// Always: the message.
 pub(super) fn wrong<T>(message: String) -> Result<T, SignalError> {
     Err(SignalError::Wrong(message))
 }

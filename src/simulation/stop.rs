@@ -35,7 +35,10 @@ impl<const D: usize> Engine<D> {
         )
     }
 
-    /// Why no step begins from energy in springs that is not finite.
+    /// Describes a step that cannot begin because the energy of springs that inputs set is not finite.
+    ///
+    /// # Errors
+    /// Always: the description.
     pub(super) fn unbounded(
         &mut self,
         state: &State,

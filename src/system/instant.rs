@@ -13,13 +13,13 @@ pub struct Instant<'a, const D: usize, N = f64> {
     pub time: N,
     /// Inputs at this time.
     pub inputs: &'a [N],
-    /// Their rates.
+    /// Rates of the inputs, in their units per second.
     pub input_rates: &'a [N],
     /// Driven coordinates with two derivatives.
     pub drives: &'a [[N; 3]],
     /// Nodal coordinates.
     pub x: &'a [Node<D, N>],
-    /// Their rates.
+    /// Rates of the nodal coordinates.
     pub v: &'a [Node<D, N>],
     /// Flexible bodies.
     pub chains: &'a [LineChain<D>],

@@ -225,7 +225,7 @@ pub struct State {
     pub pace: MethodStatistics,
     /// Generalized coordinates `q`, m sqrt(kg).
     pub coordinates: Vec<f64>,
-    /// Their rates, m sqrt(kg) / s.
+    /// Rates of the coordinates, m sqrt(kg) / s.
     pub rates: Vec<f64>,
     /// Frames of rigid bodies in space, from which their rotations among the coordinates are counted: unit quaternions of their
     /// principal axes, whose signs go on over full turns.

@@ -16,7 +16,7 @@ use crate::math::rotation::{NO_TURN, Quaternion};
 pub struct Workspace<const D: usize = 2> {
     /// Nodal coordinates, m.
     pub x: Vec<Node<D>>,
-    /// Their rates.
+    /// Rates of the nodal coordinates.
     pub v: Vec<Node<D>>,
     /// Forces on them, N.
     pub f: Vec<Node<D>>,

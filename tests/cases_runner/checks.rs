@@ -24,8 +24,10 @@ pub struct Place<'a> {
     pub method: &'a Method,
 }
 
-/// Checks one claim of the case in a folder, off the run that it asks for if it asks for one.
-/// `Err` is a claim that could not be measured.
+/// Checks one claim of the case in a folder, on the run `record` if the claim needs one.
+///
+/// # Errors
+/// A claim that could not be measured, in words.
 pub fn check(claim: &Claim, at: &Place, record: Option<&Record>) -> Result<Measured, String> {
     let run = || record.ok_or_else(|| "expected a run, found none".to_owned());
     match &claim.kind {

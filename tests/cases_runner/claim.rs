@@ -136,6 +136,9 @@ impl Kind {
 
 impl Claim {
     /// Reads a claim.
+    ///
+    /// # Errors
+    /// A key that is missing, unknown or of another form, in words.
     pub fn parse(mut map: Map<String, Value>) -> Result<Self, String> {
         let scene = match map.remove("scene") {
             None => None,

@@ -67,6 +67,9 @@ fn default_scene() -> String {
 
 impl Case {
     /// Reads the text of a `case.json`. A bad claim does not hide the others.
+    ///
+    /// # Errors
+    /// A file that is not JSON or lacks a key, in words.
     pub fn parse(name: &str, folder: &Path, text: &str) -> Result<Self, String> {
         let text: Text =
             serde_json::from_str(text).map_err(|error| format!("{name}/case.json: {error}"))?;
@@ -87,7 +90,10 @@ impl Case {
     }
 }
 
-/// All cases in a folder with `filter` in their name, in order.
+/// Finds all cases in a folder with `filter` in their name, in order.
+///
+/// # Errors
+/// A folder that cannot be read, in words.
 pub fn find(root: &Path, filter: &str) -> Result<Vec<Case>, String> {
     let at = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
     let mut folders = Vec::new();

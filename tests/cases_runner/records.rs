@@ -61,7 +61,10 @@ impl<'a> Demand<'a> {
         self.names.extend(other.names);
     }
 
-    /// Runs the scene as far as asked. `Err` is a run that did not start.
+    /// Runs the scene as far as the claims demand.
+    ///
+    /// # Errors
+    /// A run that does not start, in words.
     pub fn record(&self, scene: &Path, given: &Given, method: &Method) -> Result<Record, String> {
         let mut run = Run::start(scene, given, method)?;
         let mut record = Record {
@@ -93,7 +96,10 @@ impl Record {
         self.rows.push((time, row));
     }
 
-    /// Times to `stop_time` and the values of variables there, in order.
+    /// Returns the times up to `stop_time` with the values of variables, in order.
+    ///
+    /// # Errors
+    /// A run that ended before, or a variable that was not recorded, in words.
     pub fn until<'a>(
         &self,
         stop_time: f64,

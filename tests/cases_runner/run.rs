@@ -27,7 +27,10 @@ pub struct Run {
 }
 
 impl Run {
-    /// A simulation ready for steps: parameters are set before initialization, inputs during it.
+    /// Builds a simulation that is ready for steps. Parameters are set before initialization, inputs during it.
+    ///
+    /// # Errors
+    /// A scene, a name or a value that is refused, in words.
     pub fn start(path: &Path, given: &Given, method: &Method) -> Result<Self, String> {
         let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = fs::read_to_string(path).map_err(|error| at(&error))?;
@@ -89,7 +92,10 @@ impl Run {
             .map_err(|e| e.to_string())
     }
 
-    /// Values of real variables, in order.
+    /// Returns the values of real variables, in order.
+    ///
+    /// # Errors
+    /// A variable that does not exist or cannot be computed, in words.
     pub fn get<'a>(
         &mut self,
         names: impl IntoIterator<Item = &'a String>,
@@ -103,7 +109,10 @@ impl Run {
         names.into_iter().map(value).collect()
     }
 
-    /// Steps to `stop_time` and calls `visit` with the time of every communication point reached.
+    /// Steps to `stop_time` and passes the time of every communication point to `visit`.
+    ///
+    /// # Errors
+    /// A step that fails, or an error of `visit`, in words.
     pub fn steps(
         &mut self,
         stop_time: f64,

@@ -204,6 +204,10 @@ impl Mechanism {
         }
     }
 
+    /// Builds the system of the mechanism.
+    ///
+    /// # Errors
+    /// Parts that [`System::new`] refuses.
     pub fn system(&self) -> Result<System, BuildError> {
         System::new(self.parts())
     }
@@ -229,7 +233,10 @@ impl Mechanism {
         rates
     }
 
-    /// The system as it starts, with random rates.
+    /// Starts the system with random rates.
+    ///
+    /// # Errors
+    /// Joints that do not close.
     pub fn started(&self, system: System) -> Result<Moving, NotAssembled> {
         let mut work = Workspace::new(&system);
         let described = (&self.nodes[..], &self.rigid_rates(0)[..]);
@@ -288,7 +295,10 @@ impl Moving {
     }
 }
 
-/// The mechanism in a random state, where it can move at all and motions agree with joints.
+/// Builds the mechanism in a random state. `None` if it cannot move, or if motions disagree with joints.
+///
+/// # Errors
+/// A system that cannot be built, or joints that do not close.
 pub fn moving(mechanism: &Mechanism, size: f64) -> Result<Option<Moving>, TestCaseError> {
     let system = match mechanism.system() {
         Ok(system) => system,

@@ -1,24 +1,11 @@
 //! Sizes and looks of files and functions.
 
-use crate::tidy::source::{Source, no_complaints, sources, words};
+use crate::tidy::source::{Source, all, no_complaints, words};
 
 /// A file stays under this many lines.
 const FILE: usize = 700;
 /// A function stays under this many lines, from `fn` to its closing brace.
 const FUNCTION: usize = 90;
-
-fn all() -> Vec<Source> {
-    sources(&[
-        "src",
-        "tests",
-        "crates/fmu",
-        "crates/fmu-package/src",
-        "crates/cli",
-        "xtask/src",
-        "crates/studies/src",
-        "crates/example-fmus/src",
-    ])
-}
 
 /// Name, first line and number of lines of every function with a body.
 fn functions(source: &Source) -> Vec<(String, usize, usize)> {
@@ -82,12 +69,7 @@ fn functions_stay_short() {
 #[test]
 fn functions_are_found() {
     let code = "fn a<const N: usize>(x: [f64; 3]) -> [f64; N]\nwhere\n    X: Y,\n{\n    if b { c }\n}\ntrait T {\n    fn d(&self);\n    fn e() {}\n}\nlet f: fn(u8) = g;\n";
-    let source = Source {
-        path: String::new(),
-        text: String::new(),
-        code: code.into(),
-    };
-    let found = functions(&source);
+    let found = functions(&Source::of("", code));
     let names: Vec<(&str, usize, usize)> = found
         .iter()
         .map(|(name, line, lines)| (name.as_str(), *line, *lines))

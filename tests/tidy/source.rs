@@ -18,13 +18,19 @@ pub struct Source {
 }
 
 impl Source {
+    /// Reads a file.
     pub fn read(path: &str) -> Self {
         let text =
             fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+        Self::of(path, &text)
+    }
+
+    /// Builds a source from its text.
+    pub fn of(path: &str, text: &str) -> Self {
         Self {
             path: path.into(),
-            code: blank(&text),
-            text,
+            code: blank(text),
+            text: text.into(),
         }
     }
 
@@ -89,6 +95,20 @@ pub fn sources(folders: &[&str]) -> Vec<Source> {
     }
     assert!(!found.is_empty(), "no source in {folders:?}");
     found
+}
+
+/// All Rust files of the product, its tools and its tests.
+pub fn all() -> Vec<Source> {
+    sources(&[
+        "src",
+        "tests",
+        "crates/fmu",
+        "crates/fmu-package/src",
+        "crates/cli",
+        "xtask/src",
+        "crates/studies/src",
+        "crates/example-fmus/src",
+    ])
 }
 
 /// Fails with all complaints at once.

@@ -8,7 +8,10 @@ use fmu_package::shown;
 use crate::cargo::rustc;
 use crate::process::stdout;
 
-/// The flags for a project in one folder whose products go to another.
+/// Returns the compiler flags for a project in one folder whose products go to another.
+///
+/// # Errors
+/// Folders of cargo or of the compiler that cannot be found.
 pub fn flags(root: &Path, target: &Path) -> Result<Vec<String>> {
     // Where one path begins with another, the later counts.
     let mut names = vec![

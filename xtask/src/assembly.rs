@@ -14,7 +14,10 @@ const QUESTIONS: [&str; 2] = ["xgetbv", "cpuid"];
 /// How names of functions of Rust begin where they are linked.
 const MANGLED: [&str; 2] = ["_ZN", "_R"];
 
-/// Checks what the library is linked from: no instruction is called.
+/// Checks the code that the library is linked from: no function that is a single instruction is called.
+///
+/// # Errors
+/// Code that cannot be read, or such a function that is called.
 pub fn check(code: &Path) -> Result<()> {
     let place = shown(code);
     let bytes = std::fs::read(code).with_context(|| format!("cannot read {place}"))?;

@@ -25,6 +25,9 @@ pub struct Workspace {
 
 impl Workspace {
     /// Asks cargo for the folders of the workspace that xtask belongs to.
+    ///
+    /// # Errors
+    /// Cargo fails.
     pub fn locate() -> Result<Self> {
         let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
         let text = process::stdout(
@@ -62,7 +65,10 @@ impl Workspace {
         self.target.join(relative)
     }
 
-    /// An empty folder among the products to build in, of this process and this purpose alone.
+    /// Creates an empty build folder among the products, for this process and purpose.
+    ///
+    /// # Errors
+    /// The folder cannot be created.
     pub fn stage(&self, purpose: &str) -> Result<Stage> {
         Stage::new(&self.target("fmu"), purpose)
     }
@@ -76,6 +82,9 @@ impl Workspace {
 
     /// Builds a package as the shared library of an FMU and returns where it is. What is in it
     /// follows from the source, the versions of the tools and the platform, not from the place.
+    ///
+    /// # Errors
+    /// The build fails.
     pub fn library(&self, package: &str, platform: Platform) -> Result<PathBuf> {
         let name = if package == PACKAGE { LIBRARY } else { package };
         self.portable(platform, package, &name.replace('-', "_"), |artifact| {
@@ -84,7 +93,10 @@ impl Workspace {
         .with_context(|| format!("building the shared library for {}", platform.folder()))
     }
 
-    /// Compiles what the library of FMUs and the program are linked from, and returns where it is.
+    /// Compiles the code that the library of FMUs and the program are linked from. Returns its path.
+    ///
+    /// # Errors
+    /// The build fails.
     pub fn code(&self) -> Result<PathBuf> {
         self.portable(Platform::host()?, PACKAGE, PACKAGE, |artifact| {
             file_of(artifact, ".rlib")
@@ -94,6 +106,9 @@ impl Workspace {
 
     /// Builds a program for release and returns where it is; its package is named like it, but for that of the product, which runs on
     /// other machines of this platform too.
+    ///
+    /// # Errors
+    /// The build fails.
     pub fn program(&self, name: &str) -> Result<PathBuf> {
         if name == PACKAGE {
             return self
@@ -127,7 +142,10 @@ impl Workspace {
         product(released(&mut command, package, &flags), name, find)
     }
 
-    /// Builds the program of a package outside the workspace and returns where it is.
+    /// Builds the program of a package outside the workspace. Returns its path.
+    ///
+    /// # Errors
+    /// The build fails.
     pub fn program_apart(&self, folder: &str, package: &str) -> Result<PathBuf> {
         let mut command = self.cargo("build");
         command.arg("--manifest-path");
@@ -159,7 +177,10 @@ pub fn rustc() -> Command {
     Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
 }
 
-/// The version of that compiler.
+/// Returns the version of the compiler.
+///
+/// # Errors
+/// The compiler cannot be run.
 pub fn release() -> Result<String> {
     let text = process::stdout(rustc().arg("-vV"))?;
     let release = text.lines().find_map(|line| line.strip_prefix("release: "));
@@ -171,6 +192,9 @@ fn cargo() -> Command {
 }
 
 /// Runs a build and returns the programs that cargo's messages name.
+///
+/// # Errors
+/// The build fails.
 pub fn executables(command: &mut Command) -> Result<Vec<PathBuf>> {
     let messages = process::stdout(command.args(["--message-format", "json-render-diagnostics"]))?;
     let parsed = messages.lines().map(serde_json::from_str::<Value>);

@@ -16,7 +16,10 @@ const REFERENCE: &str = "tests/cases/soft_pendulum/reference.csv";
 /// Two times nearer than this are the same communication point, s.
 const SAME_TIME: f64 = 1e-9;
 
-/// Runs the whole way once and says where everything is.
+/// Packages, simulates, compares and draws the pendulum, and prints where the files are.
+///
+/// # Errors
+/// A step of the demo fails.
 pub fn demo(workspace: &Workspace) -> Result<()> {
     let fmu = workspace.target("demo/pendulum.fmu");
     let results = prepared(&workspace.target("demo/pendulum.csv"))?;

@@ -31,6 +31,9 @@ fn describe(workspace: &Workspace, binary: &Path, folder: &Path) -> Result<()> {
 }
 
 /// Regenerates the committed files.
+///
+/// # Errors
+/// A file that cannot be generated or written.
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
     let binary = workspace.program(PACKAGE)?;
     let stage = workspace.stage("stage")?;
@@ -52,7 +55,10 @@ pub fn regenerate(workspace: &Workspace) -> Result<()> {
     Ok(())
 }
 
-/// Refuses committed files that differ from what would be generated now.
+/// Compares committed files with freshly generated ones.
+///
+/// # Errors
+/// A file that differs or cannot be generated.
 pub fn check(workspace: &Workspace) -> Result<()> {
     let binary = workspace.program(PACKAGE)?;
     let stage = workspace.stage("stage")?;

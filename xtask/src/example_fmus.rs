@@ -16,6 +16,9 @@ const EXAMPLES: &str = "example-fmus";
 const IDENTIFIER: &str = "example_fmus";
 
 /// Makes one FMU of every example in a folder.
+///
+/// # Errors
+/// A build fails, or a file cannot be written.
 pub fn example_fmus(workspace: &Workspace, output: Option<&Path>) -> Result<()> {
     let platform = Platform::host()?;
     let program = workspace.program(EXAMPLES)?;

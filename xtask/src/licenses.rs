@@ -37,7 +37,10 @@ struct Linked {
     folder: PathBuf,
 }
 
-/// Puts the licenses of a package's libraries for these platforms into the folder of an FMU.
+/// Writes the licenses of a package's libraries for these platforms into the folder of an FMU.
+///
+/// # Errors
+/// A license that is missing or not known, or a file that cannot be written.
 pub fn put(
     workspace: &Workspace,
     package: &str,

@@ -32,6 +32,9 @@ pub struct Linker {
 impl Linker {
     /// Makes ready what a platform needs in place of the system's own linker. That does for the host,
     /// unless that is Linux: there a library would ask for the glibc of the machine that built it.
+    ///
+    /// # Errors
+    /// A linker or library that cannot be installed.
     pub fn prepare(workspace: &Workspace, platform: Platform) -> Result<Self> {
         if platform.is_host() && !platform.is_linux() {
             return Ok(Self::default());
@@ -120,7 +123,11 @@ fn quoted(path: &Path) -> String {
     format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
 }
 
-/// The file with the notices of the C library that a platform's library is linked with; none where it is the system's.
+/// Returns the file with the notices of the C library that a platform's library is linked with. `None` for the C
+/// library of the system.
+///
+/// # Errors
+/// The linker is not installed.
 pub fn c_library_notices(workspace: &Workspace, platform: Platform) -> Result<Option<PathBuf>> {
     if platform != Platform::Win64 || platform.is_host() {
         return Ok(None);

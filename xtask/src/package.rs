@@ -13,6 +13,9 @@ use crate::product::Product;
 pub const PACKAGE: &str = "flexbody";
 
 /// Makes an FMU of a scene for some platforms, or for the host where none is named, with further arguments of the program.
+///
+/// # Errors
+/// A build or the program fails.
 pub fn package(
     workspace: &Workspace,
     scene: &Path,
@@ -40,7 +43,10 @@ pub fn package(
     run(&mut command)
 }
 
-/// Puts the library of a package among the binaries of an FMU, named like the package.
+/// Copies the library of a package to the binaries of an FMU, under the package's name.
+///
+/// # Errors
+/// A file that cannot be written.
 pub fn put_library(library: &Path, folder: &Path, package: &str, platform: Platform) -> Result<()> {
     let inside = folder.join(BINARIES).join(platform.folder());
     let inside = prepared(&inside.join(format!("{package}{}", platform.suffix())))?;
@@ -49,7 +55,10 @@ pub fn put_library(library: &Path, folder: &Path, package: &str, platform: Platf
         .with_context(|| format!("cannot copy the library {}", shown(library)))
 }
 
-/// Refuses a scene that cannot be read before a minute goes into compiling.
+/// Checks that a scene can be read, before the long build.
+///
+/// # Errors
+/// The file cannot be read.
 pub fn check_readable(path: &Path) -> Result<()> {
     std::fs::File::open(path)
         .map(drop)

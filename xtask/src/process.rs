@@ -8,6 +8,9 @@ use anyhow::{Context, Result, bail};
 use fmu_package::shown;
 
 /// Runs a command whose output the user sees.
+///
+/// # Errors
+/// The command cannot be started or fails.
 pub fn run(command: &mut Command) -> Result<()> {
     let status = command
         .status()
@@ -18,7 +21,10 @@ pub fn run(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Runs a command and returns its standard output; standard error stays with the user.
+/// Runs a command and returns its standard output. Standard error goes to the user.
+///
+/// # Errors
+/// The command cannot be started, fails, or prints text that is not UTF-8.
 pub fn stdout(command: &mut Command) -> Result<String> {
     let output = command
         .stderr(Stdio::inherit())
@@ -31,7 +37,10 @@ pub fn stdout(command: &mut Command) -> Result<String> {
         .with_context(|| format!("{} printed something other than UTF-8", name(command)))
 }
 
-/// Runs a command silently; what it printed becomes part of the error if it fails.
+/// Runs a command silently.
+///
+/// # Errors
+/// The command cannot be started or fails. The error holds its output.
 pub fn run_quietly(command: &mut Command) -> Result<()> {
     let output = command
         .output()
@@ -48,7 +57,10 @@ pub fn run_quietly(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Runs a command and returns what it printed; nothing where it took longer than that and was stopped.
+/// Runs a command and returns its output. `None` if it took longer than `most` and was stopped.
+///
+/// # Errors
+/// The command cannot be started.
 pub fn output_within(command: &mut Command, most: Duration) -> Result<Option<Output>> {
     let started = Instant::now();
     command.stdout(Stdio::piped()).stderr(Stdio::piped());

@@ -16,7 +16,10 @@ pub const KEPT: &str = "FLEXBODY_PRODUCT";
 /// The file that says where the program is.
 const PROGRAM: &str = "program.txt";
 
-/// Builds what goes into every FMU for some platforms, and puts it beside where the program is to be.
+/// Builds the parts of every FMU for some platforms, and copies them beside the place of the program.
+///
+/// # Errors
+/// A build fails, or a file cannot be written.
 pub fn put_parts(workspace: &Workspace, platforms: &[Platform], folder: &Path) -> Result<()> {
     let parts = folder.join(PARTS);
     for &platform in platforms {
@@ -40,7 +43,10 @@ enum Folder {
 }
 
 impl Product {
-    /// Builds it, or takes one that was kept.
+    /// Builds the product, or takes one that was kept.
+    ///
+    /// # Errors
+    /// A build fails, or a file cannot be written.
     pub fn new(workspace: &Workspace, platforms: &[Platform]) -> Result<Self> {
         let Some(kept) = std::env::var_os(KEPT) else {
             return Self::built(workspace, platforms);

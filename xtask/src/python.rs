@@ -54,47 +54,74 @@ pub struct Python {
 }
 
 impl Python {
-    /// The environment, made or brought up to date where needed.
+    /// Prepares the environment of tests and pictures.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, PROJECT)
     }
 
-    /// The environment of the programs to compare with.
+    /// Prepares the environment of the programs to compare with.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_peers(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, PEERS)
     }
 
-    /// The environment of the masters.
+    /// Prepares the environment of the masters.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_masters(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, MASTERS)
     }
 
-    /// The environment of the Python package.
+    /// Prepares the environment of the Python package.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_own(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, OWN)
     }
 
-    /// The environment of plans that are held against references.
+    /// Prepares the environment of plans that are compared with references.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_plans(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, PLANS)
     }
 
-    /// The environment of the linker.
+    /// Prepares the environment of the linker.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_linker(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, LINKER)
     }
 
-    /// The environment of the checker of dependencies.
+    /// Prepares the environment of the checker of dependencies.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_deny(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, DENY)
     }
 
-    /// The environment of tests in a browser.
+    /// Prepares the environment of tests in a browser.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_browser(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, BROWSER)
     }
 
-    /// The environment with node.
+    /// Prepares the environment with node.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
     pub fn prepare_node(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, NODE)
     }

@@ -39,7 +39,10 @@ pub struct Arguments {
     plot: Option<PathBuf>,
 }
 
-/// Simulates to a CSV file and says where it is.
+/// Simulates to a CSV file and prints its path.
+///
+/// # Errors
+/// A build or the simulation fails.
 pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
     let file = &arguments.file;
     check_readable(file)?;
@@ -96,6 +99,9 @@ pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
 }
 
 /// Runs the program with these arguments, and builds it if necessary.
+///
+/// # Errors
+/// The build or the program fails.
 pub fn pass_on(workspace: &Workspace, command: &str, arguments: &[OsString]) -> Result<()> {
     let mut program = Command::new(workspace.program(PACKAGE)?);
     run(program.arg(command).args(arguments))
@@ -134,7 +140,11 @@ fn draws_scene(workspace: &Workspace, arguments: &Arguments, shapes: &Path) -> R
     Ok(true)
 }
 
-/// A command that simulates a scene, or that in an FMU, natively, and writes shapes for a picture where that is wanted.
+/// Builds the command that simulates a scene or the scene of an FMU natively. It writes shapes for a picture if
+/// `shapes` names a file.
+///
+/// # Errors
+/// The build fails.
 pub fn native(
     workspace: &Workspace,
     scene: &Path,

@@ -14,6 +14,9 @@ pub struct Table {
 
 impl Table {
     /// Reads a CSV file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or has fields that are no numbers.
     pub fn read(path: &Path) -> Result<Self> {
         let place = shown(path);
         let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {place}"))?;
@@ -45,7 +48,10 @@ impl Table {
         self.names.iter().map(String::as_str)
     }
 
-    /// A column by name.
+    /// Returns a column by name.
+    ///
+    /// # Errors
+    /// No column has this name.
     pub fn column(&self, name: &str) -> Result<Vec<f64>> {
         let Some(index) = self.names.iter().position(|known| known == name) else {
             bail!(
@@ -57,12 +63,18 @@ impl Table {
         Ok(self.rows.iter().map(|row| row[index]).collect())
     }
 
-    /// A curve in the plane, from its two columns.
+    /// Returns a curve in the plane from its two columns.
+    ///
+    /// # Errors
+    /// A column is missing.
     pub fn points(&self, x: &str, y: &str) -> Result<Vec<[f64; 2]>> {
         self.curve([x, y])
     }
 
-    /// A curve, from its columns.
+    /// Returns a curve from its columns.
+    ///
+    /// # Errors
+    /// A column is missing.
     pub fn curve<const D: usize>(&self, names: [&str; D]) -> Result<Vec<[f64; D]>> {
         let columns = names.map(|name| self.column(name));
         let columns = columns.into_iter().collect::<Result<Vec<_>>>()?;
@@ -70,7 +82,10 @@ impl Table {
         Ok((0..self.rows.len()).map(row).collect())
     }
 
-    /// The path of a marker in the plane or in space.
+    /// Returns the path of a marker in the plane or in space.
+    ///
+    /// # Errors
+    /// A column is missing.
     pub fn marker<const D: usize>(&self, name: &str) -> Result<Vec<[f64; D]>> {
         let names: [String; D] = std::array::from_fn(|k| format!("{name}.position[{}]", k + 1));
         self.curve(names.each_ref().map(String::as_str))

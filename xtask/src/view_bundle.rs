@@ -16,7 +16,10 @@ const BUNDLE: &str = "src/view/bundle.txt";
 /// Runs node and npm.
 const NODE: &str = "xtask/node.py";
 
-/// Makes the program anew. Packages are installed among the products, beside a copy of the sources.
+/// Builds the script anew. Packages are installed among the products, beside a copy of the sources.
+///
+/// # Errors
+/// Node or a package cannot be installed, or the build fails.
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
     let python = Python::prepare_node(workspace)?;
     let folder = workspace.target("view-bundle");

@@ -18,7 +18,10 @@ const SOURCES: &str = "python";
 const PRODUCT: &str = "FLEXBODY_WHEEL_PRODUCT";
 const TAG: &str = "FLEXBODY_WHEEL_PLATFORM";
 
-/// Makes a wheel for this machine's platform, whose program packages FMUs for all named ones, and says where it is.
+/// Builds a wheel for this machine's platform whose program packages FMUs for all named platforms, and prints its path.
+///
+/// # Errors
+/// A build fails, or a file cannot be written.
 pub fn wheel(workspace: &Workspace, platforms: &[Platform], output: Option<&Path>) -> Result<()> {
     let host = Platform::host()?;
     let platforms = match platforms {

@@ -27,7 +27,10 @@ pub struct Describe {
     within: Within,
 }
 
-/// Describes as the user asks for it.
+/// Writes the description of a scene that the user asks for.
+///
+/// # Errors
+/// A scene that is not valid, a plan that `--strict` refuses, or a file that cannot be written.
 pub fn run(arguments: &Describe) -> Result<()> {
     let is_moving = !arguments.no_animation;
     describe(
@@ -40,6 +43,9 @@ pub fn run(arguments: &Describe) -> Result<()> {
 }
 
 /// Writes everything that an FMU of a scene holds besides libraries and licenses, and returns the scene's name.
+///
+/// # Errors
+/// A scene that is not valid, a plan that `--strict` refuses, or a file that cannot be written.
 pub fn describe(place: &Path, output: &Path, is_moving: bool, within: &Within) -> Result<String> {
     let (scene, planned) = planned(place, within)?;
     // What contradicts itself, or has no start, is told here, not by the first master that runs it.

@@ -22,6 +22,9 @@ pub struct Sink {
 
 impl Sink {
     /// Opens the file at `path`, or standard output where there is none.
+    ///
+    /// # Errors
+    /// The file cannot be created.
     pub fn new(path: Option<&Path>) -> Result<Self> {
         Ok(match path {
             Some(path) => {
@@ -39,12 +42,18 @@ impl Sink {
     }
 
     /// Writes a line.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn line(&mut self, text: &str) -> Result<()> {
         let written = writeln!(self.writer, "{text}");
         written.with_context(|| self.name.clone())
     }
 
-    /// Writes what is still held back.
+    /// Flushes the buffered output.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn finish(&mut self) -> Result<()> {
         let flushed = self.writer.flush();
         flushed.with_context(|| self.name.clone())
@@ -68,6 +77,9 @@ impl Table {
     }
 
     /// Writes the names.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn header(&mut self, simulation: &Simulation) -> Result<()> {
         let names = self.outputs.iter();
         let names = names.map(|index| simulation.variables()[*index].name.as_str());
@@ -75,7 +87,10 @@ impl Table {
         self.sink.line(&names.join(","))
     }
 
-    /// Writes the values now.
+    /// Writes the present values.
+    ///
+    /// # Errors
+    /// Values that cannot be computed, or a file that cannot be written.
     pub fn row(&mut self, simulation: &mut Simulation) -> Result<()> {
         let mut fields = vec![format!("{:?}", simulation.time())];
         for index in &self.outputs {
@@ -128,7 +143,11 @@ impl Shapes {
         }
     }
 
-    /// Writes a line; with points along bodies where it is `whole`: a cable's, or a rigid body's centre of mass and markers.
+    /// Writes a line of positions. With `is_whole` it has the points along flexible bodies, and centre of mass and
+    /// markers of rigid ones.
+    ///
+    /// # Errors
+    /// Positions that cannot be computed, or a file that cannot be written.
     pub fn row(&mut self, simulation: &mut Simulation, is_whole: bool) -> Result<()> {
         let dimension = simulation.scene().dimension;
         let list = |points: &[[f64; 3]]| {

@@ -12,6 +12,9 @@ use fmu_package::shown;
 const SIZE: u32 = 256;
 
 /// Renders a drawing to a PNG file. Text is not supported: fonts differ from machine to machine.
+///
+/// # Errors
+/// A drawing that is not valid, or a file that cannot be read or written.
 pub fn render(drawing: &Path, icon: &Path) -> Result<()> {
     let text = std::fs::read(drawing)
         .with_context(|| format!("cannot read the drawing {}", shown(drawing)))?;

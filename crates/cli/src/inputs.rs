@@ -41,7 +41,10 @@ impl From<Curve> for Interpolation {
 }
 
 impl Inputs {
-    /// The table and its file, where one is named.
+    /// Reads the table of inputs, if a file is named.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is no table.
     pub fn table(&self) -> Result<Option<(InputTable, &Path)>> {
         let Some(path) = &self.input else {
             return Ok(None);
@@ -52,7 +55,10 @@ impl Inputs {
     }
 }
 
-/// The signals of a table for a run that ends at a time, s.
+/// Builds the signals of a table for a run that ends at `stop_time`, s.
+///
+/// # Errors
+/// A column that is no input, or rows that do not cover the run.
 pub fn signals(
     (table, path): (&InputTable, &Path),
     variables: &[Variable],

@@ -32,6 +32,9 @@ const MOTION: [&str; 2] = ["<!-- motion begins -->", "<!-- motion ends -->"];
 const NAMED: usize = 5;
 
 /// Joins the platforms of two FMUs that agree in everything else, and says where the result is.
+///
+/// # Errors
+/// An FMU that cannot be read, FMUs that differ, or a file that cannot be written.
 pub fn merge(arguments: &Merge) -> Result<()> {
     let files = [&arguments.first, &arguments.second];
     let name = files[0].file_name().unwrap_or_default();

@@ -40,7 +40,11 @@ pub struct Package {
     pub parts: Option<PathBuf>,
 }
 
-/// Makes an FMU of a scene and says where it is.
+/// Packages a scene as an FMU and prints its path.
+///
+/// # Errors
+/// A scene that is not valid, a plan that `--strict` refuses, a platform without a library, or a file that cannot be
+/// written.
 pub fn package(arguments: &Package) -> Result<()> {
     let output = arguments.output.as_deref().unwrap_or(Path::new("."));
     let is_named = !output.is_dir();
@@ -73,7 +77,10 @@ pub fn package(arguments: &Package) -> Result<()> {
     announced("packaging", &done, || write(&content, &output))
 }
 
-/// The file to write an FMU to, absolute, unless its name does not say that it is one.
+/// Returns the absolute path of the FMU to write.
+///
+/// # Errors
+/// A name that does not end in `.fmu`, or a folder that cannot be created.
 pub fn checked_output(file: &Path) -> Result<PathBuf> {
     if !is_fmu(file) {
         bail!(
@@ -127,7 +134,10 @@ fn libraries_and_licenses(parts: &Path, wanted: &[Platform]) -> Result<Content> 
     Ok(content)
 }
 
-/// A folder among those that do not last.
+/// Creates a temporary folder.
+///
+/// # Errors
+/// The folder cannot be created.
 pub fn stage(purpose: &str) -> Result<Stage> {
     Stage::new(&std::env::temp_dir(), &format!("flexbody-{purpose}"))
 }

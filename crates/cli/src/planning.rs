@@ -68,12 +68,18 @@ pub struct Planning {
     set: Vec<String>,
 }
 
-/// Reads a scene, and plans it where it leaves elements or numbers to the planner.
+/// Reads a scene, and plans the elements and numbers that it leaves to the planner.
+///
+/// # Errors
+/// A scene that is not valid or cannot be run, or a plan that `--strict` refuses.
 pub fn planned(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
     planned_for(path, &read(path)?, &TrialConditions::default(), within)
 }
 
-/// Plans a scene that was read from a file for given parameters and inputs, where it leaves something to the planner.
+/// Plans a scene that was read from `path`, for given parameters and inputs, if it leaves something to the planner.
+///
+/// # Errors
+/// A name or value that the scene does not have, a scene that cannot be run, or a plan that `--strict` refuses.
 pub fn planned_for(
     path: &Path,
     scene: &Scene,
@@ -127,6 +133,9 @@ fn tell_remarks(scene: &Scene) {
 }
 
 /// Plans a scene and prints the plan.
+///
+/// # Errors
+/// A scene that is not valid or cannot be run, a plan that `--strict` refuses, or a file that cannot be written.
 pub fn plan(arguments: &Planning) -> Result<()> {
     let path = &arguments.scene;
     let scene = read(path)?;

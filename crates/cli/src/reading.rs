@@ -11,7 +11,10 @@ pub fn is_fmu(path: &Path) -> bool {
     path.extension() == Some("fmu".as_ref())
 }
 
-/// Reads a scene, or that in an FMU.
+/// Reads a scene from a file of its own or from an FMU.
+///
+/// # Errors
+/// A file that cannot be read, or a scene that is not valid.
 pub fn read(path: &Path) -> Result<Scene> {
     if !is_fmu(path) {
         let text = std::fs::read_to_string(path).map_err(|error| at(path, error))?;

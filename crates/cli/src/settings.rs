@@ -15,7 +15,10 @@ fn parsed(assignment: &str) -> Result<(&str, f64)> {
     Ok((name.trim(), value))
 }
 
-/// Sets what an option says, and returns the place of the variable.
+/// Sets the variable that an option names. Returns its index.
+///
+/// # Errors
+/// An option of another form, a name that cannot be set, or a value that is refused.
 pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<usize> {
     let wrong = |found: &str| anyhow!("--set {assignment}: {found}");
     let (name, value) = parsed(assignment)?;
@@ -24,7 +27,10 @@ pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<usize> {
     Ok(index)
 }
 
-/// Names and values that options say, each of a parameter or an input of a scene.
+/// Reads names and values of options, each of a parameter or input of the scene.
+///
+/// # Errors
+/// An option of another form, or a name that cannot be set.
 pub fn assignments(scene: &Scene, options: &[String]) -> Result<Vec<(String, f64)>> {
     let variables = variables(scene);
     let checked = options.iter().map(|option| {
@@ -35,7 +41,10 @@ pub fn assignments(scene: &Scene, options: &[String]) -> Result<Vec<(String, f64
     checked.collect()
 }
 
-/// The parameter or input of a name; without one, what to say.
+/// Finds the parameter or input with a name.
+///
+/// # Errors
+/// No such variable, in words with similar names.
 pub fn settable(variables: &[Variable], name: &str) -> Result<usize, String> {
     let place = variables.iter().position(|variable| variable.name == name);
     place.ok_or_else(|| {
@@ -46,6 +55,9 @@ pub fn settable(variables: &[Variable], name: &str) -> Result<usize, String> {
 }
 
 /// Sets a variable, or says what is wrong.
+///
+/// # Errors
+/// A value that the simulation refuses, in words.
 pub fn set(simulation: &mut Simulation, index: usize, value: f64) -> Result<(), String> {
     let outcome = if simulation.variables()[index].is_integer() {
         let whole = value as i32;

@@ -125,7 +125,10 @@ impl Cost {
     }
 }
 
-/// Simulates to a table.
+/// Simulates a scene and writes its outputs to a table.
+///
+/// # Errors
+/// A scene that is not valid, a step that fails, or a file that cannot be written.
 pub fn simulate(arguments: &Simulate) -> Result<()> {
     let path = &arguments.scene;
     let mut scene = read(path)?;
@@ -219,7 +222,10 @@ fn calculated(simulation: &mut Simulation) -> Result<Vec<(String, f64)>> {
     Ok(found)
 }
 
-/// The number of communication steps up to the stop time.
+/// Returns the number of communication steps up to the stop time.
+///
+/// # Errors
+/// A time or step that is not positive, or too many steps.
 pub fn communication_points(stop_time: f64, step: f64) -> Result<u64> {
     for (name, value) in [("--stop-time", stop_time), ("--step", step)] {
         if !(value.is_finite() && value > 0.0) {

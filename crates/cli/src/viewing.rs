@@ -39,7 +39,10 @@ pub struct View {
     gltf: Option<PathBuf>,
 }
 
-/// Writes what is asked for, says where it is, and opens the page.
+/// Writes the requested files, prints their paths, and opens the page.
+///
+/// # Errors
+/// A file that cannot be read or written, or a scene that cannot be simulated.
 pub fn view(arguments: &View) -> Result<()> {
     let file = &arguments.file;
     let extension = file.extension().and_then(|extension| extension.to_str());
@@ -133,7 +136,10 @@ fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
     Ok((scene, recording))
 }
 
-/// The section of a unit's page where its default experiment moves; the file says what inputs do.
+/// Returns the section of a unit's page that shows its default experiment in motion. `file` provides the inputs.
+///
+/// # Errors
+/// A scene that cannot be simulated.
 pub fn motion(file: &Path, scene: &Scene) -> Result<String> {
     let inputs = courses(&read(file)?).map_err(|error| at(file, error))?;
     let bar = progress_bar(scene.experiment.steps() as u64);

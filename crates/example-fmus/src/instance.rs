@@ -78,13 +78,19 @@ impl Instance {
     }
 
     /// Refuses a call outside its phases.
+    ///
+    /// # Errors
+    /// The present phase is none of `phases`.
     pub fn expect(&self, phases: &[Phase]) -> Result<(), Refusal> {
         let found = self.state.phase;
         let message = || format!("not allowed when {found:?}, only when {phases:?}");
         phases.contains(&found).then_some(()).ok_or_else(message)
     }
 
-    /// Moves on from one phase to the next.
+    /// Changes from one phase to the next.
+    ///
+    /// # Errors
+    /// Another present phase, or parameters with which the equations are not finite.
     pub fn advance(&mut self, from: Phase, to: Phase) -> Result<(), Refusal> {
         self.expect(&[from])?;
         let mut entries = self.equations.generator.iter().flatten();
@@ -95,7 +101,10 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2SetupExperiment`.
+    /// Handles `fmi2SetupExperiment`.
+    ///
+    /// # Errors
+    /// Another phase than that after instantiation, or a time that is not finite.
     pub fn set_up(&mut self, time: f64) -> Result<(), Refusal> {
         self.expect(&[Phase::Instantiated])?;
         self.state.time = finite(time)?;
@@ -130,7 +139,10 @@ impl Instance {
         self.state.z.len() - (3 - order) * inputs + input
     }
 
-    /// `fmi2GetReal` of one variable.
+    /// Handles `fmi2GetReal` for one variable.
+    ///
+    /// # Errors
+    /// A reference to no variable, or a phase without values.
     pub fn get(&self, reference: u32) -> Result<f64, Refusal> {
         if let Ok(input) = self.input(reference) {
             return Ok(self.state.z[self.place(input, 0)]);
@@ -143,7 +155,10 @@ impl Instance {
         value.ok_or_else(|| format!("value reference {reference}: unknown"))
     }
 
-    /// `fmi2SetReal` of one variable.
+    /// Handles `fmi2SetReal` for one variable.
+    ///
+    /// # Errors
+    /// A reference to no variable, a variable that cannot be set now, or a value that is not finite.
     pub fn set(&mut self, reference: u32, value: f64) -> Result<(), Refusal> {
         let value = finite(value)?;
         if let Ok(input) = self.input(reference) {
@@ -165,7 +180,11 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2SetRealInputDerivatives` of one input: for the next step only, from its start.
+    /// Handles `fmi2SetRealInputDerivatives` for one input. The derivative holds for the next step only, from its
+    /// start.
+    ///
+    /// # Errors
+    /// A reference to no input, an order out of range, or a value that is not finite.
     pub fn set_derivative(
         &mut self,
         reference: u32,
@@ -192,7 +211,10 @@ impl Instance {
         }
     }
 
-    /// `fmi2GetRealOutputDerivatives` of one output; the output itself for order 0, zero above 2.
+    /// Handles `fmi2GetRealOutputDerivatives` for one output. Order 0 is the output itself, orders above 2 are zero.
+    ///
+    /// # Errors
+    /// A reference to no output, or an order out of range.
     pub fn output_derivative(&self, reference: u32, order: i32) -> Result<f64, Refusal> {
         let output = self.output(reference)?;
         if order > 2 {
@@ -206,7 +228,10 @@ impl Instance {
         Ok(row.iter().zip(z).map(|(w, z)| w * z).sum())
     }
 
-    /// `fmi2GetDirectionalDerivative` of one output.
+    /// Handles `fmi2GetDirectionalDerivative` for one output.
+    ///
+    /// # Errors
+    /// A reference to no output or input.
     pub fn directional(&self, output: u32, inputs: &[u32], seed: &[f64]) -> Result<f64, Refusal> {
         let output = self.output(output)?;
         let row = &self.equations.readout[output];
@@ -217,7 +242,10 @@ impl Instance {
         terms.sum()
     }
 
-    /// `fmi2DoStep`.
+    /// Handles `fmi2DoStep`.
+    ///
+    /// # Errors
+    /// Another phase, another current time, or a step that is not positive and finite.
     pub fn step(&mut self, current: f64, size: f64) -> Result<(), Refusal> {
         self.expect(&[Phase::Ready])?;
         let end = finite(current)? + finite(size)?;
@@ -250,7 +278,10 @@ impl Instance {
         self.state.clone()
     }
 
-    /// `fmi2SetFMUstate`.
+    /// Handles `fmi2SetFMUstate`.
+    ///
+    /// # Errors
+    /// A state of another model.
     pub fn restore(&mut self, saved: &Saved) -> Result<(), Refusal> {
         if saved.fingerprint != self.state.fingerprint {
             return Err("saved state: of another model".into());
@@ -262,7 +293,10 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2DeSerializeFMUstate`.
+    /// Handles `fmi2DeSerializeFMUstate`.
+    ///
+    /// # Errors
+    /// Bytes that are no state of this model.
     pub fn deserialize(&self, bytes: &[u8]) -> Result<Saved, Refusal> {
         let refused = || "serialized state: damaged or of another model".to_owned();
         if bytes.len() != self.state.size() {

@@ -33,11 +33,17 @@ const LIMITS: Limits = Limits {
 };
 
 /// Packs every file below a folder.
+///
+/// # Errors
+/// A file that cannot be read or written.
 pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
     write(&content(folder)?, archive)
 }
 
-/// Every file below a folder, named as in an archive of it.
+/// Reads every file below a folder, named as in an archive.
+///
+/// # Errors
+/// A file that cannot be read.
 pub fn content(folder: &Path) -> Result<Content> {
     let mut content = Content::new();
     for path in files(folder)? {
@@ -49,12 +55,18 @@ pub fn content(folder: &Path) -> Result<Content> {
 }
 
 /// Writes an archive.
+///
+/// # Errors
+/// The archive cannot be written.
 pub fn write(content: &Content, archive: &Path) -> Result<()> {
     write_whole(archive, zipped(content)?)
 }
 
-/// Reads every file of an archive. Names that lead out of a folder or stand twice are refused, and so is
-/// more than fits into memory.
+/// Reads every file of an archive.
+///
+/// # Errors
+/// A file that is no archive, a name that leads out of a folder or occurs twice, or content that does not fit into
+/// memory.
 pub fn read(archive: &Path) -> Result<Content> {
     let opened = File::open(archive).map_err(anyhow::Error::from);
     opened

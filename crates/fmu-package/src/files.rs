@@ -14,7 +14,10 @@ pub fn shown(path: &Path) -> String {
         .to_string()
 }
 
-/// The path, absolute, with the folder that is to hold it created.
+/// Returns the absolute path, and creates the folder that is to hold it.
+///
+/// # Errors
+/// The folder cannot be created.
 pub fn prepared(path: &Path) -> Result<PathBuf> {
     let path =
         std::path::absolute(path).with_context(|| format!("{} is no path", path.display()))?;
@@ -83,7 +86,10 @@ pub fn partial(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Every file below a folder, in no order.
+/// Lists every file below a folder, in no order.
+///
+/// # Errors
+/// A folder that cannot be read.
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -102,7 +108,10 @@ pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// The name of a file relative to a folder, with forward slashes.
+/// Returns the name of a file relative to a folder, with forward slashes.
+///
+/// # Errors
+/// A file outside the folder, or a name that is not UTF-8.
 pub fn entry_name(folder: &Path, path: &Path) -> Result<String> {
     let relative = path.strip_prefix(folder)?;
     let parts = relative.iter().map(|part| {
@@ -116,7 +125,10 @@ pub fn entry_name(folder: &Path, path: &Path) -> Result<String> {
 pub struct Stage(pub PathBuf);
 
 impl Stage {
-    /// An empty folder of this process and this purpose alone, below another, which is made if need be.
+    /// Creates an empty folder for this process and purpose below another folder, which is created if necessary.
+    ///
+    /// # Errors
+    /// The folder cannot be created or emptied.
     pub fn new(below: &Path, purpose: &str) -> Result<Self> {
         let folder = below.join(format!("{purpose}-{}", std::process::id()));
         // A crashed process with the same number may have left one behind.

@@ -22,7 +22,10 @@ pub enum Platform {
 }
 
 impl Platform {
-    /// The platform that this program runs on.
+    /// Returns the platform that this program runs on.
+    ///
+    /// # Errors
+    /// A platform without FMUs.
     pub fn host() -> Result<Self> {
         match (std::env::consts::OS, std::env::consts::ARCH) {
             ("linux", "x86_64") => Ok(Self::Linux64),

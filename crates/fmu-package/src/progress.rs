@@ -5,8 +5,10 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Does something that prints nothing itself, with a spinner where there is a terminal, and says
-/// afterwards what was done and how long it took.
+/// Runs a silent action with a spinner on a terminal. Says afterwards what was done and how long it took.
+///
+/// # Errors
+/// Errors of `action`.
 pub fn announced<T>(doing: &str, done: &str, action: impl FnOnce() -> Result<T>) -> Result<T> {
     let started = Instant::now();
     let style = ProgressStyle::with_template("{spinner} {msg} ({elapsed})")

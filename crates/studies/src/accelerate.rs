@@ -33,6 +33,9 @@ pub struct Accelerate {
 }
 
 /// Times accelerations.
+///
+/// # Errors
+/// A scene that cannot be read or assembled, in words.
 pub fn accelerate(arguments: &Accelerate) -> Result<(), String> {
     let problem = space::read(&arguments.scene)?;
     let elements = uniform(problem.cable(), arguments.elements);

@@ -60,6 +60,9 @@ pub struct Fall {
 }
 
 /// Lets a rod fall.
+///
+/// # Errors
+/// Rods that cannot be built or reports that cannot be written, in words.
 pub fn swing(arguments: &Swing) -> Result<(), String> {
     let problem = space::read(&arguments.scene)?;
     let mut cable = problem.cable();

@@ -31,6 +31,10 @@ struct Lump {
 }
 
 impl<const D: usize> Builder<'_, D> {
+    /// Adds the nodes and parts of a body.
+    ///
+    /// # Errors
+    /// A mesh that is not possible, or an initial motion that cannot be computed.
     pub(super) fn body(&mut self, index: usize) -> Result<(), Error> {
         let first = self.parts.nodes.len();
         let motion = self.resolved.scene.bodies[index].motion();

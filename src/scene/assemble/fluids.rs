@@ -36,7 +36,11 @@ impl Fluid<'_> {
 }
 
 impl<const D: usize> Builder<'_, D> {
-    /// Places of a body between which what acts along it is known at Gauss points: its nodes, or ends of even parts of one that does not bend.
+    /// Returns the material coordinates that bound the segments along which loads are integrated: the nodes of a
+    /// flexible body, the ends of equal parts of a rigid one.
+    ///
+    /// # Errors
+    /// A mesh that is not possible.
     pub(super) fn stretches(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
         match cable.id.form {
             Form::Chain(_) => self.resolved.nodes(cable),
@@ -51,6 +55,10 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
+    /// Builds the load of a fluid.
+    ///
+    /// # Errors
+    /// A mesh that is not possible, or an expression of the current that has no value at a Gauss point.
     pub(super) fn fluid(&self, fluid: &Fluid<'_>, path: &str) -> Result<AppliedLoad<D>, Error> {
         let cable = fluid.on;
         let mut strips = Vec::new();

@@ -53,8 +53,11 @@ impl<const D: usize> Motions<D> {
         });
     }
 
-    /// Gives the cable added last, with nodes at these material coordinates and this length (m), a velocity of
-    /// deformation. Nodes of elements that do not share them stand twice.
+    /// Gives the cable added last a velocity of deformation. `mesh` holds the material coordinates of its nodes,
+    /// `length` is its length, m. Nodes of elements that do not share them count twice.
+    ///
+    /// # Errors
+    /// An expression that is not valid.
     pub(super) fn deform(
         &mut self,
         field: &[String],

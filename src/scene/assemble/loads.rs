@@ -10,6 +10,10 @@ use crate::system::Signal;
 use crate::system::loads::{self, AppliedLoad, DistributedMoment, LineLoad};
 
 impl<const D: usize> Builder<'_, D> {
+    /// Builds all loads and those of the initial state.
+    ///
+    /// # Errors
+    /// A mesh that is not possible, or an expression that has no value at a Gauss point.
     pub(super) fn loads(&mut self) -> Result<(), Error> {
         for (index, load) in self.resolved.loads.iter().enumerate() {
             let built = match &load.kind {
@@ -116,7 +120,10 @@ impl<const D: usize> Builder<'_, D> {
         Ok(load)
     }
 
-    /// Fills in the components that change along a body, at the Gauss points of its elements or, of one that does not bend, even parts.
+    /// Evaluates the components that vary along a body at the Gauss points of its segments.
+    ///
+    /// # Errors
+    /// A mesh that is not possible, or an expression that has no value at a Gauss point.
     pub(super) fn fill(
         &self,
         cable: Cable<'_>,

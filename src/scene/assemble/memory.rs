@@ -16,8 +16,11 @@ const BYTES_OF_BODY: [usize; 2] = [12_000, 21_000];
 const BYTES_OF_JOINT: [usize; 2] = [18_000, 20_000];
 
 impl Resolved<'_> {
-    /// Asks for the memory that a scene will take, and gives it back: an allocation that fails later would end
-    /// the process.
+    /// Allocates the memory that a scene will take, and frees it again. A later allocation that fails would end the
+    /// process.
+    ///
+    /// # Errors
+    /// The memory is not available.
     pub(super) fn reserve(&self) -> Result<(), Error> {
         let (elements, bodies) = (self.scene.elements(), self.bodies.len());
         let bytes = self.bytes();

@@ -38,7 +38,7 @@ pub struct Assembled<const D: usize = 2> {
     pub system: System<D>,
     /// Nodal coordinates as described.
     pub nodes: Vec<Node<D>>,
-    /// Their rates as described.
+    /// Rates of the nodes as described.
     pub rates: Vec<Node<D>>,
     /// Error wanted of what is read, relative.
     pub error: f64,

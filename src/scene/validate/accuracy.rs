@@ -10,6 +10,10 @@ use crate::scene::{Course, Error, InputCourse, Scene};
 const ERROR: RangeInclusive<f64> = 1e-8..=0.1;
 
 impl Scene {
+    /// Checks the tolerance, the wanted error and the profiles of inputs.
+    ///
+    /// # Errors
+    /// A number out of range, or a profile that is not valid.
     pub(super) fn validate_accuracy(&self) -> Result<(), Error> {
         let within = |key: &str, range: &RangeInclusive<f64>, value: f64| {
             let wanted = format!("a number from {:e} to {:e}", range.start(), range.end());

@@ -16,6 +16,10 @@ use crate::scene::{
 };
 
 impl Body {
+    /// Checks a body on its own, without references to other parts.
+    ///
+    /// # Errors
+    /// The first key that is missing, of another kind of body, or out of range.
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => {
@@ -361,6 +365,10 @@ impl Solid {
 }
 
 impl Resolved<'_> {
+    /// Resolves the masses at markers.
+    ///
+    /// # Errors
+    /// A marker that does not exist, a second mass at a marker, or a mass or inertia out of range.
     pub(super) fn resolve_masses(&mut self) -> Result<(), Error> {
         let mut seen = BTreeSet::new();
         for (index, mass) in self.scene.masses.iter().enumerate() {

@@ -63,6 +63,9 @@ pub type Key = (&'static str, bool, &'static str);
 
 /// Checks that the keys of a kind are there, and no others; of several alternatives the first of which anything is
 /// there that not all of them have, or the last.
+///
+/// # Errors
+/// A key that the kind lacks, or one that it does not have.
 pub fn keys(path: &str, of: &str, all: &[Key], alternatives: &[Keys]) -> Result<(), Error> {
     let is_meant = |(must, _): &&Keys| {
         let mut given = all.iter().filter(|(_, is_given, _)| *is_given);
@@ -91,12 +94,18 @@ pub fn keys(path: &str, of: &str, all: &[Key], alternatives: &[Keys]) -> Result<
     Ok(())
 }
 
-/// The value of a key that its kind demands.
+/// Returns the value of a key that its kind demands.
+///
+/// # Errors
+/// The key is missing.
 pub fn needed<T>(path: &str, key: &str, what: &str, value: Option<T>) -> Result<T, Error> {
     value.ok_or_else(|| expected(&format!("{path}.{key}"), what, "nothing"))
 }
 
 /// Checks that a number is finite.
+///
+/// # Errors
+/// Infinity or NaN.
 pub fn finite(path: &str, value: f64) -> Result<(), Error> {
     if value.is_finite() {
         return Ok(());
@@ -113,6 +122,9 @@ pub fn shape(dimension: usize) -> &'static str {
 }
 
 /// Checks that there are as many components as dimensions, and that they are finite.
+///
+/// # Errors
+/// Another number of components, or one that is not finite.
 pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error> {
     let count = value.given().len();
     if count != dimension && count > 0 {
@@ -127,6 +139,9 @@ pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error>
 }
 
 /// Checks that a direction has as many components as the scene has dimensions, and is not zero.
+///
+/// # Errors
+/// Another number of components, one that is not finite, or a vector of length 0.
 pub fn direction(path: &str, dimension: usize, value: &Vector) -> Result<(), Error> {
     vector(path, dimension, value)?;
     if value.full() != [0.0; 3] {
@@ -136,7 +151,10 @@ pub fn direction(path: &str, dimension: usize, value: &Vector) -> Result<(), Err
     Err(expected(path, "a direction that is not zero", found))
 }
 
-/// The components of a force or a position, of which there are as many as dimensions.
+/// Reads the components of a force or a position with `of`, as many as dimensions.
+///
+/// # Errors
+/// Another number of components, or one that `of` refuses.
 pub fn components<T, U>(
     path: &str,
     dimension: usize,
@@ -153,7 +171,10 @@ pub fn components<T, U>(
         .collect()
 }
 
-/// Refuses what there is in the plane alone, with what is offered instead.
+/// Refuses a feature of planar scenes in space. `instead` names the replacement there.
+///
+/// # Errors
+/// The scene is in space.
 pub fn planar(path: &str, dimension: usize, instead: &str, found: &str) -> Result<(), Error> {
     if dimension == 2 {
         return Ok(());
@@ -162,6 +183,9 @@ pub fn planar(path: &str, dimension: usize, instead: &str, found: &str) -> Resul
 }
 
 /// Checks an angular velocity: a number in the plane, a vector in space.
+///
+/// # Errors
+/// A number in space, a vector in the plane, or a component that is not finite.
 pub fn spin(path: &str, dimension: usize, value: &Spin) -> Result<(), Error> {
     match (value, dimension) {
         (Spin::Number(rate), 2) => finite(path, *rate),
@@ -174,6 +198,9 @@ pub fn spin(path: &str, dimension: usize, value: &Spin) -> Result<(), Error> {
 }
 
 /// Checks that a quantity is positive.
+///
+/// # Errors
+/// A number that is not positive and finite.
 pub fn positive(path: &str, unit: &str, value: f64) -> Result<(), Error> {
     if value.is_finite() && value > 0.0 {
         return Ok(());
@@ -183,6 +210,9 @@ pub fn positive(path: &str, unit: &str, value: f64) -> Result<(), Error> {
 }
 
 /// Checks that a quantity is not negative.
+///
+/// # Errors
+/// A number that is negative or not finite.
 pub fn not_negative(path: &str, unit: &str, value: f64) -> Result<(), Error> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
@@ -192,6 +222,9 @@ pub fn not_negative(path: &str, unit: &str, value: f64) -> Result<(), Error> {
 }
 
 /// Checks that a quantity is finite and not zero.
+///
+/// # Errors
+/// A number that is zero or not finite.
 pub fn not_zero(path: &str, unit: &str, value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
         return Ok(());
@@ -200,7 +233,10 @@ pub fn not_zero(path: &str, unit: &str, value: f64) -> Result<(), Error> {
     Err(expected(path, &wanted, value))
 }
 
-/// Stiffness and damping of a spring and a damper side by side; one that is missing has none.
+/// Reads stiffness and damping of a spring and a damper in parallel. A missing one is 0.
+///
+/// # Errors
+/// Both are missing, or one is negative or not finite.
 pub fn spring_damper(
     path: &str,
     stiffness: (Option<f64>, &str),
@@ -217,7 +253,10 @@ pub fn spring_damper(
     Ok([stiffness.0, damping.0].map(Option::unwrap_or_default))
 }
 
-/// The function of time that a value is; tables of motions are splines.
+/// Builds the function of time of a value. Tables of motions become splines.
+///
+/// # Errors
+/// A number that is not finite, an expression that is not valid, or a table through which no curve goes.
 pub fn value(path: &str, value: &Value, of_motion: bool) -> Result<Function, Error> {
     let (place, built) = match value {
         Value::Number(number) => {
@@ -243,7 +282,10 @@ fn bounded(path: &str, name: &str) -> Result<(), Error> {
     Err(expected(&place, &wanted, found))
 }
 
-/// Checks the name of a scene, which is that of the FMU too.
+/// Checks the name of a scene, which is also that of the FMU.
+///
+/// # Errors
+/// A name that is empty, too long, or has other characters than letters, digits, `_` and `-`.
 pub fn scene_name(name: &str) -> Result<(), Error> {
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     bounded("name", name)?;
@@ -254,6 +296,9 @@ pub fn scene_name(name: &str) -> Result<(), Error> {
 }
 
 /// Checks a text that goes into the model description, where XML has no room for control characters.
+///
+/// # Errors
+/// A text that is empty, too long, or has control characters.
 pub fn sentence(path: &str, text: &str) -> Result<(), Error> {
     let is_written = |c: char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
     let length = text.chars().count();
@@ -268,6 +313,9 @@ pub fn sentence(path: &str, text: &str) -> Result<(), Error> {
 }
 
 /// Checks the name of a part, and that it is new among `names`.
+///
+/// # Errors
+/// A name that is no identifier, too long, reserved, or used twice.
 pub fn name<'a>(path: &str, name: &'a str, names: &mut BTreeSet<&'a str>) -> Result<(), Error> {
     bounded(path, name)?;
     let starts = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');

@@ -44,6 +44,10 @@ impl Surface {
 }
 
 impl<'a> Resolved<'a> {
+    /// Resolves a contact: marker or body, surface and coefficients.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, or a coefficient or size out of range.
     pub(super) fn contact(&self, path: &str, load: &'a Load) -> Result<Contact<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
         let by = match (&load.marker, &load.body) {

@@ -10,6 +10,10 @@ use crate::scene::resolved::{self, Fluid, LoadKind, Resolved};
 use crate::system::Signal;
 
 impl<'a> Resolved<'a> {
+    /// Resolves a fluid along a body.
+    ///
+    /// # Errors
+    /// A missing key, a body that does not exist, or a coefficient out of range.
     pub(super) fn fluid(&self, path: &str, load: &'a Load) -> Result<Fluid<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
         let name = needed(path, "body", "a name", load.body.as_deref())?;
@@ -69,7 +73,10 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// Makes the current of a fluid, which nothing else changes, an input; what it was, m/s.
+    /// Makes the current of a fluid an input. Returns its components until then, m/s.
+    ///
+    /// # Errors
+    /// A fluid that does not exist, or a current that is not given by finite numbers.
     pub(super) fn set_current(
         &mut self,
         path: &str,

@@ -6,6 +6,10 @@ use crate::scene::description::CoordinateKind;
 use crate::scene::resolved::{Gear, Resolved};
 
 impl<'a> Resolved<'a> {
+    /// Resolves the gears.
+    ///
+    /// # Errors
+    /// A joint that does not exist or has no coordinate, the same joint twice, or a ratio of 0.
     pub(super) fn resolve_gears(&mut self) -> Result<(), Error> {
         for (index, gear) in self.scene.gears.iter().enumerate() {
             let path = format!("gears[{index}]");

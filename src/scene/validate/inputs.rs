@@ -39,6 +39,10 @@ impl Input {
 }
 
 impl<'a> Resolved<'a> {
+    /// Resolves the inputs without those of ports.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, a name that is used twice, or start values out of range.
     pub(super) fn resolve_inputs(&mut self) -> Result<(), Error> {
         let (mut seen, mut first) = (BTreeSet::new(), 0);
         for (index, input) in self.scene.inputs.iter().enumerate() {

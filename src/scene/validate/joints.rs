@@ -161,6 +161,10 @@ impl Joint {
 }
 
 impl<'a> Resolved<'a> {
+    /// Resolves the joints.
+    ///
+    /// # Errors
+    /// A missing key, a marker that does not exist, or ends or axes that the kind does not allow.
     pub(super) fn resolve_joints(&mut self) -> Result<(), Error> {
         for (index, joint) in self.scene.joints.iter().enumerate() {
             let path = format!("joints[{index}]");

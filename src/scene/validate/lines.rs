@@ -9,6 +9,10 @@ use crate::scene::{Error, Shape, Vector};
 const TURNS: f64 = 1e4;
 
 impl Shape {
+    /// Checks the reference shape of a line body.
+    ///
+    /// # Errors
+    /// Ends of another dimension or at one point, or a curvature or a number of turns out of range.
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let kind = match self {
             Self::Line { .. } => "line",

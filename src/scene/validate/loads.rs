@@ -69,7 +69,11 @@ impl Load {
     }
 }
 
-/// A component of a load as a function of time; of what changes along a body see [`function_along`].
+/// Builds a component of a load as a function of time. Components that vary along a body are built by
+/// [`function_along`].
+///
+/// # Errors
+/// A number, an expression or a table that is not valid.
 pub(super) fn component(path: &str, of: &Value, is_distributed: bool) -> Result<Signal, Error> {
     let function = match of {
         Value::Expression(text) if is_distributed => function_along(path, text),
@@ -92,6 +96,10 @@ fn function_along(path: &str, text: &str) -> Result<Function, Error> {
 }
 
 impl<'a> Resolved<'a> {
+    /// Resolves the loads.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, or a value out of range.
     pub(super) fn resolve_loads(&mut self) -> Result<(), Error> {
         for (index, load) in self.scene.loads.iter().enumerate() {
             let path = format!("loads[{index}]");
@@ -103,6 +111,10 @@ impl<'a> Resolved<'a> {
         Ok(())
     }
 
+    /// Resolves the loads of the initial state.
+    ///
+    /// # Errors
+    /// A kind other than forces and moments, a missing key, a reference that does not exist, or a value out of range.
     pub(super) fn resolve_initial_loads(&mut self) -> Result<(), Error> {
         for (index, load) in self.scene.initial.loads().iter().enumerate() {
             let path = format!("initial.loads[{index}]");
@@ -208,6 +220,10 @@ impl<'a> Resolved<'a> {
         }
     }
 
+    /// Resolves a spring and a damper between two points.
+    ///
+    /// # Errors
+    /// A missing key, a marker that does not exist, or a stiffness, damping or length out of range.
     pub(super) fn spring(&self, path: &str, load: &'a Load) -> Result<Spring<'a>, Error> {
         let markers = needed(path, "markers", "two names", load.markers.as_ref())?;
         let ends = self.require_pair(path, markers, load.point)?;

@@ -14,6 +14,11 @@ const NO_ANGLE: &str = "nothing in space, where a motion of kind `orientation` d
 const MOST_DERIVATIVES: u8 = 2;
 
 impl<'a> Resolved<'a> {
+    /// Resolves the motions without those of ports.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, a coordinate that is driven twice, or a course that is not
+    /// valid.
     pub(super) fn resolve_motions(&mut self) -> Result<(), Error> {
         // Inputs have the first numbers.
         let inputs = self.scene.inputs.iter();

@@ -49,6 +49,11 @@ impl Output {
 }
 
 impl<'a> Resolved<'a> {
+    /// Resolves the outputs without those of ports.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, a quantity that the object does not have, or an output that is
+    /// listed twice.
     pub(super) fn resolve_outputs(&mut self) -> Result<(), Error> {
         let mut seen = BTreeSet::new();
         for (index, output) in self.scene.outputs.iter().enumerate() {

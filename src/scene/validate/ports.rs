@@ -54,6 +54,11 @@ impl Port {
 }
 
 impl<'a> Resolved<'a> {
+    /// Resolves the ports with their inputs and outputs.
+    ///
+    /// # Errors
+    /// A missing key, a marker that does not exist, has no angle or is driven already, or a stiffness or damping out of
+    /// range.
     pub(super) fn resolve_ports(&mut self) -> Result<(), Error> {
         let driven = self.motions.iter().filter_map(|motion| match &motion.kind {
             MotionKind::Position(marker, _) => Some((false, marker.name)),

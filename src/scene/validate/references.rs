@@ -10,6 +10,10 @@ use crate::scene::resolved::{
 use crate::scene::{Error, LineBody, Vector};
 
 impl<'a> Resolved<'a> {
+    /// Finds a marker.
+    ///
+    /// # Errors
+    /// The marker does not exist. The error lists similar names.
     pub(super) fn require_marker(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         self.marker(name).ok_or_else(|| {
             let of =
@@ -20,7 +24,10 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// A marker with an angle: in the plane, one with a direction. `instead` says what there is in space.
+    /// Finds a marker with an angle, which exists in the plane only. `instead` names the replacement in space.
+    ///
+    /// # Errors
+    /// The marker does not exist or has no direction, or the scene is in space.
     pub(super) fn require_turning(
         &self,
         path: &str,
@@ -33,7 +40,11 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// A marker that moments turn: in the plane, one with a direction; in space, one of a rigid body with inertia.
+    /// Finds a marker that a moment can rotate: one with a direction in the plane, one on a rigid body with inertia or
+    /// on a rod in space.
+    ///
+    /// # Errors
+    /// The marker does not exist, or its body does not rotate.
     pub(super) fn require_spinning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         match self.scene.dimension {
             2 => self.require_directed(path, name),
@@ -41,7 +52,10 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// A marker of a rigid body in space that turns, or of a rod.
+    /// Finds a marker with an orientation in space: on a rigid body with inertia or on a rod.
+    ///
+    /// # Errors
+    /// The marker does not exist or has no orientation, or the scene is planar.
     pub(super) fn require_standing(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         let wanted = match self.scene.dimension {
@@ -57,6 +71,9 @@ impl<'a> Resolved<'a> {
     }
 
     /// Finds a marker of a body with inertia about every axis, whose orientation can be driven.
+    ///
+    /// # Errors
+    /// The marker does not exist, is on a rod, or its body lacks inertia about an axis.
     pub(super) fn require_driven(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_standing(path, name)?;
         match marker.place {
@@ -72,7 +89,10 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// A marker with a direction: of a cable, or of a rigid body that has inertia.
+    /// Finds a marker with a direction: on a line body, or on a rigid body with inertia.
+    ///
+    /// # Errors
+    /// The marker does not exist, or its body has no inertia.
     pub(super) fn require_directed(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         if marker.place.turns() {
@@ -83,6 +103,10 @@ impl<'a> Resolved<'a> {
         Err(expected(path, wanted, found))
     }
 
+    /// Finds a marker of a line body.
+    ///
+    /// # Errors
+    /// The marker does not exist, or is on a rigid body.
     pub(super) fn require_cable_marker(
         &self,
         path: &str,
@@ -95,7 +119,10 @@ impl<'a> Resolved<'a> {
         Err(expected(path, "a marker of a cable", quoted(name)))
     }
 
-    /// A marker of a rod.
+    /// Finds a marker of a rod or beam in space.
+    ///
+    /// # Errors
+    /// The marker does not exist, is on another body, or the scene is planar.
     pub(super) fn require_rod_marker(
         &self,
         path: &str,
@@ -112,7 +139,10 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// A marker of a cable that bends; what is asked for is what a rigid one does not have.
+    /// Finds a marker of a flexible line body.
+    ///
+    /// # Errors
+    /// The marker does not exist, or its body is rigid.
     pub(super) fn require_flexible_marker(
         &self,
         path: &str,
@@ -125,6 +155,10 @@ impl<'a> Resolved<'a> {
         Ok(marker)
     }
 
+    /// Finds a line body.
+    ///
+    /// # Errors
+    /// The body does not exist, or is of kind `rigid`.
     pub(super) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) => Ok(*cable),
@@ -132,7 +166,10 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// A rod or beam.
+    /// Finds a rod or a beam.
+    ///
+    /// # Errors
+    /// The body does not exist, or is no rod or beam.
     pub(super) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
@@ -155,7 +192,10 @@ impl<'a> Resolved<'a> {
         unknown(path, &wanted, name, known)
     }
 
-    /// A cable that bends, and its place among the chains.
+    /// Finds a flexible line body, with its index among the chains.
+    ///
+    /// # Errors
+    /// The body does not exist, or is rigid.
     pub(super) fn require_flexible(
         &self,
         path: &str,
@@ -196,6 +236,10 @@ impl<'a> Resolved<'a> {
         Ok(Ends { first, second })
     }
 
+    /// Checks that two joined markers are on different bodies.
+    ///
+    /// # Errors
+    /// Both markers are on one body.
     pub(super) fn require_two(&self, path: &str, [a, b]: [usize; 2]) -> Result<(), Error> {
         if a != b {
             return Ok(());
@@ -208,6 +252,10 @@ impl<'a> Resolved<'a> {
         ))
     }
 
+    /// Finds a joint.
+    ///
+    /// # Errors
+    /// The joint does not exist. The error lists similar names.
     pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<&Joint<'a>, Error> {
         let found = self.joints.iter().find(|joint| joint.name == name);
         found.ok_or_else(|| self.no_joint(path, name))
@@ -219,14 +267,20 @@ impl<'a> Resolved<'a> {
         unknown(path, "a joint of this scene", name, known)
     }
 
-    /// A joint along a line of the ground or of a rigid body.
+    /// Finds a joint along a line of the ground or of a rigid body.
+    ///
+    /// # Errors
+    /// The joint does not exist, or has no displacement.
     pub(super) fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
         let slider = self.require_joint(path, name)?.slider();
         let wanted = "a joint along a line of the ground or of a rigid body";
         slider.ok_or_else(|| expected(path, wanted, quoted(name)))
     }
 
-    /// A coordinate of a joint: the one that is asked for, or the one by default where it has that, else the other.
+    /// Finds a coordinate of a joint: the one that is `asked` for, or the `default` one, or the only one.
+    ///
+    /// # Errors
+    /// The joint does not exist, or has no such coordinate.
     pub(super) fn require_coordinate(
         &self,
         path: &str,
@@ -254,7 +308,10 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// A joint with an angle of its own.
+    /// Finds a joint with an angle.
+    ///
+    /// # Errors
+    /// The joint does not exist, or has no angle.
     pub(super) fn require_pivot(&self, path: &str, name: &str) -> Result<Pivot<'a>, Error> {
         let joint = self.require_joint(path, name)?;
         let is_in_plane = self.scene.dimension == 2;

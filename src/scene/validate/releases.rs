@@ -8,7 +8,10 @@ use crate::scene::resolved::{
 use crate::system::Release;
 
 impl Resolved<'_> {
-    /// Lets an input make a joint let go.
+    /// Makes a joint one that an input releases.
+    ///
+    /// # Errors
+    /// The joint does not exist.
     pub(super) fn set_release(
         &mut self,
         path: &str,
@@ -23,7 +26,10 @@ impl Resolved<'_> {
         Ok(())
     }
 
-    /// A joint that lets go has no spring, and nothing acts on its coordinates or drives them.
+    /// Checks that joints with a release have no spring, and that nothing acts on or drives their coordinates.
+    ///
+    /// # Errors
+    /// A joint that breaks this rule.
     pub(super) fn check_releases(&self) -> Result<(), Error> {
         let acting = self.acting();
         let joints = self.joints.iter().enumerate();

@@ -8,6 +8,9 @@ use crate::scene::{Error, LineBody, Model, Profile, Section, Sections, Strain};
 
 impl LineBody {
     /// Checks the cross section or the sections at stations. A cable may have no keys of rods.
+    ///
+    /// # Errors
+    /// A missing section, keys of rods on a cable, or a dimension or stiffness out of range.
     pub(super) fn validate_sections(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let (at, is_rod) = (|key: &str| format!("{path}.{key}"), self.is_rod());
         match is_rod {
@@ -79,6 +82,9 @@ impl LineBody {
     }
 
     /// Checks values that the chosen element may not use.
+    ///
+    /// # Errors
+    /// A modulus, stiffness, factor or dimension out of range.
     pub(super) fn validate_spare(&self, path: &str) -> Result<(), Error> {
         if let Some(modulus) = self.material.shear_modulus {
             positive(&format!("{path}.material.shear_modulus"), "Pa", modulus)?;

@@ -6,7 +6,10 @@ use crate::scene::description::{CoordinateKind, Load, LoadKind as Given};
 use crate::scene::resolved::{Bushing, First, JointCoordinate, LoadKind, Resolved};
 
 impl<'a> Resolved<'a> {
-    /// A load that is no force or moment.
+    /// Resolves a load other than a force or a moment.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, or a value out of range.
     pub(super) fn resolve_springs(
         &self,
         path: &str,

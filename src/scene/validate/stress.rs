@@ -9,7 +9,11 @@ use crate::scene::resolved::{Of, Place, PointId, Resolved, SectionPoint};
 const MOST_POINTS: usize = 100;
 
 impl<'a> Resolved<'a> {
-    /// Points of the section at a marker of a body whose sections have a stress.
+    /// Resolves the points of the section at a marker where stress is read.
+    ///
+    /// # Errors
+    /// A marker that does not exist, a section whose stress is not known, or points that are missing, too many or of
+    /// another dimension.
     pub(super) fn section_points(
         &mut self,
         path: &str,

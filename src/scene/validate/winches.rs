@@ -6,7 +6,11 @@ use crate::scene::resolved::{Cable, First, Hold, LoadKind, Marker, MotionKind, P
 use crate::scene::{Error, Model};
 
 impl<'a> Resolved<'a> {
-    /// The marker at which a winch may pay out its cable.
+    /// Finds the marker at which a winch pays out its cable.
+    ///
+    /// # Errors
+    /// The marker does not exist, is not at the end of a flexible cable, or its cable has stations, another strain or a
+    /// curved shape that bends.
     pub(super) fn require_paid_out(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         let wanted = "a marker at an end of a cable that bends and stretches";
@@ -54,6 +58,10 @@ impl<'a> Resolved<'a> {
 
     /// Checks cables that winches pay out: one winch for each, a frame at rest, and loads at the ends or all along
     /// only.
+    ///
+    /// # Errors
+    /// A second winch of a cable, a rotating frame, a steady motion at the start, a load between the ends, or an
+    /// unsuitable fluid.
     pub(super) fn check_winches(&self) -> Result<(), Error> {
         let mut cables: Vec<(usize, Cable<'a>)> = Vec::new();
         for (index, cable) in self.winches() {

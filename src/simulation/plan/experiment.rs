@@ -89,8 +89,11 @@ impl PlannedExperiment {
         })
     }
 
-    /// Runs a scene with numbers of elements and a tolerance, with at most so much work, and until time is over. Responses are those of
-    /// the mesh, where they are known.
+    /// Runs a scene with numbers of elements and a tolerance, within `most_work` and until `is_over`. Responses of the
+    /// mesh are not computed again if they are known.
+    ///
+    /// # Errors
+    /// The work or time limit is reached, or the run fails.
     pub fn run(
         &self,
         scene: Scene,

@@ -23,6 +23,9 @@ fn is_planned(variable: &Variable) -> bool {
 
 impl TrialConditions {
     /// Refuses a name that is no parameter or input of a scene, and a number of elements or the tolerance, which are what is planned.
+    ///
+    /// # Errors
+    /// A name that is no parameter or input of the scene, or that of a planned number.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), Error> {
         let variables = variables(scene);
         let settable = || {
@@ -56,7 +59,10 @@ impl TrialConditions {
         self
     }
 
-    /// Sets parameters and inputs. What a body has not as what it became is left out: parameters without effect.
+    /// Sets parameters and inputs. Parameters that the planned bodies no longer have are left out.
+    ///
+    /// # Errors
+    /// A value that the simulation refuses.
     pub(super) fn set(&self, simulation: &mut Simulation) -> Result<(), Refusal> {
         for (name, value) in &self.set {
             let place = simulation.variables().iter().position(|v| v.name == *name);
@@ -69,6 +75,9 @@ impl TrialConditions {
 
     /// Returns the table of inputs for a scene: the given one, or that of `accuracy.input_profiles`. `None` if all
     /// inputs keep their values.
+    ///
+    /// # Errors
+    /// A profile of something other than an input, or a table that does not cover the experiment.
     pub(super) fn moved(&self, scene: &Scene) -> Result<Option<InputTable>, Error> {
         let (table, place) = match &self.inputs {
             Some(table) => (Some(table.clone()), "input"),

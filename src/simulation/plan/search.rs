@@ -68,7 +68,10 @@ fn with_rigid(mut scene: Scene, body: usize) -> Scene {
     scene
 }
 
-/// See [`Search::fewest`].
+/// Returns the least number of elements of every line body, 0 for rigid ones (see [`Search::fewest`]).
+///
+/// # Errors
+/// A scene that is not valid, or markers that are too close for nodes.
 pub(super) fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
     let resolved = scene.resolve()?;
     let counts = resolved.bodies.iter().filter_map(|body| {
@@ -226,7 +229,10 @@ impl<'a, 'p> Search<'a, 'p> {
         self.runs[place].1.as_ref().map_err(Clone::clone)
     }
 
-    /// The run with a choice; one that was made before is not made again.
+    /// Returns the run of a choice. Each choice runs once.
+    ///
+    /// # Errors
+    /// The work limit is reached, or the run fails.
     pub fn run(&mut self, choice: &Choice) -> Result<&TrialRun, Unfinished> {
         let place = match self.place(choice) {
             Some(place) => place,
@@ -289,6 +295,9 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 
     /// Compares all outputs between a choice and a more accurate one.
+    ///
+    /// # Errors
+    /// The work limit is reached, or one of the runs fails.
     pub fn compare(
         &mut self,
         choice: &Choice,

@@ -10,7 +10,10 @@ use crate::scene::Error;
 const MOST_SINGLE: usize = 4;
 
 impl Search<'_, '_> {
-    /// The coarsest mesh that doubling changes by no more than may be, and what it changes.
+    /// Finds the coarsest mesh for which doubling changes the outputs by less than their limits. Returns these changes.
+    ///
+    /// # Errors
+    /// No mesh can be run.
     pub(super) fn find_elements(
         &mut self,
         choice: &mut Choice,

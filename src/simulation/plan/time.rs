@@ -44,7 +44,10 @@ impl Search<'_, '_> {
         self.scene.accuracy.relative_tolerance.unwrap_or(first)
     }
 
-    /// The loosest tolerance that the coarsest mesh allows, and what the error of it is.
+    /// Finds the loosest tolerance that the coarsest mesh allows. Returns its error.
+    ///
+    /// # Errors
+    /// No mesh can be run.
     pub(super) fn find_tolerance(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Error> {
         loop {
             match self.loosest_believed(choice) {

@@ -111,7 +111,7 @@ pub struct Linear<const D: usize = 2> {
 pub struct View<'a, const D: usize, N = f64> {
     /// Nodal coordinates.
     pub x: &'a [Node<D, N>],
-    /// Their rates.
+    /// Rates of the nodal coordinates.
     pub v: &'a [Node<D, N>],
     /// Driven coordinates with two derivatives.
     pub drives: &'a [[N; 3]],

@@ -45,8 +45,11 @@ pub(super) enum NoEigenvalues {
     Missing(usize),
 }
 
-/// Lowest modes of the symmetric `K`, which is assembled in `work` as well, ascending; so many or more. They are found anew in the whole
-/// basis, free of the roundoff of its sparse form.
+/// Computes at least `count` lowest modes of the symmetric `K`, ascending. `work` holds `K` as well. The modes are
+/// computed anew in the full basis, without the roundoff of the sparse form.
+///
+/// # Errors
+/// [`NoEigenvalues`] if the iteration does not converge to that many modes.
 pub(super) fn lowest<const D: usize>(
     system: &System<D>,
     work: &mut Workspace<D>,
@@ -177,7 +180,10 @@ fn scale<const D: usize>(
     Ok(largest * 10.0_f64.powi(enough))
 }
 
-/// Slowest eigenvalues `s` where `K` is symmetric and `R` vanishes, so many or more.
+/// Computes at least `count` slowest eigenvalues `s` of a symmetric `K` without `R`.
+///
+/// # Errors
+/// [`NoEigenvalues`] if the iteration does not converge to that many eigenvalues.
 pub(super) fn slowest_conservative<const D: usize>(
     system: &System<D>,
     work: &mut Workspace<D>,
@@ -198,7 +204,11 @@ pub(super) fn slowest_conservative<const D: usize>(
     ))
 }
 
-/// Slowest eigenvalues `s` of `s^2 I + s R + K`, so many or more, of a pair the one with the positive imaginary part.
+/// Computes at least `count` slowest eigenvalues `s` of `s^2 I + s R + K`. Of a conjugate pair it returns the one with
+/// the positive imaginary part.
+///
+/// # Errors
+/// [`NoEigenvalues`] if the iteration does not converge to that many eigenvalues.
 pub(super) fn slowest<const D: usize>(
     system: &System<D>,
     work: &mut Workspace<D>,

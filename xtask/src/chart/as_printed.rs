@@ -25,7 +25,10 @@ struct Moved {
     tip: Path,
 }
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let scene = marked(bench.case("soft_pendulum/scene.json")?);
     let reference = bench.table("soft_pendulum/reference.csv")?;

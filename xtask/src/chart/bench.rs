@@ -155,6 +155,9 @@ impl Ran {
 
 impl<'a> Bench<'a> {
     /// Builds the product.
+    ///
+    /// # Errors
+    /// The build fails.
     pub fn new(workspace: &'a Workspace) -> Result<Self> {
         Ok(Self {
             program: workspace.program(PACKAGE)?,
@@ -187,22 +190,34 @@ impl<'a> Bench<'a> {
         self.workspace.path("docs/charts").join(name)
     }
 
-    /// A JSON file of the project.
+    /// Reads a JSON file of the project.
+    ///
+    /// # Errors
+    /// The file cannot be read.
     pub fn json(&self, name: &str) -> Result<Value> {
         read(&self.workspace.path(name))
     }
 
-    /// A JSON file of the cases, e.g. `elastica/case.json`.
+    /// Reads a JSON file of the cases, e.g. `elastica/case.json`.
+    ///
+    /// # Errors
+    /// The file cannot be read.
     pub fn case(&self, name: &str) -> Result<Value> {
         self.json(&format!("tests/cases/{name}"))
     }
 
-    /// A table of the cases.
+    /// Reads a table of the cases.
+    ///
+    /// # Errors
+    /// The file cannot be read.
     pub fn table(&self, name: &str) -> Result<Table> {
         Table::read(&self.workspace.path("tests/cases").join(name))
     }
 
     /// Writes a scene for a program and returns where it is.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn write(&self, scene: &Value) -> Result<PathBuf> {
         let file = prepared(&self.workspace.target("chart/scene.json"))?;
         std::fs::write(&file, scene.to_string())
@@ -211,6 +226,9 @@ impl<'a> Bench<'a> {
     }
 
     /// Plans a scene.
+    ///
+    /// # Errors
+    /// The plan fails.
     pub fn plan(&self, scene: &Value) -> Result<Planned> {
         let [report, inputs] =
             ["plan.json", "inputs.csv"].map(|name| self.workspace.target("chart").join(name));
@@ -228,18 +246,27 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// Runs everything once.
+    /// Runs everything once. Failures of single runs are part of the result.
+    ///
+    /// # Errors
+    /// A program that cannot be started.
     pub fn run(&self, title: &str, runs: &[Run]) -> Result<Vec<Result<Ran>>> {
         self.repeat(title, runs, 1, 0.0)
     }
 
-    /// Runs everything often enough for timing.
+    /// Runs everything often enough for timing. Failures of single runs are part of the result.
+    ///
+    /// # Errors
+    /// A program that cannot be started.
     pub fn time(&self, title: &str, runs: &[Run]) -> Result<Vec<Result<Ran>>> {
         self.repeat(title, runs, REPEATS, f64::INFINITY)
     }
 
     /// Runs everything so many times, but once where a run fails or takes longer than that, s. Repetitions go round
     /// all runs, so that whatever else the machine does meanwhile meets all of them; CPU times are medians.
+    ///
+    /// # Errors
+    /// A program that cannot be started.
     pub fn repeat(
         &self,
         title: &str,
@@ -274,6 +301,9 @@ impl<'a> Bench<'a> {
     }
 
     /// Runs a measurement of the studies, its name followed by options, on a scene if it has none of its own, and returns its report.
+    ///
+    /// # Errors
+    /// The measurement fails.
     pub fn studies(&self, measurement: &[&str], scene: Option<&Value>) -> Result<Value> {
         let file = scene.map(|scene| self.write(scene)).transpose()?;
         let report = stdout(
@@ -285,6 +315,9 @@ impl<'a> Bench<'a> {
     }
 
     /// Runs a measurement of the studies that prints CSV, the file of the chart of the same name.
+    ///
+    /// # Errors
+    /// The measurement fails, or the file cannot be written.
     pub fn lab_table(&self, chart: &str) -> Result<()> {
         let table = stdout(Command::new(self.studies_program()?).arg(chart))?;
         let path = prepared(&self.output(&format!("{chart}.csv")))?;

@@ -145,7 +145,10 @@ fn rod(name: &str, length: f64, position: [f64; 2], angle: f64) -> Value {
     })
 }
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let (mut plan, mut runs, mut choices) = (Vec::new(), Vec::new(), Vec::new());
     for (name, family, counts) in FAMILIES {

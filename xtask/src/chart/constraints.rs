@@ -34,7 +34,10 @@ const MECHANISMS: [(&str, &str, &str, Place); 4] = [
     ("parallelogram, landing", "parallelogram/landing.json", "parallelogram/landing.csv", PIN),
 ];
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let (mut runs, mut plan) = (Vec::new(), Vec::new());
     for mechanism in MECHANISMS {

@@ -11,7 +11,10 @@ const WORK: f64 = 2e5;
 /// Stop time of the runs with radau, whose steps depend little on the mesh, s.
 const STOP_TIME: f64 = 1.1;
 
-/// Measures. Stability fixes the steps of rkn43, and a short run tells how long they are.
+/// Measures the chart. Stability fixes the steps of rkn43, and a short run determines their length.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let scene = bench.case("soft_pendulum/scene.json")?;
     let run = |elements: u32, stop_time: f64, method: &str| {

@@ -10,7 +10,10 @@ use crate::python::Python;
 /// Measures with real FMUs and writes the CSV files into the folder that it is given.
 const PROGRAM: &str = "tests/masters/coupling.py";
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let python = Python::prepare_masters(bench.workspace())?;
     let xtask = std::env::current_exe().context("cannot find this program itself")?;

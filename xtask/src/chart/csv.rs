@@ -30,6 +30,9 @@ impl Csv {
     }
 
     /// Writes the file.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn save(self) -> Result<()> {
         let place = shown(&self.path);
         std::fs::write(prepared(&self.path)?, self.text)

@@ -40,7 +40,10 @@ const TIMED: usize = 3;
 /// Runs that take longer are timed once, s.
 const LONG: f64 = 0.5;
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let header = "scene,of,error,elements,tolerance,method,plan_runs,plan_cost,outputs,unsettled,worst,worst_output,\
                   worst_of_all,cpu_time_s,best_elements,best_tolerance,best_cpu_time_s,cpu_over_best,\

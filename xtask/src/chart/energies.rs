@@ -49,6 +49,9 @@ fn ends(curve: &[(f64, f64)]) -> [f64; 2] {
 }
 
 /// Measures the chart `drift`.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn drift(bench: &Bench) -> Result<()> {
     let header = "pendulum,method,tolerance,largest_drift,last_drift,steps,cpu_time_s";
     let mut csv = Csv::new(bench, "drift", header);
@@ -90,6 +93,9 @@ fn scale(scene: &Value) -> Result<f64> {
 }
 
 /// Measures the chart `energies`.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn energies(bench: &Bench) -> Result<()> {
     let header = "mechanism,stop_time_s,method,tolerance,scale_J,largest_drift,last_drift,residual_position,\
                   residual_velocity,steps,cpu_time_s";

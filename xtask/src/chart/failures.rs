@@ -6,7 +6,10 @@ use super::bench::Bench;
 use super::csv::Csv;
 use super::numbers::text;
 
-/// Measures, by the studies.
+/// Measures the chart by the studies.
+///
+/// # Errors
+/// The measurement fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let report = bench.studies(&["failures"], None)?;
     let mut csv = Csv::new(bench, "failures", "place,method,failing,product,test");

@@ -15,7 +15,10 @@ const LENGTH: f64 = 1.2;
 /// Rounds over all measurements.
 const ROUNDS: usize = 3;
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let costs = reports(bench, "accelerate", &COUNTS, &[])?;
     let swings = reports(

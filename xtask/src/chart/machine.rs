@@ -10,6 +10,9 @@ use super::csv::Csv;
 const FILE: &str = "machine";
 
 /// Notes the machine of a chart that was just measured.
+///
+/// # Errors
+/// The file cannot be read or written.
 pub fn note(bench: &Bench, chart: &str) -> Result<()> {
     let before = std::fs::read_to_string(bench.output(&format!("{FILE}.csv"))).unwrap_or_default();
     let mut csv = Csv::new(bench, FILE, "chart,machine");

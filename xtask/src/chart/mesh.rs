@@ -34,7 +34,10 @@ const ROUNDOFF: f64 = 1e-11;
 /// Two times nearer than this are the same communication point, s.
 const SAME_TIME: f64 = 1e-9;
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let mut csv = Csv::new(bench, "mesh", "kind,case,elements,error,order");
     for claim in claims(bench, "elastica")? {

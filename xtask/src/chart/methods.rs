@@ -29,7 +29,10 @@ impl Plan<'_> {
     }
 }
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let settings = bench.json(SETTINGS)?;
     let with_diffsol = settings.to_string().contains("\"diffsol\"");

@@ -72,6 +72,9 @@ pub fn names() -> PossibleValuesParser {
 }
 
 /// Measures the named charts, or all, unless they are only to be drawn, and draws them from their CSV files.
+///
+/// # Errors
+/// A chart cannot be measured or drawn.
 pub fn chart(workspace: &Workspace, names: &[String], is_measured: bool) -> Result<()> {
     let is_wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
     if is_measured {

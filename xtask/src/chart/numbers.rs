@@ -42,24 +42,36 @@ pub fn largest_distance<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
     largest(a.iter().zip(b).map(|(a, b)| distance(*a, *b)))
 }
 
-/// A number of a report.
+/// Reads a number of a report.
+///
+/// # Errors
+/// The value is no number.
 pub fn number(value: &Value) -> Result<f64> {
     let message = || format!("expected a number, found {value}");
     value.as_f64().with_context(message)
 }
 
-/// The numbers of a list; none where there is no list.
+/// Reads the numbers of a list. Without a list there are none.
+///
+/// # Errors
+/// An entry is no number.
 pub fn numbers(value: &Value) -> Result<Vec<f64>> {
     value.as_array().into_iter().flatten().map(number).collect()
 }
 
-/// A text of a report.
+/// Reads a text of a report.
+///
+/// # Errors
+/// The value is no text.
 pub fn text(value: &Value) -> Result<&str> {
     let message = || format!("expected a text, found {value}");
     value.as_str().with_context(message)
 }
 
-/// A curve of a report, rows of time and place.
+/// Reads a curve of a report: rows of time and position.
+///
+/// # Errors
+/// A row has another form.
 pub fn path<const D: usize>(value: &Value) -> Result<Path<D>> {
     let rows = value.as_array().context("expected a path")?;
     let row = |row: &Value| {
@@ -72,7 +84,10 @@ pub fn path<const D: usize>(value: &Value) -> Result<Path<D>> {
     rows.iter().map(row).collect()
 }
 
-/// The middle values of numbers of several reports.
+/// Returns the medians of numbers over several reports.
+///
+/// # Errors
+/// A number is missing.
 pub fn medians<const N: usize>(reports: &[Value], keys: [&str; N]) -> Result<[f64; N]> {
     let mut found = [0.0; N];
     for (middle, key) in found.iter_mut().zip(keys) {

@@ -19,7 +19,10 @@ const PARTS: [(&str, &str); 3] = [
     ),
 ];
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let cable = bench.case("soft_pendulum/scene.json")?;
     let names = PARTS.map(|(_, names)| names.replace(' ', "_s,") + "_s");

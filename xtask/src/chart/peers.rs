@@ -28,7 +28,10 @@ struct Timed {
     method: String,
 }
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let mut exudyn = Server::start(bench.workspace(), EXUDYN)?;
     let header = "scene,program,model,elements,settings,wanted,tolerance,method,error,cpu_time_s";
@@ -173,7 +176,10 @@ impl Peers {
     }
 }
 
-/// Options of a run of Exudyn: those of all runs of a scene, and its own.
+/// Collects the options of a run of Exudyn: those of all runs of a scene, and its own.
+///
+/// # Errors
+/// A setting is missing.
 pub fn options(bench: &Bench, setting: &Value, point: &Value) -> Result<Value> {
     let mut all = json!({ "scene": bench.workspace().path(text(&setting["scene"])?) });
     for key in ["marker", "stop_time", "every", "shares"] {
@@ -198,7 +204,10 @@ fn mesh(counts: &[u32]) -> String {
     words.collect::<Vec<_>>().join(" + ")
 }
 
-/// Settings of Exudyn in words; what is not said is its default.
+/// Describes the settings of Exudyn that differ from its defaults.
+///
+/// # Errors
+/// A setting has another form.
 pub fn described(options: &Value) -> Result<String> {
     const APART: &str = "elements error cpu_time heavy rigid step solver";
     let mut words = format!(

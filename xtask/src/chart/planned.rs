@@ -25,7 +25,10 @@ pub struct Case {
 /// Choice that a run is made with: elements of every cable (0 for one that became rigid), and a tolerance.
 pub type Choice = (Vec<u32>, f64);
 
-/// The scenes of the chart `peers`, in the order of the page, with their settings.
+/// Returns the scenes of the chart `peers` with their settings, in the order of the page.
+///
+/// # Errors
+/// A file cannot be read.
 pub fn peers(bench: &Bench) -> Result<Vec<(Case, Value)>> {
     let settings = bench.json(SETTINGS)?;
     let cases = PEERS.split(' ').map(|name| {
@@ -69,13 +72,19 @@ impl Case {
     }
 
     /// Plans the scene for a relative error.
+    ///
+    /// # Errors
+    /// The plan fails.
     pub fn plan(&self, bench: &Bench, error: f64) -> Result<Planned> {
         let mut scene = self.scene.clone();
         scene["accuracy"]["error"] = json!(error);
         bench.plan(&scene)
     }
 
-    /// A run with a choice.
+    /// Returns the run with a choice.
+    ///
+    /// # Errors
+    /// The scene cannot be written.
     pub fn run(&self, choice: &Choice) -> Result<Run> {
         let mut scene = self.scene.clone();
         mesh(&mut scene, &choice.0);
@@ -85,7 +94,10 @@ impl Case {
     }
 }
 
-/// Gives a scene the meshes that its plan chooses, whatever it is run with afterwards.
+/// Sets the meshes of a scene that its plan chooses.
+///
+/// # Errors
+/// The plan fails.
 pub fn settle(bench: &Bench, scene: &mut Value) -> Result<()> {
     let (counts, tolerance) = chosen(&bench.plan(scene)?)?;
     mesh(scene, &counts);
@@ -120,6 +132,9 @@ pub fn counts(report: &Value, key: &str) -> Vec<u32> {
 }
 
 /// Reads the choice of a plan.
+///
+/// # Errors
+/// A number is missing.
 pub fn chosen(plan: &Planned) -> Result<Choice> {
     Ok((
         counts(&plan.report, "elements"),

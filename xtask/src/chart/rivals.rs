@@ -4,7 +4,10 @@ use anyhow::Result;
 
 use super::bench::Bench;
 
-/// Measures, by the studies, which writes the table itself.
+/// Measures the chart by the studies, which write the table themselves.
+///
+/// # Errors
+/// The measurement fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     bench.lab_table("rivals")
 }

@@ -56,7 +56,10 @@ struct Converged {
     exudyn: Path<3>,
 }
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let mut exudyn = Server::start(bench.workspace(), EXUDYN)?;
     let mut elastica = Server::start(bench.workspace(), ELASTICA)?;

@@ -34,7 +34,10 @@ pub struct Answer<const D: usize = 2> {
 }
 
 impl Server {
-    /// Starts a file of the project, in an environment of its own with pinned versions.
+    /// Starts a server from a file of the project, in an environment of its own with pinned versions.
+    ///
+    /// # Errors
+    /// The environment cannot be installed, or the server does not start.
     pub fn start(workspace: &Workspace, file: &str) -> Result<Self> {
         let python = Python::prepare_peers(workspace)?;
         let mut command = python.script(&workspace.path(file));
@@ -53,7 +56,10 @@ impl Server {
         })
     }
 
-    /// One run with options as `run.py` has them.
+    /// Runs once, with options in the form of `run.py`.
+    ///
+    /// # Errors
+    /// The server fails.
     pub fn run<const D: usize>(&mut self, options: &Value) -> Result<Answer<D>> {
         let answer = self.ask(options)?;
         if answer["good"] != Value::Bool(true) {
@@ -65,7 +71,10 @@ impl Server {
         })
     }
 
-    /// The answer to options, whatever it says.
+    /// Returns the server's answer to options.
+    ///
+    /// # Errors
+    /// The server ends or answers no JSON.
     pub fn ask(&mut self, options: &Value) -> Result<Value> {
         writeln!(self.input, "{options}").context("the program has stopped")?;
         loop {

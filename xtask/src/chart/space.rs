@@ -45,7 +45,10 @@ const SPAGHETTI: Moving = Moving {
 /// Two fine meshes for a reference, coarser than their own lines end.
 const FINE: [(&str, u32); 2] = [("quintic", 24), ("spline4", 48)];
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let header = "scene,slenderness,discretization,elements,coordinates,error,cpu_time_s,largest_frequency,iteration_s";
     let mut csv = Csv::new(bench, "space", header);

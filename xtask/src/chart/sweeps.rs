@@ -24,7 +24,10 @@ const STEP: f64 = 0.01;
 /// Rounds, of which the median counts; all ways take turns.
 const ROUNDS: usize = 3;
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let mut scene = bench.case("soft_pendulum/scene.json")?;
     scene["bodies"][0]["elements"] = 8.into();

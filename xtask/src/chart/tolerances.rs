@@ -20,7 +20,10 @@ const RESTING: [&str; 4] = ["boom", "cantilever", "crane", "hanging_cable"];
 const FORCES: &str =
     "reaction reaction_moment axial_force bending_moment force moment acceleration strain";
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let header = "scene,output,kind,class,tolerance,method,steps,error,over_tolerance,named";
     let mut csv = Csv::new(bench, "tolerances", header);

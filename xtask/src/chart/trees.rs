@@ -65,7 +65,10 @@ struct Timed {
     cpu_times: Vec<f64>,
 }
 
-/// Measures.
+/// Measures the chart.
+///
+/// # Errors
+/// A run fails, or the file cannot be written.
 pub fn measure(bench: &Bench) -> Result<()> {
     let mut server = Server::start(bench.workspace(), TREES)?;
     let header = "scene,bodies,program,model,method,setting,steps,error_m,cpu_time_s";

@@ -19,7 +19,11 @@ struct Axis {
 pub struct Axes(Vec<Axis>);
 
 impl Axes {
-    /// From `NAME=FROM:TO:COUNT`, `NAME=A,B,...` and `NAME=@FILE.csv`; columns of files move together, line by line.
+    /// Reads `NAME=FROM:TO:COUNT`, `NAME=A,B,...` and `NAME=@FILE.csv`. Columns of one file move together, line by
+    /// line.
+    ///
+    /// # Errors
+    /// An axis of another form, a file that cannot be read, or a name that is varied twice.
     pub fn parse(given: &[String]) -> Result<Self> {
         let mut axes: Vec<Axis> = Vec::new();
         let mut samples: Option<usize> = None;

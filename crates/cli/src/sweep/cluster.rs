@@ -15,7 +15,10 @@ use crate::reading::is_fmu;
 /// Says which Python has the package: its own `flexbody` sets it.
 const PYTHON: &str = "FLEXBODY_PYTHON";
 
-/// Runs what is missing, and hands every run on as it is finished.
+/// Runs the missing runs on a cluster, and passes each finished one to `take`.
+///
+/// # Errors
+/// A cluster that cannot be reached, or an error of `take`.
 pub fn run(
     arguments: &Sweep,
     common: &Common,

@@ -21,7 +21,10 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens that of a sweep; lines of one that was stopped count, half a line does not.
+    /// Opens the journal of a sweep. It keeps the complete lines of a sweep that was stopped.
+    ///
+    /// # Errors
+    /// A file that cannot be read or written.
     pub fn open(path: PathBuf, sweep: &Value, count: usize) -> Result<Self> {
         // A pipe would keep waiting.
         let path = destination(&path)?;
@@ -91,6 +94,9 @@ impl Journal {
     }
 
     /// Adds a finished run.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn add(&mut self, run: usize, outcome: &Outcome) -> Result<()> {
         let at = self.end;
         self.append(&format!("{}\n", outcome.to_json(run)))?;
@@ -107,6 +113,9 @@ impl Journal {
     }
 
     /// Reads the outcome of a finished run.
+    ///
+    /// # Errors
+    /// A run that is not finished, or a line that is damaged.
     pub fn outcome(&mut self, run: usize) -> Result<Outcome> {
         let at = self.lines[run].with_context(|| format!("run {run} is not finished"))?;
         self.file.seek(SeekFrom::Start(at))?;
@@ -117,7 +126,10 @@ impl Journal {
         found.with_context(|| format!("{}: run {run} is damaged", self.place()))
     }
 
-    /// Removes the file: all is written elsewhere.
+    /// Removes the file after all results are written elsewhere.
+    ///
+    /// # Errors
+    /// The file cannot be removed.
     pub fn remove(self) -> Result<()> {
         let removed = std::fs::remove_file(&self.path);
         removed.with_context(|| format!("cannot remove {}", shown(&self.path)))

@@ -114,7 +114,10 @@ struct Common {
     step: f64,
 }
 
-/// Runs a sweep, or what is left of one, and says where its results are.
+/// Runs a sweep, or the missing runs of one, and prints where its results are.
+///
+/// # Errors
+/// A scene or an axis that is not valid, or a file that cannot be read or written.
 pub fn sweep(arguments: &Sweep) -> Result<()> {
     let common = Common::new(arguments)?;
     let output = destination(&arguments.output).context("--output")?;

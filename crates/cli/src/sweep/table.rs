@@ -29,6 +29,9 @@ enum Column {
 
 /// Writes a row for every run, and one for every run and communication point to `series` where that is wanted. Returns how many runs
 /// failed, which was the first, and why.
+///
+/// # Errors
+/// A file that cannot be read or written.
 pub fn write(
     common: &Common,
     journal: &mut Journal,

@@ -9,7 +9,10 @@ use anyhow::Result;
 
 use super::{Common, Series};
 
-/// Runs what is missing, and hands every run on as it is finished.
+/// Runs the missing runs in threads, and passes each finished one to `take`.
+///
+/// # Errors
+/// Errors of `take`.
 pub fn run(
     common: &Common,
     jobs: Option<NonZeroUsize>,

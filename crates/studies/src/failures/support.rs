@@ -103,7 +103,10 @@ impl Product {
         self.0.set_real(index, value).map_err(|e| e.to_string())
     }
 
-    /// A communication step.
+    /// Advances to `until`, s.
+    ///
+    /// # Errors
+    /// A step that cannot be finished.
     pub fn step(&mut self, until: f64) -> Result<(), StepFailure> {
         self.0.step(until)
     }
@@ -154,8 +157,11 @@ pub struct March<'a> {
 }
 
 impl March<'_> {
-    /// Integrates, showing every state; at the first step that fails or is no longer finite it ends
-    /// with the time of the last good state.
+    /// Integrates and passes every state to `visit`.
+    ///
+    /// # Errors
+    /// Outside, a method that cannot be run, in words. Inside, the time of the last good state if a step fails or is no
+    /// longer finite, s.
     pub fn run(mut self, mut visit: impl FnMut(&State)) -> Outcome<Result<(), f64>> {
         let system = &self.start.assembled.system;
         let (mut state, mut work) = (self.start.state.clone(), self.start.work.clone());
@@ -247,8 +253,11 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Newton's method as textbooks have it: the tangent by central differences, whole steps. The number of
-/// iterations, or `Err` where it does not settle.
+/// Iterates by Newton's method as in textbooks: full steps with a tangent by central differences. Returns the number of
+/// iterations.
+///
+/// # Errors
+/// The iteration does not converge.
 pub fn newton(
     x: &mut [f64],
     size: f64,
@@ -287,7 +296,10 @@ pub fn newton(
     Err(())
 }
 
-/// Newton's method on a scene under its whole load at once, from where it starts.
+/// Finds the equilibrium of a scene under its full load at once, by Newton's method from its start.
+///
+/// # Errors
+/// The iteration does not converge.
 pub fn equilibrium(start: &Start, inputs: &[f64], from: &State) -> Result<State, ()> {
     let system = &start.assembled.system;
     let (mut state, mut work) = (from.clone(), start.work.clone());

@@ -24,7 +24,10 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Puts a scene where an instance of it finds it.
+    /// Writes a scene to the resources of an instance.
+    ///
+    /// # Errors
+    /// A folder or file that cannot be written, in words.
     pub fn new(scene: &Scene) -> Result<Self, String> {
         let folder = std::env::temp_dir().join(format!("flexbody-studies-{}", std::process::id()));
         let in_folder = |error| format!("{}: {error}", folder.display());
@@ -72,7 +75,10 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// `fmi2Instantiate`.
+    /// Calls `fmi2Instantiate`.
+    ///
+    /// # Errors
+    /// The call is refused.
     pub fn new(unit: &Unit) -> Result<Self, String> {
         let callbacks = CallbackFunctions {
             logger: None,
@@ -102,27 +108,42 @@ impl Instance {
         })
     }
 
-    /// `fmi2SetupExperiment`, from time 0.
+    /// Calls `fmi2SetupExperiment`, from time 0.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn set_up(&self) -> Result<(), String> {
         call!(fmi2SetupExperiment, self.component, 0, 0.0, 0.0, 0, 0.0)
     }
 
-    /// `fmi2EnterInitializationMode`.
+    /// Calls `fmi2EnterInitializationMode`.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn enter(&self) -> Result<(), String> {
         call!(fmi2EnterInitializationMode, self.component)
     }
 
-    /// `fmi2ExitInitializationMode`.
+    /// Calls `fmi2ExitInitializationMode`.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn exit(&self) -> Result<(), String> {
         call!(fmi2ExitInitializationMode, self.component)
     }
 
-    /// `fmi2DoStep`.
+    /// Calls `fmi2DoStep`.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn step(&self, time: f64, step: f64) -> Result<(), String> {
         call!(fmi2DoStep, self.component, time, step, 0)
     }
 
-    /// `fmi2SetReal`.
+    /// Calls `fmi2SetReal`.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn set(&self, references: &[u32], values: &[f64]) -> Result<(), String> {
         let (count, values) = (references.len().min(values.len()), values.as_ptr());
         call!(
@@ -134,7 +155,10 @@ impl Instance {
         )
     }
 
-    /// `fmi2GetReal`.
+    /// Calls `fmi2GetReal`.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn get(&self, references: &[u32], values: &mut [f64]) -> Result<(), String> {
         let (count, values) = (references.len().min(values.len()), values.as_mut_ptr());
         call!(
@@ -146,17 +170,26 @@ impl Instance {
         )
     }
 
-    /// `fmi2GetFMUstate`, into the same state every time.
+    /// Calls `fmi2GetFMUstate`, into one state every time.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn save(&mut self) -> Result<(), String> {
         call!(fmi2GetFMUstate, self.component, &raw mut self.state)
     }
 
-    /// `fmi2SetFMUstate` with the state saved last.
+    /// Calls `fmi2SetFMUstate` with the state saved last.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn restore(&mut self) -> Result<(), String> {
         call!(fmi2SetFMUstate, self.component, self.state)
     }
 
-    /// `fmi2SerializeFMUstate` of the state saved last; how many bytes it has.
+    /// Calls `fmi2SerializeFMUstate` with the state saved last. `bytes` takes its size.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn serialize(&self, bytes: &mut Vec<u8>) -> Result<(), String> {
         let mut size = 0;
         call!(
@@ -176,7 +209,10 @@ impl Instance {
         )
     }
 
-    /// `fmi2DeSerializeFMUstate` in place of the state saved last.
+    /// Calls `fmi2DeSerializeFMUstate`, in place of the state saved last.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn deserialize(&mut self, bytes: &[u8]) -> Result<(), String> {
         call!(fmi2FreeFMUstate, self.component, &raw mut self.state)?;
         call!(
@@ -188,7 +224,10 @@ impl Instance {
         )
     }
 
-    /// `fmi2GetRealOutputDerivatives` of one order.
+    /// Calls `fmi2GetRealOutputDerivatives` for one order.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn derivatives(
         &self,
         references: &[u32],
@@ -209,7 +248,10 @@ impl Instance {
         )
     }
 
-    /// `fmi2GetDirectionalDerivative` of outputs by one input.
+    /// Calls `fmi2GetDirectionalDerivative` for outputs by one input.
+    ///
+    /// # Errors
+    /// The call is not answered with `fmi2OK`.
     pub fn directional(
         &self,
         outputs: &[u32],

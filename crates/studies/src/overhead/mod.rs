@@ -32,6 +32,9 @@ pub struct Overhead {
 }
 
 /// Measures and prints the report: CPU times, s.
+///
+/// # Errors
+/// A scene that cannot be read, or a call that is not answered with `fmi2OK`, in words.
 pub fn overhead(arguments: &Overhead) -> Result<(), String> {
     let scene = read(&arguments.scene, &[])?;
     let report = json!({

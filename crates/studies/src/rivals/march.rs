@@ -45,7 +45,10 @@ pub struct Seen {
     pub end: [Vec<f64>; 2],
 }
 
-/// Integrates to every time and looks at markers; `Err` with the time where steps fail or numbers end.
+/// Integrates to every time and records the markers.
+///
+/// # Errors
+/// The time at which steps fail or numbers are no longer finite, s.
 pub fn run(
     system: &mut System,
     kind: Kind,

@@ -44,9 +44,9 @@ pub type Vector = [f64; 2];
 pub struct Motion<'a> {
     /// Coordinates.
     pub q: &'a [f64],
-    /// Their rates.
+    /// Rates of the coordinates.
     pub v: &'a [f64],
-    /// Their accelerations.
+    /// Accelerations of the coordinates.
     pub a: &'a [f64],
 }
 

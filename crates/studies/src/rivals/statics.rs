@@ -10,6 +10,9 @@ const ELASTICA: Vector = [0.445_004_402_246_248_7, 0.810_609_024_880_296_5];
 
 /// A rod of unit length and bending stiffness with EA = GA, clamped at the origin along the first axis, under a force across
 /// its tip and a moment there, both in so many equal parts: its tip. `Err` with the part that has no equilibrium.
+///
+/// # Errors
+/// The first part of the load that has no equilibrium.
 pub fn cantilever(
     choice: Choice,
     slenderness: f64,
@@ -92,7 +95,10 @@ fn equilibrium(
     None
 }
 
-/// Distance of the tip from the elastica under ten times EI/L^2, over L.
+/// Returns the distance of the tip from the elastica under ten times EI/L^2, over L.
+///
+/// # Errors
+/// A load without equilibrium, in words.
 pub fn elastica(choice: Choice, slenderness: f64) -> Result<f64, String> {
     let tip = cantilever(choice, slenderness, [10.0, 0.0], 40);
     let [x, y] = tip.map_err(|part| format!("no equilibrium at part {part}"))?;

@@ -27,7 +27,10 @@ pub trait Line {
     fn accept(&mut self, step: &[f64]);
 }
 
-/// Puts the load on in equal parts; `Err` with the part that has no equilibrium.
+/// Applies the load in equal parts, each to equilibrium.
+///
+/// # Errors
+/// The first part that has no equilibrium.
 pub fn equilibrium<L: Line>(line: &mut L, parts: u32) -> Result<(), u32> {
     (1..=parts).try_for_each(|part| {
         let value = f64::from(part) / f64::from(parts);

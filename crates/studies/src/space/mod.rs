@@ -62,6 +62,9 @@ pub struct Bend {
 }
 
 /// Moves a rod.
+///
+/// # Errors
+/// A scene that cannot be read or a motion that cannot be computed, in words.
 pub fn space(arguments: &Space) -> Result<(), String> {
     let problem = read(&arguments.scene)?;
     match arguments.element.basis().local() {
@@ -72,6 +75,9 @@ pub fn space(arguments: &Space) -> Result<(), String> {
 }
 
 /// Bends a rod.
+///
+/// # Errors
+/// A scene that cannot be read or a load without equilibrium, in words.
 pub fn bend(arguments: &Bend) -> Result<(), String> {
     let problem = read(&arguments.scene)?;
     match arguments.element.basis().local() {
@@ -82,6 +88,9 @@ pub fn bend(arguments: &Bend) -> Result<(), String> {
 }
 
 /// Reads a scene of one straight cable.
+///
+/// # Errors
+/// A file that cannot be read, or a scene of another kind, in words.
 pub fn read(path: &Path) -> Result<Problem, String> {
     let text = std::fs::read_to_string(path).map_err(|e| at(path, e))?;
     let scene = serde_json::from_str(&text).map_err(|e| at(path, e))?;

@@ -22,8 +22,11 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// From a scene of one straight cable, pinned at its start or free, with loads on its start that are
-    /// tables or numbers.
+    /// Reads a scene of one straight cable, pinned at its start or free, with loads on its start that are tables or
+    /// numbers.
+    ///
+    /// # Errors
+    /// A scene of another kind, in words.
     pub fn read(scene: &Value) -> Result<Self, String> {
         let body = &scene["bodies"][0];
         let number = |value: &Value, name: &str| {

@@ -177,8 +177,11 @@ pub fn find<const D: usize>(
     }
 }
 
-/// Closes joints that are apart at `state` little by little, bodies unloaded: to the configuration of least strain
-/// energy near the one described.
+/// Closes the joints that have gaps at `state`, step by step and without loads. The result is the configuration of
+/// least strain energy near the one described.
+///
+/// # Errors
+/// [`NoEquilibrium`] with the fraction of the path that was reached.
 pub(super) fn close<const D: usize>(
     system: &System<D>,
     inputs: &[f64],

@@ -45,7 +45,10 @@ enum Beside {
 }
 
 impl<const D: usize> Newton<'_, '_, D> {
-    /// Lets the system move, damped, until Newton's method finds an equilibrium beside its way.
+    /// Moves the system with damping until Newton's method finds an equilibrium near its path.
+    ///
+    /// # Errors
+    /// [`Failure`] if loads are not conservative, the motion does not come to rest, or the work limit is reached.
     pub(super) fn swing(&mut self, state: &mut State) -> Result<FoundEquilibrium, Failure> {
         // Forces that follow feed a motion: it would end far from where they were applied.
         if !self.is_conservative {

@@ -89,7 +89,10 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         }
     }
 
-    /// An equilibrium where forces balance, stable where that can be had.
+    /// Finds an equilibrium where forces balance, and a stable one if possible.
+    ///
+    /// # Errors
+    /// [`Failure`] if the iteration does not converge, forces do not balance, or the work limit is reached.
     pub(super) fn settle(
         &mut self,
         state: &mut State,
@@ -125,7 +128,10 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         (self.model.is_exhausted()).then_some(Failure::Work)
     }
 
-    /// An equilibrium; on failure the last correction.
+    /// Iterates to an equilibrium.
+    ///
+    /// # Errors
+    /// The last correction if the iteration does not converge.
     pub(super) fn relax(&mut self, state: &mut State, guard: AcceptanceTest) -> Result<(), f64> {
         let (time, size) = (state.time, self.model.system.scale());
         let is_transient = guard == AcceptanceTest::Transient;
