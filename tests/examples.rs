@@ -24,10 +24,10 @@ fn examples() -> Vec<PathBuf> {
         for entry in fs::read_dir(&folder).expect("a folder of examples") {
             let path = entry.expect("a file").path();
             let is_scene = path.extension().is_some_and(|ending| ending == "json");
-            match path.is_dir() {
-                true => open.push(path),
-                false if is_scene => found.push(path),
-                false => {}
+            if path.is_dir() {
+                open.push(path);
+            } else if is_scene {
+                found.push(path);
             }
         }
     }
@@ -82,10 +82,7 @@ fn run(path: &Path) -> Result<(), String> {
     }
     let mut warnings = Vec::new();
     simulation.tell_warnings(|warning| warnings.push(warning.to_string()));
-    match warnings.is_empty() {
-        true => Ok(()),
-        false => Err(warnings.join("; ")),
-    }
+    if warnings.is_empty() { Ok(()) } else { Err(warnings.join("; ")) }
 }
 
 #[test]

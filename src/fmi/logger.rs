@@ -98,10 +98,7 @@ impl Logger {
             (true, 0) if unknown.is_empty() => ALL,
             (true, _) => named,
         };
-        match unknown.is_empty() {
-            true => Ok(()),
-            false => Err(Fault::Category(unknown.join("\", \""))),
-        }
+        if unknown.is_empty() { Ok(()) } else { Err(Fault::Category(unknown.join("\", \""))) }
     }
 
     /// Passes a message on, if its category is enabled. Formats nothing otherwise, so that a

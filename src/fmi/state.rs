@@ -205,10 +205,7 @@ impl SavedState {
             state.driven.as_flattened(),
             slopes.as_flattened(),
             held,
-            match state.dense.length > 0.0 {
-                true => &state.dense.vectors,
-                false => &[],
-            },
+            if state.dense.length > 0.0 { &state.dense.vectors } else { &[] },
         ]
     }
 }
@@ -218,10 +215,7 @@ const PARTS: &str = "holds a part of a driven motion, of an input, of an eigenva
 
 /// Refuses what is left of arrays that are made of equal parts.
 fn whole(rests: [&[f64]; 4]) -> Result<(), Fault> {
-    match rests.iter().all(|rest| rest.is_empty()) {
-        true => Ok(()),
-        false => Err(refused(PARTS)),
-    }
+    if rests.iter().all(|rest| rest.is_empty()) { Ok(()) } else { Err(refused(PARTS)) }
 }
 
 /// Where an instance stood: its lifecycle state, whether it was initialized, whether it was started.
@@ -319,10 +313,7 @@ impl ByteReader<'_> {
         for (array, length) in arrays.iter_mut().zip(lengths) {
             *array = self.array(length)?;
         }
-        match self.0.len() as u64 == scene_length {
-            true => Ok(arrays),
-            false => Err(refused("is not as long as it says")),
-        }
+        if self.0.len() as u64 == scene_length { Ok(arrays) } else { Err(refused("is not as long as it says")) }
     }
 
     fn array(&mut self, length: u64) -> Result<Vec<f64>, Fault> {

@@ -38,10 +38,12 @@ fn path(uri: &str, on_windows: bool) -> Result<String, LocationError> {
         Some(after) => {
             let root = after.find('/').ok_or_else(scheme)?;
             let (host, path) = after.split_at(root);
-            match host.is_empty() || host.eq_ignore_ascii_case("localhost") {
-                true => path,
-                false if on_windows => rest,
-                false => return Err(LocationError::Host(uri.into())),
+            if host.is_empty() || host.eq_ignore_ascii_case("localhost") {
+                path
+            } else if on_windows {
+                rest
+            } else {
+                return Err(LocationError::Host(uri.into()));
             }
         }
     };

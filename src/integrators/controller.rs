@@ -41,10 +41,7 @@ impl Pitch {
         match self.0 {
             Some(apart) if wanted < FEW * apart || !is_free => {
                 let pieces = (apart / wanted).ceil().max(1.0);
-                match pieces < FEW {
-                    true => (1.0 + ROUNDOFF) * apart / pieces,
-                    false => wanted,
-                }
+                if pieces < FEW { (1.0 + ROUNDOFF) * apart / pieces } else { wanted }
             }
             _ => wanted,
         }
@@ -148,10 +145,7 @@ impl Controller {
     /// would cost a step of its own.
     pub fn trial(wanted: f64, remaining: f64) -> Trial {
         let pieces = (remaining / wanted).ceil().max(1.0);
-        let h = match pieces < FEW {
-            true => remaining / pieces,
-            false => wanted,
-        };
+        let h = if pieces < FEW { remaining / pieces } else { wanted };
         Trial {
             is_last: pieces <= 1.0,
             is_cut: h < wanted,
@@ -167,10 +161,7 @@ impl Controller {
         let next = next.min(self.ceiling);
         self.grow = GROW;
         // A step cut short by the communication point says nothing against the longer one.
-        match trial.is_cut {
-            true => next.max(before).min(self.ceiling),
-            false => next,
-        }
+        if trial.is_cut { next.max(before).min(self.ceiling) } else { next }
     }
 
     /// The length to propose after a step that was not accepted.
@@ -205,13 +196,10 @@ mod tests {
         for _ in 0..20 {
             let trial = Controller::trial(step, 1e9);
             let error = error(trial.h, 1e-3);
-            step = match error <= 1.0 {
-                true => controller.accept(trial, error, step),
-                false => {
+            step = if error <= 1.0 { controller.accept(trial, error, step) } else {
                     rejected += 1;
                     controller.reject(trial, Attempt::Done(error))
-                }
-            };
+                };
         }
         assert!((step / 1e-3 - SAFETY).abs() < 1e-12, "{step}");
         assert!(rejected <= 6, "{rejected}");

@@ -116,10 +116,11 @@ impl Scene {
             } else {
                 path
             };
-            match is_told {
-                true => Error::new(path, error.inner().to_string()),
+            if is_told {
+                Error::new(path, error.inner().to_string())
+            } else {
                 // The line and the column say where.
-                false => Error::new("scene", broken(error.into_inner())),
+                Error::new("scene", broken(error.into_inner()))
             }
         })?;
         json.end()

@@ -277,10 +277,11 @@ impl<const D: usize> Engine<D> {
         if result.is_ok() {
             self.watch(state, inputs, counts.steps, state.time - start);
         }
-        state.work[0] = match state.time == start {
+        state.work[0] = if state.time == start {
             // Nothing has been done, not even by roundoff.
-            true => work,
-            false => state.work[0] - self.set_energy(state, inputs),
+            work
+        } else {
+            state.work[0] - self.set_energy(state, inputs)
         };
         self.forget();
         self.watch_mesh(state, inputs);

@@ -142,10 +142,7 @@ impl<const D: usize> Winch<D> {
     /// The node at the winch.
     pub fn end(&self) -> usize {
         let [first, count] = self.nodes;
-        match self.at_last {
-            true => first + count - 1,
-            false => first,
-        }
+        if self.at_last { first + count - 1 } else { first }
     }
 
     /// How long the cable is.
@@ -170,10 +167,7 @@ impl<const D: usize> Winch<D> {
     /// `xi L_0` at a place in an element, m; negative where the way from the winch leads to the first end.
     fn way(&self, chain: &LineChain<D>, element: usize, at: f64) -> f64 {
         let place = self.starts[element] + at * chain.element_length(element);
-        match self.at_last {
-            true => -place,
-            false => self.length - place,
-        }
+        if self.at_last { -place } else { self.length - place }
     }
 
     /// Velocity at which material passes a place of the mesh, `xi c L_0 r'`, m/s.
@@ -253,10 +247,7 @@ impl<const D: usize> Winch<D> {
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         now: &Length<N>,
     ) -> N {
-        let (j, xi) = match self.at_last {
-            true => (chain.elements().len() - 1, 1.0),
-            false => (0, 0.0),
-        };
+        let (j, xi) = if self.at_last { (chain.elements().len() - 1, 1.0) } else { (0, 0.0) };
         let (element, [e, rates]) = (&chain.elements()[j], [x, v].map(|of| chain.element(j, of)));
         let l = element.length();
         let place = e * shape::values(N::of(xi), l);

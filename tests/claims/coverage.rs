@@ -176,17 +176,15 @@ fn complaints(key: &str, records: &Records) -> Vec<String> {
     let mut found = Vec::new();
     let is_one_of_several = TOGETHER.iter().any(|start| key.starts_with(start));
     let choice = key.ends_with('}') || SINGLE.contains(&key) || is_one_of_several;
-    let holds = match changed.is_empty() {
-        true => !planted.is_empty() && refused(planted),
-        // What goes in and what goes out may change places with the kind.
-        false if key.ends_with('}') && changed.iter().any(stuck) => true,
-        false => noticed(changed) || (choice && refused(changed)),
+    let holds = if changed.is_empty() {
+        !planted.is_empty() && refused(planted)
+    } else {
+        // Inputs and outputs may change places with the kind.
+        let is_stuck = key.ends_with('}') && changed.iter().any(stuck);
+        is_stuck || noticed(changed) || (choice && refused(changed))
     };
     if !holds && !of(Deed::Clashed).iter().any(taken) {
-        let what = match changed.is_empty() {
-            true => "no specimen has it",
-            false => "no claim notices a change",
-        };
+        let what = if changed.is_empty() { "no specimen has it" } else { "no claim notices a change" };
         found.push(told(what, changed));
     }
     // Without it there may be no start.

@@ -58,10 +58,7 @@ macro_rules! keys {
                 Parameter::BushingTurningDamping(..) => of_bushing(scene, variable, "N.m.s/rad"),
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
                 Parameter::Rotation(axis) => {
-                    let place = match scene["rotation"].is_array() {
-                        true => format!("/rotation/{axis}"),
-                        false => "/rotation".into(),
-                    };
+                    let place = if scene["rotation"].is_array() { format!("/rotation/{axis}") } else { "/rotation".into() };
                     ("Rotation", place, "rad/s")
                 }
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
@@ -390,10 +387,7 @@ fn parameters_out_of_their_limits_are_those_that_are_refused() {
                 continue;
             }
             let before = simulation.setting(index);
-            let mut set = |value: f64| match is_integer {
-                true => simulation.set_integer(index, value as i32).is_ok(),
-                false => simulation.set_real(index, value).is_ok(),
-            };
+            let mut set = |value: f64| if is_integer { simulation.set_integer(index, value as i32).is_ok() } else { simulation.set_real(index, value).is_ok() };
             let [least, greatest] = limits[&name];
             for value in [-1.0, 2e5] {
                 let is_within = least.is_none_or(|least| value >= least)

@@ -346,10 +346,7 @@ pub fn expansion(system: &System) -> DMatrix<f64> {
             flat(&system.chains()[0], &expand(system, &q))
         })
         .collect();
-    match columns.is_empty() {
-        true => DMatrix::zeros(8 * system.chains()[0].elements().len(), 0),
-        false => DMatrix::from_columns(&columns),
-    }
+    if columns.is_empty() { DMatrix::zeros(8 * system.chains()[0].elements().len(), 0) } else { DMatrix::from_columns(&columns) }
 }
 
 /// The transposed matrix as `reduce` applies it to forces on elements, column by column.

@@ -171,15 +171,9 @@ fn moved_joint(plane: &Plane, flat: &Value) -> Value {
     let mut joint = flat.clone();
     let on_ground = flat["markers"][0] == "ground";
     if flat["kind"] == "revolute" {
-        joint["direction"] = match on_ground {
-            true => json!(plane.normal()),
-            false => json!([0.0, 0.0, 1.0]),
-        };
+        joint["direction"] = if on_ground { json!(plane.normal()) } else { json!([0.0, 0.0, 1.0]) };
     } else if !flat["direction"].is_null() {
-        joint["direction"] = match on_ground {
-            true => json!(plane.vector(pair(&flat["direction"]))),
-            false => along_axes(&flat["direction"]),
-        };
+        joint["direction"] = if on_ground { json!(plane.vector(pair(&flat["direction"]))) } else { along_axes(&flat["direction"]) };
     }
     joint
 }

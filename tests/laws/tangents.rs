@@ -144,10 +144,7 @@ fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     };
     let values = moving.evaluated();
     let [x, v, a] = [&values.x, &values.v, &values.acceleration].map(|x| mechanism.apart(x));
-    let weakest = match mechanism.missing(0.0, &x).is_empty() {
-        true => 1.0,
-        false => mechanism.augmented(0.0, (&x, &v), &a).weakest,
-    };
+    let weakest = if mechanism.missing(0.0, &x).is_empty() { 1.0 } else { mechanism.augmented(0.0, (&x, &v), &a).weakest };
     let [basis, stiffness, damping] =
         linearized(&moving.system, &[], &mut moving.work, &moving.state);
     let (system, n) = (&moving.system, moving.system.coordinates());

@@ -92,10 +92,10 @@ fn list(folder: &Path, files: &mut Vec<PathBuf>) -> Result<()> {
     for entry in entries {
         let path = entry.with_context(|| shown(folder))?.path();
         let is_left_out = LEFT_OUT.iter().any(|name| path.ends_with(name));
-        match path.is_dir() {
-            true if is_left_out => (),
-            true => list(&path, files)?,
-            false => files.push(path),
+        if !path.is_dir() {
+            files.push(path);
+        } else if !is_left_out {
+            list(&path, files)?;
         }
     }
     Ok(())

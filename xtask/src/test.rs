@@ -111,10 +111,7 @@ pub fn test(workspace: &Workspace, words: &[String], all: bool) -> Result<()> {
         let started = Instant::now();
         let is_asked_for = all || !words.is_empty() || check.folders.is_empty();
         let hash = hash_of(workspace, check.folders)?;
-        let outcome = match is_asked_for || !recorded.holds(check.name, &hash) {
-            true => (check.run)(workspace, all).with_context(|| format!("{place} failed"))?,
-            false => Outcome::Unchanged,
-        };
+        let outcome = if is_asked_for || !recorded.holds(check.name, &hash) { (check.run)(workspace, all).with_context(|| format!("{place} failed"))? } else { Outcome::Unchanged };
         if outcome == Outcome::Passed && !check.folders.is_empty() {
             recorded.note(check.name, hash)?;
         }
@@ -261,10 +258,7 @@ fn browser_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
     run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "load"]))?;
     // Without one, tests that need it have been skipped, and have said so.
     let driver = Command::new("chromedriver").arg("--version").output();
-    Ok(match driver.is_ok() {
-        true => Outcome::Passed,
-        false => Outcome::Skipped,
-    })
+    Ok(if driver.is_ok() { Outcome::Passed } else { Outcome::Skipped })
 }
 
 fn studies(workspace: &Workspace) -> Result<Outcome> {
@@ -272,10 +266,7 @@ fn studies(workspace: &Workspace) -> Result<Outcome> {
 }
 
 fn fuzzing(workspace: &Workspace) -> Result<Outcome> {
-    Ok(match fuzz::test(workspace)? {
-        true => Outcome::Passed,
-        false => Outcome::Skipped,
-    })
+    Ok(if fuzz::test(workspace)? { Outcome::Passed } else { Outcome::Skipped })
 }
 
 /// Not all masters have packages for other platforms than this one.

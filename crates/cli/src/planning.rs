@@ -38,10 +38,7 @@ impl Within {
 fn seconds(text: &str) -> Result<f64, String> {
     let expected = || format!("expected a positive number of seconds, found \"{text}\"");
     let seconds: f64 = text.parse().map_err(|_| expected())?;
-    match seconds > 0.0 && seconds <= 1e6 {
-        true => Ok(seconds),
-        false => Err(expected()),
-    }
+    if seconds > 0.0 && seconds <= 1e6 { Ok(seconds) } else { Err(expected()) }
 }
 
 /// Which scene, and where to write.
@@ -193,10 +190,7 @@ fn json(plan: &Plan) -> String {
             Settles::Until(time) => format!("false, \"until\": {time:?}"),
             Settles::No => "false, \"until\": 0.0".to_owned(),
         };
-        let error = match output.error.is_finite() {
-            true => format!("{:?}", output.error),
-            false => "null".into(),
-        };
+        let error = if output.error.is_finite() { format!("{:?}", output.error) } else { "null".into() };
         format!(
             "{{\"name\": \"{}\", \"error\": {error}, \"scale\": {:?}, \"skips_start\": {}, \"settles\": {settles}}}",
             output.name, output.scale, output.skips_start

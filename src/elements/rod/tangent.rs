@@ -303,10 +303,7 @@ impl<N: Real> Geometry<N> {
                 let factor = a * b * l;
                 for r in 0..3 {
                     for c in 0..3 {
-                        let value = match i <= j {
-                            true => sum.blocks[i][j][r][c],
-                            false => sum.blocks[j][i][c][r],
-                        };
+                        let value = if i <= j { sum.blocks[i][j][r][c] } else { sum.blocks[j][i][c][r] };
                         matrix[p + r][q + c] = value * factor;
                     }
                 }

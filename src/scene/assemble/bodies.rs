@@ -371,10 +371,7 @@ fn build_elements<const D: usize>(
         };
         let added = |xi: f64| added(&numbers_along(body, s)(xi));
         let mut taper = cable::SectionVariation {
-            added: match body.stations.is_empty() {
-                true => ElementPolynomial::from(added(0.5)),
-                false => ElementPolynomial::through(added),
-            },
+            added: if body.stations.is_empty() { ElementPolynomial::from(added(0.5)) } else { ElementPolynomial::through(added) },
             ..cable::SectionVariation::default()
         };
         if !body.stations.is_empty() {

@@ -17,10 +17,7 @@ impl Scene {
     pub(super) fn validate_accuracy(&self) -> Result<(), Error> {
         let within = |key: &str, range: &RangeInclusive<f64>, value: f64| {
             let wanted = format!("a number from {:e} to {:e}", range.start(), range.end());
-            match range.contains(&value) {
-                true => Ok(()),
-                false => Err(expected(&format!("accuracy.{key}"), &wanted, value)),
-            }
+            if range.contains(&value) { Ok(()) } else { Err(expected(&format!("accuracy.{key}"), &wanted, value)) }
         };
         within("relative_tolerance", &TOLERANCE, self.relative_tolerance())?;
         for (place, course) in self.accuracy.input_profiles.iter().enumerate() {
@@ -56,14 +53,13 @@ impl Scene {
             };
             let (key, stop) = (format!("{path}.duration"), self.experiment.stop_time);
             let is_ramp = course.course.unwrap_or_default() == Course::Ramp;
-            return match is_ramp && duration > 0.0 && duration <= stop {
-                true => Ok(()),
-                false if is_ramp => Err(expected(
-                    &key,
-                    &format!("more than 0 and at most {stop} s"),
-                    duration,
-                )),
-                false => Err(expected(&key, "nothing, but of a ramp", duration)),
+            return if !is_ramp {
+                Err(expected(&key, "nothing, but of a ramp", duration))
+            } else if duration > 0.0 && duration <= stop {
+                Ok(())
+            } else {
+                let wanted = format!("more than 0 and at most {stop} s");
+                Err(expected(&key, &wanted, duration))
             };
         };
         let others = [course.course.is_some(), course.duration.is_some()];

@@ -60,10 +60,7 @@ impl<'a> Resolved<'a> {
                 return Err(expected(&path, wanted, quoted(of)));
             }
             input.validate_start(&path, self.scene.dimension)?;
-            let start = match input.start.is_empty() {
-                true => start,
-                false => input.start.clone(),
-            };
+            let start = if input.start.is_empty() { start } else { input.start.clone() };
             self.inputs.push(resolved::Input { kind, first, start });
             first += input.components(self.scene.dimension);
         }

@@ -175,10 +175,7 @@ impl<'a> Resolved<'a> {
             ActsOn::Marker => {
                 let (at, name) = named("marker", marker)?;
                 // A direction is what a moment turns and what a follower turns with.
-                On::Marker(match follower || !kind.is_force() {
-                    true => self.require_spinning(&at, name)?,
-                    false => self.require_marker(&at, name)?,
-                })
+                On::Marker(if follower || !kind.is_force() { self.require_spinning(&at, name)? } else { self.require_marker(&at, name)? })
             }
             ActsOn::Joint => {
                 let (at, name) = named("joint", joint)?;

@@ -212,14 +212,11 @@ impl<'a> Resolved<'a> {
         };
         let [_, second] = &gear.coordinates;
         if second.is_angle() != (output.kind == OutputKind::GearTorque) {
-            let wanted = match second.is_angle() {
-                true => {
+            let wanted = if second.is_angle() {
                     "a gear whose second coordinate is a displacement; gear_torque reads angles"
-                }
-                false => {
+                } else {
                     "a gear whose second coordinate is an angle; gear_force reads displacements"
-                }
-            };
+                };
             return Err(expected(&path, wanted, quoted(name)));
         }
         Ok(Of::Gear(gear.name, gear.holder))
@@ -237,12 +234,9 @@ impl<'a> Resolved<'a> {
         if load.kind.exerts()[usize::from(is_moment)] {
             return Ok(Of::Load(load.name, id, load.kind.exerts_on()));
         }
-        let wanted = match is_moment {
-            false => {
+        let wanted = if is_moment { "a bushing, or a joint_spring or stop on an angle" } else {
                 "a spring_damper, bushing or contact, or a joint_spring or stop on a displacement"
-            }
-            true => "a bushing, or a joint_spring or stop on an angle",
-        };
+            };
         Err(expected(&path, wanted, quoted(name)))
     }
 
@@ -254,10 +248,7 @@ impl<'a> Resolved<'a> {
         let name = needed(path, "joint", "a name", output.joint.as_deref())?;
         let path = format!("{path}.joint");
         let joint = self.require_joint(&path, name)?;
-        let (wanted, offered) = match is_moment {
-            false => ("a joint that transmits a force", joint.holds_position()),
-            true => ("a joint that transmits a moment", joint.holds_direction()),
-        };
+        let (wanted, offered) = if is_moment { ("a joint that transmits a moment", joint.holds_direction()) } else { ("a joint that transmits a force", joint.holds_position()) };
         if !offered {
             return Err(expected(&path, wanted, quoted(name)));
         }
@@ -287,10 +278,7 @@ impl<'a> Resolved<'a> {
             MotionKind::Angle(..) | MotionKind::Orientation(..)
         );
         if turns != is_moment {
-            let wanted = match is_moment {
-                true => "a motion driven by a moment",
-                false => "a motion driven by a force",
-            };
+            let wanted = if is_moment { "a motion driven by a moment" } else { "a motion driven by a force" };
             return Err(expected(path, wanted, quoted(name)));
         }
         Ok(Reaction {

@@ -76,10 +76,12 @@ impl<'a> Resolved<'a> {
             port.validate_keys(&path)?;
             port.validate_springs(&path)?;
             let is_spatial = self.scene.dimension == 3;
-            let marker = match port.turns() {
-                true if port.drives() && is_spatial => self.require_driven(&place, &port.marker)?,
-                true => self.require_spinning(&place, &port.marker)?,
-                false => self.require_marker(&place, &port.marker)?,
+            let marker = if !port.turns() {
+                self.require_marker(&place, &port.marker)?
+            } else if port.drives() && is_spatial {
+                self.require_driven(&place, &port.marker)?
+            } else {
+                self.require_spinning(&place, &port.marker)?
             };
             if port.drives() {
                 for is_angle in [false, true]
@@ -87,10 +89,7 @@ impl<'a> Resolved<'a> {
                     .take(1 + usize::from(port.turns()))
                 {
                     if !driven.insert((is_angle, marker.name)) {
-                        let wanted = match is_angle {
-                            true => "a marker whose direction is not driven yet",
-                            false => "a marker that is not driven yet",
-                        };
+                        let wanted = if is_angle { "a marker whose direction is not driven yet" } else { "a marker that is not driven yet" };
                         return Err(expected(&place, wanted, quoted(&port.marker)));
                     }
                 }

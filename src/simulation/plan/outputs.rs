@@ -245,10 +245,7 @@ pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, Relati
         let natural = group.members.iter().map(|m| run.natural[*m]);
         let natural = natural.fold(0.0, f64::max);
         let deformed = run.deformed.iter().copied().fold(0.0, f64::max);
-        let nothing = match group.measure == Measure::Elastic && deformed <= NOTHING * run.size {
-            true => STIFF * natural,
-            false => NOTHING * natural,
-        };
+        let nothing = if group.measure == Measure::Elastic && deformed <= NOTHING * run.size { STIFF * natural } else { NOTHING * natural };
         match (changes[index], like(groups, index, &changes)) {
             (_, by_body) if by_body <= nothing => (SMALLEST * natural, RelativeTo::Scene),
             (change, by_body) if change < by_body => (by_body, RelativeTo::Body),
@@ -270,10 +267,7 @@ pub(super) fn difference(
     for point in points(group, closer) {
         let (a, b) = (at(group, run, point), at(group, closer, point));
         let apart: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
-        let relative = match size > 0.0 {
-            true => norm(&apart) / size,
-            false => 0.0,
-        };
+        let relative = if size > 0.0 { norm(&apart) / size } else { 0.0 };
         if relative > limit && found.until.is_none() {
             found.until = Some(closer.times[point.saturating_sub(1)]);
         }

@@ -120,17 +120,11 @@ impl Plan {
         };
         let bodies = self.bodies.iter().filter(|body| body.fewest.is_some());
         let bodies: Vec<String> = bodies.map(body).collect();
-        let bodies = match bodies.is_empty() {
-            true => String::new(),
-            false => format!("{}, ", bodies.join(", ")),
-        };
-        let held = match self.held.is_empty() {
-            true => String::new(),
-            false => format!(
+        let bodies = if bodies.is_empty() { String::new() } else { format!("{}, ", bodies.join(", ")) };
+        let held = if self.held.is_empty() { String::new() } else { format!(
                 "; inputs held at their start values: {} (the mesh follows from the linear answers to them)",
                 self.held.join(", ")
-            ),
-        };
+            ) };
         format!(
             "planned for an error of {:e}: {bodies}relative tolerance {:e}{held}",
             self.error, self.tolerance
@@ -240,8 +234,5 @@ impl Price {
 }
 
 fn in_words(error: f64) -> String {
-    match error.is_finite() {
-        true => format!("{error:.1e}"),
-        false => "not known".into(),
-    }
+    if error.is_finite() { format!("{error:.1e}") } else { "not known".into() }
 }

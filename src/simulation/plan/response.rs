@@ -89,10 +89,7 @@ impl Responses {
             let size = like(groups, index, &sizes);
             let pairs = values(group, own).into_iter().zip(values(group, fine));
             let apart: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
-            match size > 0.0 {
-                true => norm(&apart) / size,
-                false => 0.0,
-            }
+            if size > 0.0 { norm(&apart) / size } else { 0.0 }
         });
         differences.fold(0.0, f64::max)
     }

@@ -33,10 +33,7 @@ impl Search<'_, '_> {
                 ladder.add(&tried, found);
                 break;
             }
-            match tried.elements.contains(&0) {
-                true => self.resolve(&mut closer),
-                false => self.tighten(&tried, &mut closer),
-            }
+            if tried.elements.contains(&0) { self.resolve(&mut closer) } else { self.tighten(&tried, &mut closer) }
             match self.compare(&tried, &closer, self.error) {
                 Ok(found) => ladder.add(&tried, found),
                 Err(Unfinished::TooMuchWork) => break,
@@ -58,10 +55,7 @@ impl Search<'_, '_> {
             tried = closer;
         }
         let Some((best, found)) = ladder.best() else {
-            return Ok(match self.is_any_free() {
-                true => self.unknown(),
-                false => vec![Difference::NONE; self.compared()],
-            });
+            return Ok(if self.is_any_free() { self.unknown() } else { vec![Difference::NONE; self.compared()] });
         };
         *choice = best;
         Ok(self.economize(choice, found))
@@ -76,17 +70,11 @@ impl Search<'_, '_> {
             closer.clone_from(choice);
         }
         self.coarsen_one_by_one(choice, &closer, &found);
-        let last = match closer == *choice {
-            true => Vec::new(),
-            false => self
+        let last = if closer == *choice { Vec::new() } else { self
                 .compare(choice, &closer, self.error)
-                .unwrap_or_default(),
-        };
+                .unwrap_or_default() };
         let worst = |(a, b): (&Difference, &Difference)| a.worst(*b);
-        match last.is_empty() {
-            true => found,
-            false => found.iter().zip(&last).map(worst).collect(),
-        }
+        if last.is_empty() { found } else { found.iter().zip(&last).map(worst).collect() }
     }
 
     /// Whether what the last rung changed and all doublings to come would leaves enough to the tolerance.

@@ -256,10 +256,7 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
             (load, format!("{load} on {on}"))
         }
         Of::Reaction(reaction) => {
-            let on = match reaction.is_motion {
-                true => "what it drives",
-                false => "its second marker",
-            };
+            let on = if reaction.is_motion { "what it drives" } else { "its second marker" };
             (reaction.name, format!("{} on {on}", reaction.name))
         }
         Of::Scene => ("", String::new()),

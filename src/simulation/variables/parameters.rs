@@ -284,20 +284,14 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
                 let starts = [spring.stiffness, spring.damping];
                 (starts, along, [SpringStiffness(i), SpringDamping(i)])
             }
-            LoadKind::JointSpring { on, sizes, .. } => match on.is_angle() {
-                true => (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)]),
-                false => (*sizes, along, [SpringStiffness(i), SpringDamping(i)]),
-            },
-            LoadKind::JointLimit { on, sizes, .. } => match on.is_angle() {
-                true => {
+            LoadKind::JointSpring { on, sizes, .. } => if on.is_angle() { (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)]) } else { (*sizes, along, [SpringStiffness(i), SpringDamping(i)]) },
+            LoadKind::JointLimit { on, sizes, .. } => if on.is_angle() {
                     let parameters = [TorsionStiffness(i), TorsionStopDamping(i)];
                     (*sizes, [about[0], SECOND_PER_RADIAN], parameters)
-                }
-                false => {
+                } else {
                     let parameters = [SpringStiffness(i), StopDamping(i)];
                     (*sizes, [along[0], SECOND_PER_METRE], parameters)
-                }
-            },
+                },
         };
         list.damper(load.name, units, parameters, starts);
     }

@@ -73,10 +73,12 @@ impl<const D: usize> Spring<D> {
         let (unit, length, _) = self.stretch(at);
         let along: SMatrix<f64, D, D> = unit * unit.transpose();
         // A spring in compression pushes itself aside; that part stays out where it has no direction.
-        let turn = match length > 0.0 {
-            true => self.tension(at) / length,
-            false if self.rest(at) == 0.0 => self.stiffness,
-            false => 0.0,
+        let turn = if length > 0.0 {
+            self.tension(at) / length
+        } else if self.rest(at) == 0.0 {
+            self.stiffness
+        } else {
+            0.0
         };
         let k = along * self.stiffness + (SMatrix::identity() - along) * turn;
         between(&self.ends, k, 0, stiffness);

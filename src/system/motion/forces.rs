@@ -251,13 +251,10 @@ impl<const D: usize> System<D> {
     ) {
         let assembly = &self.elimination.assembly;
         let shortened;
-        let block = match self.winches.is_empty() {
-            true => block,
-            false => {
+        let block = if self.winches.is_empty() { block } else {
                 shortened = self.shorten_block((a, b), drives, block);
                 &shortened
-            }
-        };
+            };
         if self.has_no_frames() {
             return assembly.add(a, b, block, matrix);
         }

@@ -185,10 +185,7 @@ impl<const D: usize> System<D> {
             &view,
             &mut right,
             |end| end.velocity(&work.other),
-            |constraint, view| match is_driven {
-                true => constraint.bias(view) + constraint.along(view, &work.other),
-                false => constraint.bias(view),
-            },
+            |constraint, view| if is_driven { constraint.bias(view) + constraint.along(view, &work.other) } else { constraint.bias(view) },
             false,
         );
         work.right = right;
@@ -267,14 +264,8 @@ impl<const D: usize> System<D> {
         self.fill_right(
             &view,
             &mut right,
-            |end| match is_position {
-                true => end.position(&work.x),
-                false => end.velocity(&work.v),
-            },
-            |constraint, view| match is_position {
-                true => constraint.value(view),
-                false => constraint_rate(constraint, view),
-            },
+            |end| if is_position { end.position(&work.x) } else { end.velocity(&work.v) },
+            |constraint, view| if is_position { constraint.value(view) } else { constraint_rate(constraint, view) },
             is_position,
         );
         let mut largest = 0.0;

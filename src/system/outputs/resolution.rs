@@ -57,10 +57,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             }
         }
         // Curvatures are those by reference length, by which elements have not become longer.
-        match largest > N::of(0.0) {
-            true => largest.root() * system.length_now(chain, &self.drives).longer_by(),
-            false => largest,
-        }
+        if largest > N::of(0.0) { largest.root() * system.length_now(chain, &self.drives).longer_by() } else { largest }
     }
 }
 
@@ -83,10 +80,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         let [a, b] = sums.map(|sum| sum.norm_squared());
         let square = if a > b { a } else { b };
-        match square > N::of(0.0) {
-            true => square.root() * system.length_now(chain, &self.drives).longer_by(),
-            false => square,
-        }
+        if square > N::of(0.0) { square.root() * system.length_now(chain, &self.drives).longer_by() } else { square }
     }
 }
 

@@ -19,10 +19,7 @@ pub(super) fn sort(found: &mut [Complex<f64>]) {
             .iter()
             .take_while(|s| near(s.norm(), size))
             .count();
-        let order = |a: &Complex<f64>, b: &Complex<f64>| match near(a.im, b.im) {
-            true => a.re.total_cmp(&b.re),
-            false => a.im.total_cmp(&b.im),
-        };
+        let order = |a: &Complex<f64>, b: &Complex<f64>| if near(a.im, b.im) { a.re.total_cmp(&b.re) } else { a.im.total_cmp(&b.im) };
         found[first..first + alike].sort_by(order);
         first += alike;
     }
@@ -87,11 +84,12 @@ pub(super) fn quadratic(
     // Stiffness of bodies that turn is what is left of terms as large as squares of gyroscopic rates.
     let gyroscopic = 0.5 * (damping - damping.transpose()).amax();
     let noise = ROUNDOFF * (2 * n) as f64 * size.max(gyroscopic * gyroscopic);
-    let root = match skew <= 1e-13 * size {
+    let root = if skew <= 1e-13 * size {
         // Pivots of roundoff have roots of any size: singular matrices have none.
-        true => (stiffness.clone().cholesky().map(|c| c.l()))
-            .filter(|l| l.diagonal().iter().all(|d| d * d > noise)),
-        false => None,
+        (stiffness.clone().cholesky().map(|c| c.l()))
+            .filter(|l| l.diagonal().iter().all(|d| d * d > noise))
+    } else {
+        None
     };
     let rate = match size.sqrt() {
         0.0 => 1.0,

@@ -142,21 +142,19 @@ impl Master<'_> {
 
     fn set_up_experiment(&mut self, bytes: &mut Bytes<'_>) {
         let hostile = bytes.once_in(4);
-        let mut number = |usual: &[f64]| match hostile {
-            true => bytes.number(),
-            false => bytes.pick(usual),
-        };
+        let mut number = |usual: &[f64]| if hostile { bytes.number() } else { bytes.pick(usual) };
         let tolerance = number(&[1e-4, 5e-5, 2e-4]);
         let start = number(&[0.0, 0.5, -2.0]);
         let stop = number(&[start + 0.1, start + 1.0, start + 1e-3]);
         let [with_tolerance, with_stop] = [(); 2].map(|()| bytes.once_in(2));
         let no_tolerance = with_tolerance && !(0.0..1.0).contains(&tolerance);
         let no_stop = with_stop && !(stop > start && stop.is_finite());
-        let expected = match !start.is_finite() || no_tolerance || no_stop {
-            true => ERROR,
-            false if hostile && with_tolerance => OK_OR_ERROR,
-            false if self.temper() == Temper::Absurd => OK_OR_ERROR,
-            false => OK,
+        let expected = if !start.is_finite() || no_tolerance || no_stop {
+            ERROR
+        } else if hostile && with_tolerance || self.temper() == Temper::Absurd {
+            OK_OR_ERROR
+        } else {
+            OK
         };
         let (t, s) = (c_int::from(with_tolerance), c_int::from(with_stop));
         let status = self.call("fmi2SetupExperiment", expected, |c| {
@@ -175,10 +173,7 @@ impl Master<'_> {
     }
 
     fn do_step(&mut self, bytes: &mut Bytes<'_>) {
-        let step = match bytes.once_in(5) {
-            true => bytes.number(),
-            false => bytes.pick(&[0.01, 0.002, 1e-6, 0.02]),
-        };
+        let step = if bytes.once_in(5) { bytes.number() } else { bytes.pick(&[0.01, 0.002, 1e-6, 0.02]) };
         let now = self.memory.time;
         let current = match bytes.byte() {
             0..220 => now,
@@ -309,10 +304,12 @@ impl Master<'_> {
         let right: Vec<_> = (names.iter().flatten().copied())
             .filter(|name| known.contains(name))
             .collect();
-        let expected = match !null && names.iter().all(is_text) {
-            true if right.len() == count => OK,
-            true => WARNING,
-            false => ERROR,
+        let expected = if null || !names.iter().all(is_text) {
+            ERROR
+        } else if right.len() == count {
+            OK
+        } else {
+            WARNING
         };
         let data: Vec<_> = names
             .iter()
@@ -336,13 +333,10 @@ impl Master<'_> {
     fn new_instance(&mut self, bytes: &mut Bytes<'_>) {
         self.free_all();
         self.memory = Memory::new(self.unit);
-        self.instance = match bytes.once_in(2) {
-            true => {
+        self.instance = if bytes.once_in(2) {
                 self.memory.mode = Mode::Bare;
                 Instance::bare(self.unit)
-            }
-            false => Instance::new(self.unit),
-        };
+            } else { Instance::new(self.unit) };
         self.enabled = self.declared.clone();
     }
 

@@ -24,10 +24,7 @@ impl Master<'_> {
         self.all_of_type(picked, false)
             && picked.iter().all(|reference| {
                 let index = *reference as usize;
-                match inputs {
-                    true => is_input(self.unit, index),
-                    false => is_output(self.unit, index),
-                }
+                if inputs { is_input(self.unit, index) } else { is_output(self.unit, index) }
             })
     }
 
@@ -45,10 +42,7 @@ impl Master<'_> {
         let function = "fmi2SetRealInputDerivatives";
         let arguments = Arguments::of(self.unit, bytes, &self.inputs);
         let (orders, no_orders) = Self::orders(bytes);
-        let values = [(); MOST].map(|()| match bytes.once_in(6) {
-            true => bytes.number(),
-            false => bytes.pick(&[0.0, 0.5, -1.0]),
-        });
+        let values = [(); MOST].map(|()| if bytes.once_in(6) { bytes.number() } else { bytes.pick(&[0.0, 0.5, -1.0]) });
         let picked = arguments.picked();
         let (given, ranks) = (&values[..picked.len()], &orders[..picked.len()]);
         let right = arguments.sound()
@@ -57,10 +51,12 @@ impl Master<'_> {
             && ranks.iter().all(|order| *order >= 1)
             && given.iter().all(|value| value.is_finite());
         let usual = ranks.iter().all(|order| ORDERS.contains(order));
-        let expected = match self.derivatives && right {
-            true if usual => OK,
-            true => OK_OR_ERROR,
-            false => ERROR,
+        let expected = if !(self.derivatives && right) {
+            ERROR
+        } else if usual {
+            OK
+        } else {
+            OK_OR_ERROR
         };
         let (vr, count, values) = (arguments.vr(), arguments.count, arguments.array(&values));
         let orders = if no_orders {
@@ -87,10 +83,7 @@ impl Master<'_> {
             && self.all_are(picked, false)
             && ranks.iter().all(|order| *order >= 1);
         let usual = ranks.iter().all(|order| ORDERS.contains(order));
-        let expected = match self.derivatives && right {
-            true => self.derived(function, usual),
-            false => ERROR,
-        };
+        let expected = if self.derivatives && right { self.derived(function, usual) } else { ERROR };
         let mut values = [0.0; MOST + 1];
         let (vr, count, target) = (
             arguments.vr(),
@@ -114,10 +107,7 @@ impl Master<'_> {
         let function = "fmi2GetDirectionalDerivative";
         let unknown = Arguments::of(self.unit, bytes, &self.outputs);
         let known = Arguments::of(self.unit, bytes, &self.inputs);
-        let seed = [(); MOST].map(|()| match bytes.once_in(8) {
-            true => bytes.number(),
-            false => bytes.pick(&[0.0, 1.0, -2.0]),
-        });
+        let seed = [(); MOST].map(|()| if bytes.once_in(8) { bytes.number() } else { bytes.pick(&[0.0, 1.0, -2.0]) });
         let (unknowns, knowns) = (unknown.picked(), known.picked());
         let seeds = &seed[..knowns.len()];
         let sound = unknown.sound() && known.sound();
@@ -125,9 +115,10 @@ impl Master<'_> {
         // Before the end of initialization more may be known: parameters.
         let open = self.memory.mode == Mode::Initialization;
         let usual = right && seeds.iter().all(|seed| seed.abs() <= 2.0);
-        let expected = match self.derivatives && sound {
-            true if right || open => self.derived(function, usual),
-            _ => ERROR,
+        let expected = if self.derivatives && sound && (right || open) {
+            self.derived(function, usual)
+        } else {
+            ERROR
         };
         let mut values = [0.0; MOST + 1];
         let (u, v, target) = (unknown.vr(), known.vr(), unknown.array_mut(&mut values));

@@ -146,10 +146,7 @@ impl<'a> Master<'a> {
         let expected = if allowed { expected } else { ERROR };
         let before = self.fingerprint();
         self.instance.record.take();
-        let status = match self.nobody {
-            true => call(ptr::null_mut()),
-            false => call(self.instance.component),
-        };
+        let status = if self.nobody { call(ptr::null_mut()) } else { call(self.instance.component) };
         let lines = self.instance.record.take();
         let place = format!("{function} in {mode:?}: {status:?}, {lines:?}");
         assert!(expected.contains(&status), "{place}, not of {expected:?}");
@@ -241,10 +238,14 @@ impl Memory {
         if self.shaken {
             return Temper::Absurd;
         }
-        let of = |(index, value): (usize, &f64)| match values::tame(unit, index).contains(value) {
-            true => Temper::Tame,
-            false if values::is_input(unit, index) && value.abs() > 1e299 => Temper::Violent,
-            false => Temper::Absurd,
+        let of = |(index, value): (usize, &f64)| {
+            if values::tame(unit, index).contains(value) {
+                Temper::Tame
+            } else if values::is_input(unit, index) && value.abs() > 1e299 {
+                Temper::Violent
+            } else {
+                Temper::Absurd
+            }
         };
         let settable = |(index, _): &(usize, &f64)| unit.variables[*index].start.is_some();
         let each = self.values.iter().enumerate().filter(settable).map(of);

@@ -26,10 +26,7 @@ pub fn is_output(unit: &Unit, index: usize) -> bool {
 /// Values of a parameter or input that make no trouble.
 pub fn tame(unit: &Unit, index: usize) -> [f64; 3] {
     let start = unit.variables[index].start.unwrap_or(0.0);
-    match is_input(unit, index) {
-        true => [start, 0.5, -0.25],
-        false => [start, 2.0 * start, 0.5 * start],
-    }
+    if is_input(unit, index) { [start, 0.5, -0.25] } else { [start, 2.0 * start, 0.5 * start] }
 }
 
 /// Arguments of a call on variables: what is wrong with the arrays, and the references.
@@ -78,24 +75,15 @@ impl Arguments {
     }
 
     pub fn vr(&self) -> *const u32 {
-        match self.null_references {
-            true => ptr::null(),
-            false => self.references.as_ptr(),
-        }
+        if self.null_references { ptr::null() } else { self.references.as_ptr() }
     }
 
     pub fn array<T>(&self, values: &[T; MOST]) -> *const T {
-        match self.null_values {
-            true => ptr::null(),
-            false => values.as_ptr(),
-        }
+        if self.null_values { ptr::null() } else { values.as_ptr() }
     }
 
     pub fn array_mut<T>(&self, values: &mut [T; MOST + 1]) -> *mut T {
-        match self.null_values {
-            true => ptr::null_mut(),
-            false => values.as_mut_ptr(),
-        }
+        if self.null_values { ptr::null_mut() } else { values.as_mut_ptr() }
     }
 }
 
@@ -110,10 +98,12 @@ impl Master<'_> {
 
     fn readable(&self, arguments: &Arguments, integers: bool) -> &'static [Status] {
         let known = self.all_of_type(arguments.picked(), integers);
-        match arguments.sound() && known {
-            true if self.temper() == Temper::Tame => OK,
-            true => OK_OR_ERROR,
-            false => ERROR,
+        if !(arguments.sound() && known) {
+            ERROR
+        } else if self.temper() == Temper::Tame {
+            OK
+        } else {
+            OK_OR_ERROR
         }
     }
 
@@ -176,23 +166,17 @@ impl Master<'_> {
             arguments.array_mut(&mut words),
             arguments.array_mut(&mut truths),
         );
-        let _ = match bytes.once_in(2) {
-            true => self.call("fmi2GetBoolean", expected, |c| {
+        let _ = if bytes.once_in(2) { self.call("fmi2GetBoolean", expected, |c| {
                 call!(fmi2GetBoolean, c, vr, count, truths)
-            }),
-            false => self.call("fmi2GetString", expected, |c| {
+            }) } else { self.call("fmi2GetString", expected, |c| {
                 call!(fmi2GetString, c, vr, count, words)
-            }),
-        };
+            }) };
     }
 
     /// What the standard says to setting these values now.
     fn settable(&self, function: &str, arguments: &Arguments, values: &[f64]) -> &'static [Status] {
         let mark = mark(function, self.memory.mode);
-        let open = |index: usize| match is_input(self.unit, index) {
-            true => mark != '-',
-            false => self.unit.variables[index].start.is_some() && mark == 'e',
-        };
+        let open = |index: usize| if is_input(self.unit, index) { mark != '-' } else { self.unit.variables[index].start.is_some() && mark == 'e' };
         let integers = function == "fmi2SetInteger";
         let picked = arguments.picked();
         let known = self.all_of_type(picked, integers);
@@ -205,10 +189,7 @@ impl Master<'_> {
             is_input(self.unit, index) || tame(self.unit, index).contains(value)
         };
         let all = picked.iter().zip(values).all(harmless);
-        match all && self.temper() != Temper::Absurd {
-            true => OK,
-            false => OK_OR_ERROR,
-        }
+        if all && self.temper() != Temper::Absurd { OK } else { OK_OR_ERROR }
     }
 
     fn keep(&mut self, status: Status, arguments: &Arguments, values: &[f64]) {
@@ -223,10 +204,7 @@ impl Master<'_> {
         let arguments = Arguments::new(self.unit, bytes);
         let values = arguments.references.map(|reference| {
             let index = reference as usize;
-            match index < self.unit.variables.len() && !bytes.once_in(6) {
-                true => bytes.pick(&tame(self.unit, index)),
-                false => bytes.number(),
-            }
+            if index < self.unit.variables.len() && !bytes.once_in(6) { bytes.pick(&tame(self.unit, index)) } else { bytes.number() }
         });
         let (vr, count, source) = (arguments.vr(), arguments.count, arguments.array(&values));
         let values = &values[..arguments.picked().len()];
@@ -260,13 +238,10 @@ impl Master<'_> {
         let (vr, count) = (arguments.vr(), arguments.count);
         let (words, truths) = ([ptr::null::<c_char>(); MOST], [1; MOST]);
         let (words, truths) = (arguments.array(&words), arguments.array(&truths));
-        let _ = match bytes.once_in(2) {
-            true => self.call("fmi2SetBoolean", expected, |c| {
+        let _ = if bytes.once_in(2) { self.call("fmi2SetBoolean", expected, |c| {
                 call!(fmi2SetBoolean, c, vr, count, truths)
-            }),
-            false => self.call("fmi2SetString", expected, |c| {
+            }) } else { self.call("fmi2SetString", expected, |c| {
                 call!(fmi2SetString, c, vr, count, words)
-            }),
-        };
+            }) };
     }
 }

@@ -209,10 +209,7 @@ impl<'a> Parquet<'a> {
     /// All columns have a value more.
     fn end_row(&mut self) -> Result<()> {
         self.rows += 1;
-        match self.rows * self.columns.len() < HELD {
-            true => Ok(()),
-            false => self.write(),
-        }
+        if self.rows * self.columns.len() < HELD { Ok(()) } else { self.write() }
     }
 
     fn write(&mut self) -> Result<()> {

@@ -93,12 +93,9 @@ impl Rod {
     /// Elastic forces and gravity.
     pub fn force(&self, x: &[Node], f: &mut [Node]) {
         f.copy_from_slice(&self.weight);
-        match self.connected {
-            true => {
+        if self.connected {
                 self.chain.add_force((x, x), [1.0, 0.0], f);
-            }
-            false => vectorized(AddForce { rod: self, x, f }),
-        }
+            } else { vectorized(AddForce { rod: self, x, f }) }
     }
 
     /// Scalar masses of the elements.

@@ -347,10 +347,7 @@ impl Path<'_> {
         work: &mut Workspace<D>,
         (from, state): (&State, &mut State),
     ) -> Result<FoundEquilibrium, Failure> {
-        let guards = match next.is_conservative() {
-            true => [AcceptanceTest::Turns, AcceptanceTest::Potential],
-            false => [AcceptanceTest::Turns, AcceptanceTest::Transient],
-        };
+        let guards = if next.is_conservative() { [AcceptanceTest::Turns, AcceptanceTest::Potential] } else { [AcceptanceTest::Turns, AcceptanceTest::Transient] };
         let start = |work: &mut Workspace<D>, state: &mut State| {
             state.copy_from(from);
             if self.predicts {
@@ -435,10 +432,7 @@ fn first_step<const D: usize>(
     let pairs = state.coordinates.iter().zip(&x);
     let moved: Vec<f64> = pairs.map(|(q, x)| q + part * x).collect();
     let turn = model.largest_turn(&state.coordinates, &moved) / part;
-    match turn > FAR {
-        true => (AIM / turn).max(SMALLEST),
-        false => 1.0,
-    }
+    if turn > FAR { (AIM / turn).max(SMALLEST) } else { 1.0 }
 }
 
 /// Root of the smallest multiple of the mass that regularizes the tangent: a part of the stiffest mode that is at

@@ -151,12 +151,13 @@ impl<const D: usize> Newton<'_, '_, D> {
             }
             self.model.linearize(time, q, &self.rest);
             self.x.copy_from_slice(&self.force);
-            match self.is_conservative {
-                true if self.model.factor([shift * shift, 0.0]) => {
-                    self.model.solve_small(&mut self.x);
+            if self.is_conservative {
+                if !self.model.factor([shift * shift, 0.0]) {
+                    return None;
                 }
-                false if unsymmetric::solve(self.model, shift, self.least, &mut self.x) => {}
-                _ => return None,
+                self.model.solve_small(&mut self.x);
+            } else if !unsymmetric::solve(self.model, shift, self.least, &mut self.x) {
+                return None;
             }
             self.trial.clone_from(&state.coordinates);
             (self.trial.iter_mut().zip(&self.x)).for_each(|(q, x)| *q += x);
