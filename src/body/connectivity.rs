@@ -147,7 +147,10 @@ fn factor<const D: usize>(
     dependent: &mut Vec<Dependent>,
 ) -> Cluster {
     let size = nodes.len() * 2 * D;
-    let place = |node: usize| nodes.binary_search(&node).unwrap_or(0) * 2 * D;
+    let place = |node: usize| {
+        let member = nodes.binary_search(&node);
+        member.expect("a row ties the nodes of one cluster") * 2 * D
+    };
     let mut reflectors: Vec<(Vec<f64>, f64)> = Vec::new();
     // Columns of R.
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -181,7 +184,7 @@ fn factor<const D: usize>(
             continue;
         }
         let largest = (rank..size).max_by(|a, b| column[*a].abs().total_cmp(&column[*b].abs()));
-        let pivot = largest.unwrap_or(rank);
+        let pivot = largest.expect("a coordinate that no row before takes");
         order.swap(rank, pivot);
         column.swap(rank, pivot);
         for (i, (vector, _)) in reflectors.iter_mut().enumerate() {

@@ -166,7 +166,8 @@ impl Jacobian {
             let [(v, r), (w, c)] = [i, j].map(|row| blocks.of_row[row]);
             // Of a block with itself the lower triangle is read.
             let (r, c) = if v == w { (r.max(c), r.min(c)) } else { (r, c) };
-            pattern.slot(v, w).map_or(0, |slot| slot.entry(r, c))
+            let slot = pattern.slot(v, w).expect("rows that meet have a block");
+            slot.entry(r, c)
         };
         let overlap = |((i, j), at, length): &((usize, usize), [usize; 2], usize)| Overlap {
             entry: entry(*i, *j) as u32,

@@ -118,7 +118,7 @@ pub fn normal<const D: usize, N: Number>(along: &Vector<D, N>, k: usize) -> Vect
     // The axis that is most across it.
     let size = |k: &usize| along[*k].plain().abs();
     let across = (0..D).min_by(|a, b| size(a).total_cmp(&size(b)));
-    let across = across.unwrap_or(0);
+    let across = across.expect("space has an axis");
     let away = axis(across) - *along * along[across];
     let first: Vector<D, N> = away / away.norm();
     match k {

@@ -109,7 +109,7 @@ fn corners(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error>
     let mut corners = vec![0.0];
     let inner = held.iter().copied().filter(|c| *c < 1.0 - one);
     for next in inner.chain([1.0]) {
-        let last = corners.last().copied().unwrap_or(0.0);
+        let last = *corners.last().expect("the first end is a corner");
         if next - last <= one {
             continue;
         }
@@ -148,7 +148,7 @@ fn nodes(path: &str, elements: usize, held: &[f64], stations: usize) -> Result<V
             let length = |i: usize| stretches[i] / f64::from(counts[i]);
             length(*a).total_cmp(&length(*b))
         });
-        counts[longest.unwrap_or(0)] += 1;
+        counts[longest.expect("a cable has two ends")] += 1;
     }
     let mut nodes = vec![0.0];
     for (corner, count) in corners.windows(2).zip(counts) {

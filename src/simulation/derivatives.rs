@@ -1,6 +1,6 @@
 //! Derivatives: of inputs, which the master knows; of outputs in time; of outputs by inputs.
 
-use super::{Error, Simulation, Source};
+use super::{ENGINE, Error, Simulation, Source};
 use crate::scene::InitialState;
 
 impl Simulation {
@@ -114,9 +114,8 @@ impl Simulation {
             _ => Err(self.refuse(index, "expected an output as an unknown")),
         })?;
         self.refresh()?;
-        if let Some(engine) = &mut self.engine {
-            engine.differentiate(&self.state, &self.inputs, &self.direction);
-        }
+        let engine = self.engine.as_mut().expect(ENGINE);
+        engine.differentiate(&self.state, &self.inputs, &self.direction);
         Ok(())
     }
 
@@ -129,8 +128,10 @@ impl Simulation {
         let Source::Output(quantity) = self.variable(index)?.source else {
             return Err(self.refuse(index, "expected an output as an unknown"));
         };
-        let engine = self.engine.as_mut();
-        let change = engine.map(|engine| engine.change(quantity, &self.state));
-        self.finite(index, change.unwrap_or(0.0))
+        let Some(engine) = &mut self.engine else {
+            return Err(self.refuse(index, "expected a call of `differentiate` before"));
+        };
+        let change = engine.change(quantity, &self.state);
+        self.finite(index, change)
     }
 }

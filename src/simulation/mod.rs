@@ -52,7 +52,10 @@ use plan::damp;
 use unset_rates::UnsetRates;
 use variables::{set_parameter, start_inputs};
 
-/// Why a simulation cannot go on.
+/// Reason why an engine exists: initialization builds it, and states that are started or current come after that.
+const ENGINE: &str = "a simulation that is started or current has an engine";
+
+/// Error of a simulation.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A parameter makes the scene invalid.
@@ -296,11 +299,9 @@ impl Simulation {
             }
             Source::Output(quantity) => {
                 self.refresh()?;
-                let value = self
-                    .engine
-                    .as_mut()
-                    .map(|engine| engine.output(quantity, &self.state, &self.inputs));
-                self.finite(index, value.unwrap_or(0.0))
+                let engine = self.engine.as_mut().expect(ENGINE);
+                let value = engine.output(quantity, &self.state, &self.inputs);
+                self.finite(index, value)
             }
         }
     }
@@ -377,10 +378,7 @@ impl Simulation {
         self.unset_rates.begin_step();
         self.state.dense.begin_point(is_held);
         self.fast.begin_step(until - time);
-        let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
-            time,
-            reason: "expected a simulation that has been initialized".into(),
-        })?;
+        let engine = self.engine.as_mut().expect(ENGINE);
         let (report, result) = engine.step(&mut self.state, &mut self.inputs, until);
         if moves {
             for (variable, value) in self.variables.iter().zip(&mut self.values) {
@@ -398,9 +396,10 @@ impl Simulation {
         self.current
     }
 
-    /// Parameters and inputs are again those that the initial state was computed with.
+    /// Declares that parameters and inputs are again those that the initial state was computed with. Without an initial
+    /// state nothing happens.
     pub fn mark_current(&mut self) {
-        self.current = true;
+        self.current = self.engine.is_some();
     }
 
     fn refresh(&mut self) -> Result<(), Error> {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::value;
-use super::{Error, Quantity, Simulation, Source, Variable};
+use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
 use crate::body::{Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId};
@@ -30,9 +30,8 @@ impl Simulation {
     /// The initial state cannot be computed.
     pub fn markers(&mut self) -> Result<Vec<[f64; 3]>, Error> {
         self.refresh()?;
-        let engine = self.engine.as_mut();
-        let markers = engine.map(|engine| engine.markers(&self.state, &self.inputs));
-        Ok(markers.unwrap_or_default())
+        let engine = self.engine.as_mut().expect(ENGINE);
+        Ok(engine.markers(&self.state, &self.inputs))
     }
 
     /// Where points along every body are now, m: the ends of as many equal lengths of a cable as `parts` makes of its
@@ -42,10 +41,8 @@ impl Simulation {
     /// The initial state cannot be computed.
     pub fn outlines(&mut self, parts: impl Fn(usize) -> u32) -> Result<Vec<Vec<[f64; 3]>>, Error> {
         self.refresh()?;
-        let engine = self.engine.as_mut();
-        let inputs = &self.inputs;
-        let outlines = engine.map(|engine| engine.outlines(&self.state, inputs, &parts));
-        Ok(outlines.unwrap_or_default())
+        let engine = self.engine.as_mut().expect(ENGINE);
+        Ok(engine.outlines(&self.state, &self.inputs, &parts))
     }
 
     /// Returns the lines of all bodies as the scene draws them, m. The list is empty before [`Self::initialize`].
@@ -73,9 +70,8 @@ impl Simulation {
     /// The initial state cannot be computed.
     pub fn poses(&mut self) -> Result<Vec<Pose>, Error> {
         self.refresh()?;
-        let engine = self.engine.as_mut();
-        let poses = engine.map(|engine| engine.poses(&self.state, &self.inputs));
-        Ok(poses.unwrap_or_default())
+        let engine = self.engine.as_mut().expect(ENGINE);
+        Ok(engine.poses(&self.state, &self.inputs))
     }
 
     /// The value of a quantity now, whether it is an output or not.
@@ -84,9 +80,8 @@ impl Simulation {
     /// The initial state cannot be computed.
     pub fn read(&mut self, quantity: Quantity) -> Result<f64, Error> {
         self.refresh()?;
-        let engine = self.engine.as_mut();
-        let value = engine.map(|engine| engine.output(quantity, &self.state, &self.inputs));
-        Ok(value.unwrap_or_default())
+        let engine = self.engine.as_mut().expect(ENGINE);
+        Ok(engine.output(quantity, &self.state, &self.inputs))
     }
 
     /// Largest distance of the nodes of every flexible body from the best rigid fit of its drawn shape, m, in the order of the bodies:
@@ -96,9 +91,8 @@ impl Simulation {
     /// The initial state cannot be computed.
     pub(in crate::simulation) fn elastic_displacements(&mut self) -> Result<Vec<f64>, Error> {
         self.refresh()?;
-        let engine = self.engine.as_mut();
-        let found = engine.map(|engine| engine.elastic_displacements(&self.state, &self.inputs));
-        Ok(found.unwrap_or_default())
+        let engine = self.engine.as_mut().expect(ENGINE);
+        Ok(engine.elastic_displacements(&self.state, &self.inputs))
     }
 
     /// The force per reference length (N/m) of a contact along a body now at these material coordinates, in global components.
@@ -107,9 +101,8 @@ impl Simulation {
     /// The initial state cannot be computed.
     pub fn contact(&mut self, load: LoadId, at: &[f64]) -> Result<Vec<[f64; 3]>, Error> {
         self.refresh()?;
-        let engine = self.engine.as_mut();
-        let forces = engine.map(|engine| engine.contact(load, at, &self.state, &self.inputs));
-        Ok(forces.unwrap_or_default())
+        let engine = self.engine.as_mut().expect(ENGINE);
+        Ok(engine.contact(load, at, &self.state, &self.inputs))
     }
 
     /// Numbers that the master sets, in the order of [`crate::scene::Resolved::numbers`].

@@ -223,7 +223,8 @@ impl Pattern {
         let mut first = vec![0; sizes.len()];
         for part in parts(&graph) {
             let least = part.iter().map(|v| place[*v]).min();
-            part.iter().for_each(|v| first[*v] = least.unwrap_or(0));
+            let least = least.expect("a part has a vertex");
+            part.iter().for_each(|v| first[*v] = least);
         }
         order.sort_by_key(|v| first[*v]);
         let whole = [order.clone()];

@@ -86,8 +86,7 @@ impl<const D: usize> Builder<'_, D> {
         let mut firsts = self.parts.rod_chains.iter().filter_map(first);
         let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
         AppliedLoad::DistributedMoment(Box::new(DistributedMoment {
-            // What has sections is among them.
-            on: on.unwrap_or(0),
+            on: on.expect("a body with sections is among the rods"),
             end,
             follower: action.follower,
             density: match D {

@@ -37,7 +37,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
             let length = system.chains[along.chain].length();
             let is_released = constraint.is_released(&self.work.released);
             if !is_released && !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
-                let joint = constraint.joint.unwrap_or(0);
+                let joint = constraint.joint.expect("a slide is part of a joint");
                 state.copy_from(&self.work.before);
                 return StepOutcome::SliderLeftCable(joint);
             }

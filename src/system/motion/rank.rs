@@ -120,7 +120,7 @@ impl<const D: usize> System<D> {
         let mut evenness = vec![1.0_f64; joined.len()];
         let part = self.connected(&joined);
         for vector in 0..2 {
-            let of = |node: &usize| mobilities[*node].map_or(0.0, |found| found[vector]);
+            let of = |node: &usize| mobilities[*node].expect("a joined node")[vector];
             let mut least = vec![f64::INFINITY; self.reference.len()];
             for node in joined.iter().flatten().filter(|node| of(node) > 0.0) {
                 least[part[*node]] = least[part[*node]].min(of(node));

@@ -141,7 +141,8 @@ impl NodeBlocks {
         let size = 2 * D;
         let mut change = DMatrix::zeros(size * self.nodes.len(), size * nodes.len());
         for (i, owner, partial) in &partials {
-            let j = nodes.iter().position(|node| node == owner).unwrap_or(0);
+            let j = nodes.iter().position(|node| node == owner);
+            let j = j.expect("every owner is among the nodes");
             for (r, row) in partial.as_flattened().iter().enumerate() {
                 for (c, entry) in row.as_flattened().iter().enumerate() {
                     change[(size * i + r, size * j + c)] += *entry;
