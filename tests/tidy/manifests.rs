@@ -109,23 +109,30 @@ fn every_dependency_is_a_recorded_decision() {
 #[test]
 fn all_manifests_promise_one_rust_version() {
     let promised = |path: &str| {
-        let mut lines = lines(path).into_iter().map(|(_, line)| line);
-        lines.find(|line| line.starts_with("rust-version"))
+        let mut lines = lines(&format!("{path}/Cargo.toml")).into_iter();
+        lines.find_map(|(section, line)| (line.starts_with("rust-version")).then_some((section, line)))
     };
-    let first = promised("Cargo.toml");
-    assert!(first.is_some());
+    let inherited = Some(("package".to_owned(), "rust-version.workspace = true".to_owned()));
     for path in [
+        ".",
         "crates/fmu",
-        "xtask",
         "crates/fmu-package",
         "crates/example-fmus",
         "crates/cli",
         "crates/studies",
-        "crates/studies/diffsol",
-        "crates/fmi-rs-checker",
-        "crates/fuzz",
+        "tests",
+        "xtask",
     ] {
-        assert_eq!(promised(&format!("{path}/Cargo.toml")), first, "{path}");
+        assert_eq!(promised(path), inherited, "{path}");
+    }
+    let mut workspace = lines("Cargo.toml").into_iter();
+    let is_one = |(section, line): &(String, String)| {
+        section == "workspace.package" && line.starts_with("rust-version")
+    };
+    let (_, version) = workspace.find(is_one).expect("a version of Rust");
+    for path in ["crates/studies/diffsol", "crates/fmi-rs-checker", "crates/fuzz"] {
+        let found = promised(path).map(|(_, line)| line);
+        assert_eq!(found.as_deref(), Some(&version[..]), "{path}");
     }
 }
 
