@@ -9,6 +9,20 @@ impl Simulation {
     ///
     /// # Errors
     /// No input, another order, or not finite; nothing has changed then.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// // The force grows from 4 N by 6 N/s.
+    /// simulation.set_input_derivative(place("stone.centre.force[1]"), 1, 6.0)?;
+    /// simulation.step(1.0)?;
+    /// assert!((simulation.real(place("stone.centre.velocity[1]"))? - 3.5).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn set_input_derivative(
         &mut self,
         index: usize,
@@ -56,6 +70,19 @@ impl Simulation {
     ///
     /// # Errors
     /// No output, an order below 1, or not finite.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// simulation.start()?;
+    /// let acceleration = simulation.output_derivative(place("stone.centre.velocity[1]"), 1)?;
+    /// assert!((acceleration - 2.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn output_derivative(&mut self, index: usize, order: i32) -> Result<f64, Error> {
         self.check_output_derivative(index, order)?;
         let (state, inputs) = (&self.state, &self.inputs);
@@ -124,6 +151,20 @@ impl Simulation {
     ///
     /// # Errors
     /// No output, or not finite.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// let (velocity, force) = (place("stone.centre.velocity[1]"), place("stone.centre.force[1]"));
+    /// simulation.differentiate([velocity].into_iter(), [(force, 1.0)].into_iter())?;
+    /// // A velocity does not depend on the force at the same time.
+    /// assert_eq!(simulation.change(velocity)?, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn change(&mut self, index: usize) -> Result<f64, Error> {
         let Source::Output(quantity) = self.variable(index)?.source else {
             return Err(self.refuse(index, "expected an output as an unknown"));

@@ -199,6 +199,18 @@ impl Simulation {
     }
 
     /// The variables; an index into them is an FMI value reference.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let simulation = Simulation::new(scene.clone());
+    /// let mass = &simulation.variables()[place("stone.mass")];
+    /// assert_eq!(mass.start, Some(2.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn variables(&self) -> &[Variable] {
         &self.variables
     }
@@ -239,6 +251,19 @@ impl Simulation {
     ///
     /// # Errors
     /// Not settable, not real, not finite, out of range; nothing has changed then.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// simulation.set_real(place("stone.mass"), 4.0)?;
+    /// assert!(simulation.set_real(place("stone.mass"), -1.0).is_err());
+    /// assert_eq!(simulation.setting(place("stone.mass")), 4.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn set_real(&mut self, index: usize, value: f64) -> Result<(), Error> {
         if self.variable(index)?.is_integer() {
             return Err(self.refuse(index, "expected a call for integers, found one for reals"));
@@ -262,6 +287,17 @@ impl Simulation {
     ///
     /// # Errors
     /// Out of range, or initialization has ended.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::Simulation};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let mut simulation = Simulation::new(scene);
+    /// assert_eq!(simulation.limit_tolerance(1e-4)?, Some(1e-6));
+    /// assert_eq!(simulation.limit_tolerance(1e-8)?, None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn limit_tolerance(&mut self, value: f64) -> Result<Option<f64>, Error> {
         let tolerance = Source::Parameter(Parameter::RelativeTolerance);
         let index = self.variables.iter().position(|v| v.source == tolerance);
@@ -282,6 +318,19 @@ impl Simulation {
     ///
     /// # Errors
     /// Not real, not finite, or the initial state cannot be computed.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// simulation.step(1.0)?;
+    /// // A force of 4 N moves 2 kg by 1 m in a second.
+    /// assert!((simulation.real(place("stone.centre.position[1]"))? - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn real(&mut self, index: usize) -> Result<f64, Error> {
         if self.variable(index)?.is_integer() {
             return Err(self.refuse(index, "expected a call for integers, found one for reals"));
@@ -322,6 +371,18 @@ impl Simulation {
     ///
     /// # Errors
     /// Parameters that make no valid scene, no static equilibrium.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// simulation.initialize(0.0)?;
+    /// assert_eq!(simulation.real(place("stone.centre.velocity[1]"))?, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn initialize(&mut self, start_time: f64) -> Result<(), Error> {
         if self.scene.is_to_be_planned() {
             let message = "expected numbers of elements and a relative_tolerance, found some that are left to the \
@@ -348,6 +409,19 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Self::initialize`], where something changed since.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// simulation.start()?;
+    /// assert!(simulation.set_real(place("stone.mass"), 4.0).is_err());
+    /// simulation.set_real(place("stone.centre.force[1]"), 8.0)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn start(&mut self) -> Result<(), Error> {
         self.refresh()?;
         self.started = true;
@@ -359,6 +433,20 @@ impl Simulation {
     ///
     /// # Errors
     /// When the tolerance cannot be met; the simulation then stands at the last accepted sub-step.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// for point in 1..=10 {
+    ///     simulation.step(0.1 * f64::from(point))?;
+    /// }
+    /// assert!((simulation.real(place("stone.centre.velocity[1]"))? - 2.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn step(&mut self, until: f64) -> Result<(), StepFailure> {
         if !self.started {
             self.start().map_err(|error| StepFailure {

@@ -28,6 +28,18 @@ impl Simulation {
     ///
     /// # Errors
     /// The initial state cannot be computed.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::Simulation};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let mut simulation = Simulation::new(scene);
+    /// simulation.step(1.0)?;
+    /// let [x, y, z] = simulation.markers()?[0];
+    /// assert!((x - 1.0).abs() < 1e-9 && y == 0.0 && z == 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn markers(&mut self) -> Result<Vec<[f64; 3]>, Error> {
         self.refresh()?;
         let engine = self.engine.as_mut().expect(ENGINE);
@@ -39,6 +51,17 @@ impl Simulation {
     ///
     /// # Errors
     /// The initial state cannot be computed.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::Simulation};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let mut simulation = Simulation::new(scene);
+    /// let lines = simulation.outlines(|elements| 4 * elements as u32)?;
+    /// assert_eq!(lines, [[[0.0; 3]]]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn outlines(&mut self, parts: impl Fn(usize) -> u32) -> Result<Vec<Vec<[f64; 3]>>, Error> {
         self.refresh()?;
         let engine = self.engine.as_mut().expect(ENGINE);
@@ -68,6 +91,17 @@ impl Simulation {
     ///
     /// # Errors
     /// The initial state cannot be computed.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::Simulation};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let mut simulation = Simulation::new(scene);
+    /// let poses = simulation.poses()?;
+    /// assert_eq!(poses[0].nodes[0][0], [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn poses(&mut self) -> Result<Vec<Pose>, Error> {
         self.refresh()?;
         let engine = self.engine.as_mut().expect(ENGINE);

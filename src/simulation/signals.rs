@@ -206,6 +206,22 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Self::step`], as a text.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::{Simulation, variables}};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let place = |name: &str| variables(&scene).iter().position(|v| v.name == name).expect("a variable");
+    /// # let mut simulation = Simulation::new(scene.clone());
+    /// # use flexbody::simulation::Signals;
+    /// let table = "time,stone.centre.force[1]\n0,0\n1,6\n";
+    /// let signals = Signals::from_csv(table, simulation.variables())?;
+    /// simulation.set_inputs(&signals)?;
+    /// simulation.step_along(&signals, 1.0)?;
+    /// assert!((simulation.real(place("stone.centre.velocity[1]"))? - 1.5).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn step_along(&mut self, signals: &Signals, until: f64) -> Result<(), String> {
         let time = self.time();
         let slack = SAME_TIME * (until - time);

@@ -71,6 +71,20 @@ impl Simulation {
     /// # Errors
     /// A snapshot with other sizes, with parameters out of range or with numbers that are not finite;
     /// nothing has changed then.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::Simulation};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let mut simulation = Simulation::new(scene);
+    /// simulation.start()?;
+    /// let before = simulation.snapshot();
+    /// simulation.step(1.0)?;
+    /// simulation.restore(&before)?;
+    /// assert_eq!(simulation.time(), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         check_numbers(snapshot)?;
         if snapshot.started && !snapshot.initialized {

@@ -13,6 +13,17 @@ impl Simulation {
     }
 
     /// Whether the simulation starts from an equilibrium that is not stable and that could not be left.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::Simulation};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let mut simulation = Simulation::new(scene);
+    /// simulation.start()?;
+    /// assert!(!simulation.is_unstable());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn is_unstable(&self) -> bool {
         self.engine
             .as_ref()
@@ -78,6 +89,17 @@ impl Simulation {
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
     /// rigid bodies that joints alone keep in shape, in the present position; none before [`Self::initialize`].
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// # use flexbody::{scene::Scene, simulation::Simulation};
+    /// # let scene = Scene::from_json(include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/simulation/stone.json")))?;
+    /// # let mut simulation = Simulation::new(scene);
+    /// simulation.start()?;
+    /// assert!(simulation.redundant().exactly.is_empty());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn redundant(&mut self) -> RedundantNames {
         let (engine, state) = (self.engine.as_mut(), &self.state);
         engine
