@@ -77,7 +77,7 @@ fn crossed(r: &Vector3<f64>, m: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 impl SpatialInertia {
-    /// That of a body about its centre of mass.
+    /// Returns the inertia of a body about its centre of mass.
     fn of(frame: &RigidBodyFrame, axes: &Axes) -> Self {
         let mut j = Matrix3::zeros();
         for (axis, moment) in axes.iter().zip(frame.moments) {
@@ -128,7 +128,7 @@ impl SpatialInertia {
     }
 }
 
-/// What a joint leaves free.
+/// Direction of motion that a joint leaves free.
 #[derive(Clone, Copy, Debug, Default)]
 struct Free {
     /// The way `s`, and `U = I s`.
@@ -148,7 +148,8 @@ struct TreeBody {
     arms: [Vector3<f64>; 2],
     /// About the point that is held, with what hangs on the body.
     inertia: SpatialInertia,
-    /// Of the solution under way: forces, what the joint asks for, accelerations of the centre of mass.
+    /// Forces of the solution under way. `asked` holds the demand of the joint, `acceleration` that of the centre of
+    /// mass.
     force: Twist,
     asked: Twist,
     acceleration: Twist,
@@ -219,7 +220,7 @@ impl Articulated {
         true
     }
 
-    /// What a joint leaves free, from what it holds.
+    /// Finds the directions that a joint leaves free, from those that it holds.
     fn find_ways(&mut self, index: usize) -> bool {
         let (link, free) = (&self.links[index], &mut self.free[self.ways[index].clone()]);
         let duals = &mut self.duals[link.turns.clone()];

@@ -20,9 +20,9 @@ pub const fn no_block<const D: usize>() -> NodeBlock<D> {
 /// Where the coordinates of a node are.
 #[derive(Clone, Copy, Debug)]
 enum NodeCoordinates {
-    /// They are free: from here on in `y`.
+    /// Free coordinates, which begin here in `y`.
     Alone(usize),
-    /// They follow from those of a cluster: its index, first row of its basis.
+    /// Coordinates of a cluster: its index, and the first row of its basis.
     Tied(usize, usize),
 }
 
@@ -42,7 +42,7 @@ pub struct Links {
 pub struct Assembly<const D: usize = 2> {
     /// Structure of matrices over the free coordinates and multipliers.
     pattern: Pattern,
-    /// That of the mass, over the free coordinates alone and in the same order.
+    /// Structure of the mass, over the free coordinates alone and in the same order.
     of_mass: Pattern,
     runs: Vec<FreeRange>,
     held: Vec<MultiplierConstraint>,
@@ -54,7 +54,7 @@ pub struct Assembly<const D: usize = 2> {
     tied: Vec<usize>,
     vertices: Vec<usize>,
     clusters: Vec<Cluster>,
-    /// What of all their bases is not zero, and which entries belong to every node.
+    /// Nonzero entries of all bases, and the range of entries of every node.
     entries: Vec<Entry>,
     of_node: Vec<Range<usize>>,
     /// Where the free coordinates of every cluster are.

@@ -18,7 +18,7 @@ pub struct Marker<N = f64> {
     pub nodes: [usize; 2],
     /// Weights of position and direction of both nodes in the position.
     values: [N; 4],
-    /// Their weights in the direction.
+    /// Weights of position and direction of both nodes in the direction.
     slopes: [N; 4],
     /// Weight, in the position, of the first node's direction turned left by a right angle, m; planar bodies.
     across: N,

@@ -29,7 +29,7 @@ pub use shaped::carried_nodes;
 /// further than the lean, so that the node has a direction.
 pub const INNER: [(usize, usize); 3] = [(1, 1), (1, 0), (1, 2)];
 
-/// What stands in the places of [`INNER`] beside the coordinates.
+/// Values in the places of [`INNER`] where the coordinates are zero.
 const AHEAD: [f64; 3] = [0.0, 1.0, 0.0];
 
 /// A node inside an element without internal twist and leans.
@@ -50,7 +50,7 @@ const MOST_TWIST: f64 = 3.0;
 #[derive(Clone, Debug)]
 pub struct RodChain {
     packs: Vec<Packed>,
-    /// Its elements, each with its inertia against spins at its ends and the rates inside, kg m^2.
+    /// Elements, each with its inertia against spins at its ends and the rates inside, kg m^2.
     elements: Vec<(SectionElement, SpinInertia)>,
     /// Which components of spins, moments and internal coordinates there are: the first of a rod, all of a beam, the second of one in the
     /// plane, where the internal coordinate is the angle of the section in the middle of the element.
@@ -61,7 +61,7 @@ pub struct RodChain {
     inner: usize,
     /// Nodes of a frame: 2, in the plane 1.
     stride: usize,
-    /// Its first carried frame among those of the system.
+    /// Index of the first section frame among those of the system.
     carried: usize,
     is_damped: bool,
 }
@@ -175,7 +175,7 @@ impl RodChain {
         }
     }
 
-    /// What stands for the internal coordinates in a node, beside what stands there ahead of them; or their rates.
+    /// Reads the internal coordinates of a node, or their rates. `ahead` is subtracted.
     fn read_inner<const D: usize, N: Number>(&self, node: &Node<D, N>, ahead: [f64; 3]) -> [N; 3] {
         let mut inner = [N::of(0.0); 3];
         for (k, (part, axis)) in self.inside() {
@@ -203,7 +203,7 @@ impl RodChain {
         }
     }
 
-    /// Its carried frame at a node.
+    /// Returns the section frame at a node.
     fn frame<'a>(&self, k: usize, frames: &'a RotationMaps) -> &'a SectionFrame {
         &frames.carried()[self.carried + k]
     }

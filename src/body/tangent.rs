@@ -43,7 +43,7 @@ pub struct Tangent<const D: usize> {
 /// Directions that constraints hold where the tangent was made.
 #[derive(Clone, Debug)]
 pub(super) struct Normals {
-    /// Their derivatives by `q`.
+    /// Derivatives of the constraints by `q`.
     rows: SparseRows,
     /// Where the multipliers of those that count stand in vectors that matrices are applied to.
     places: Vec<Option<usize>>,

@@ -7,7 +7,7 @@
 use super::rod::ROUNDOFF;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 
-/// What a function makes of every entry.
+/// Builds an array of laws `[points][K][K]` from an expression for each entry.
 macro_rules! entries {
     ($k:ident, $i:ident, $j:ident => $entry:expr) => {
         std::array::from_fn(|$k| std::array::from_fn(|$i| std::array::from_fn(|$j| $entry)))

@@ -241,7 +241,7 @@ mod tests {
         At { e, axes, inner }
     }
 
-    /// The same a moment later.
+    /// Moves an element for a short time at given rates.
     fn moved(at: &At<f64>, rates: &Rates<f64>, time: f64, leans: bool) -> At<f64> {
         let vector = |x: &[f64; 3], v: &[f64; 3]| Vector3::from(*x) + Vector3::from(*v) * time;
         let e: [[f64; 3]; 4] = std::array::from_fn(|k| vector(&at.e[k], &rates.e[k]).into());

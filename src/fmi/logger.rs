@@ -56,7 +56,7 @@ impl Category {
 }
 
 const ALL: u8 = 15;
-/// What is passed on when logging is off: the reasons of `Error` and `Fatal`, which are no debug messages.
+/// Categories that are passed on when logging is off: the reasons of `Error` and `Fatal`, which are no debug messages.
 const OFF: u8 = Category::Error as u8;
 
 /// The logger of one instance.

@@ -210,7 +210,7 @@ impl SavedState {
     }
 }
 
-/// What is wrong with arrays of a length that they cannot have.
+/// Fault of arrays with an impossible length.
 const PARTS: &str = "holds a part of a driven motion, of an input, of an eigenvalue or of a frame";
 
 /// Refuses what is left of arrays that are made of equal parts.

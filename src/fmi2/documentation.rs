@@ -10,7 +10,7 @@ const INPUTS: &str = "With derivatives of order 1 and 2 (<code>fmi2SetRealInputD
     beginning of the step) it moves along the line or parabola in the next step, in that one only, and stands \
     where it ended until it is set again.";
 
-/// What can fail: status, meaning, what to do.
+/// Failures of a call: status, meaning, remedy.
 const FAILURES: [[&str; 3]; 4] = [
     [
         "<code>fmi2Discard</code> from <code>fmi2DoStep</code>",

@@ -7,7 +7,7 @@ use super::location::{LocationError, directory};
 use crate::fmi::{self, Instance, Logger, Names, open, own_place};
 use crate::simulation::Simulation;
 
-/// What FMI 2.0 calls things.
+/// Names of FMI 2.0.
 static NAMES: Names = Names {
     instantiate: "fmi2Instantiate",
     token: "fmuGUID",
@@ -39,7 +39,7 @@ enum NoInstance {
     /// A bad resource location.
     #[error(transparent)]
     Location(#[from] LocationError),
-    /// What any version refuses.
+    /// Refusal that any version of FMI shares.
     #[error(transparent)]
     Shared(#[from] fmi::NoSimulation),
 }

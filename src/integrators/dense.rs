@@ -200,7 +200,7 @@ pub(super) fn values(s: f64) -> [f64; STAGES] {
     })
 }
 
-/// The same in its derivative.
+/// Weights of the stages in the derivative at `s` of the polynomial through zero at 0 and the stages at their nodes.
 fn slopes(s: f64) -> [f64; STAGES] {
     std::array::from_fn(|i| {
         let [j, k] = others(i);

@@ -100,7 +100,7 @@ fn number(text: &str) -> Option<(f64, usize)> {
     Some((number, end))
 }
 
-/// What stands before the next token.
+/// Token before the next one.
 #[derive(Clone, Copy, PartialEq)]
 enum BeforeToken {
     /// Nothing, an opening parenthesis or an operator.
@@ -111,7 +111,7 @@ enum BeforeToken {
     Operand,
 }
 
-/// What waits for the number to its right.
+/// Operation that waits for the number to its right.
 #[derive(Clone, Copy)]
 enum Waiting {
     /// An opening parenthesis: of a function its place in the list, and how many of its numbers have ended.

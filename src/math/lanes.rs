@@ -129,7 +129,7 @@ impl<S: Simd> Real for Lanes<S> {
         Self(self.0, self.0.mul_add_e_f64s(self.1, factor.1, term.1))
     }
 
-    /// Of a quarter of what is left after whole turns, then doubled twice.
+    /// Reduces the angle by whole turns, evaluates at a quarter of the rest, and doubles twice.
     #[inline(always)]
     fn sine_cosine(self) -> (Self, Self) {
         let number = |value: f64| self.constant(value);
@@ -146,7 +146,7 @@ impl<S: Simd> Real for Lanes<S> {
         (double * cosine, number(1.0) - double * sine)
     }
 
-    /// Of the smaller of both sizes by the larger, or of its angle to an eighth of a turn.
+    /// Evaluates the ratio of the smaller to the larger size, or its angle to an eighth of a turn.
     #[inline(always)]
     fn angle(self, cosine: Self) -> Self {
         let (simd, number) = (self.0, |value: f64| self.constant(value));

@@ -68,7 +68,7 @@ mod tests {
         }
     }
 
-    /// What is held as it is at another time keeps its value, though the same scratch serves it.
+    /// Frozen functions keep their values at another time, though the same scratch serves them.
     #[test]
     fn constants_are_not_kept() {
         let mut recent = Recent::default();

@@ -54,7 +54,7 @@ impl Switch {
         }
     }
 
-    /// What decides the branch, from the numbers that it takes.
+    /// Returns the switching argument, which decides the branch.
     fn argument(self, [a, b]: [f64; 2]) -> f64 {
         match self {
             Self::Abs | Self::Sign | Self::Step | Self::If => a,
@@ -63,7 +63,7 @@ impl Switch {
         }
     }
 
-    /// The same of intervals.
+    /// Returns the range of the switching argument over intervals.
     fn argument_range(self, [a, b]: [Interval; 2]) -> Interval {
         match self {
             Self::Abs | Self::Sign | Self::Step | Self::If => a,

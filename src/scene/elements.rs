@@ -23,7 +23,7 @@ pub struct Chosen {
     pub beam: Option<Box<LineBody>>,
 }
 
-/// What is said of a body that nothing asks more of.
+/// Reason for a cable, if no key or load demands more.
 const NOTHING_NEEDED: &str = "nothing asks how its sections stand";
 
 impl Chosen {
@@ -88,7 +88,7 @@ fn least(dimension: usize) -> Sections {
 }
 
 impl LineBody {
-    /// What the body needs by its own keys: sections that lean, or in space turn.
+    /// Returns the sections that the body's own keys demand, with the reason.
     fn need(&self) -> Option<(Sections, &'static str)> {
         let all = || self.all_sections();
         let is_unequal = |numbers: SectionNumbers| {
@@ -132,9 +132,9 @@ impl LineBody {
         found.map(|(_, sections, why)| (sections, why))
     }
 
-    /// Of a beam: deflection of a cantilever by shear over that by bending, under a force at its end; the largest about both
-    /// axes of all its sections (S. P. Timoshenko, Strength of Materials I, 3rd ed. (1955), section 39: `F L / (k G A)` beside
-    /// `F L^3 / (3 E I)`).
+    /// Returns the ratio of deflection by shear and by bending of a cantilever under an end force. It is the largest
+    /// about both axes of all sections (S. P. Timoshenko, Strength of Materials I, 3rd ed. (1955), section 39: `F L /
+    /// (k G A)` beside `F L^3 / (3 E I)`).
     fn shear_to_bending(&self, dimension: usize) -> f64 {
         let at_stations = self
             .stations
@@ -270,7 +270,7 @@ impl Scene {
         scene.bodies[chosen[place].body].cable().cloned()
     }
 
-    /// What asks for the sections of a rod, by the path of what a cable is refused for.
+    /// Names the part of the scene that demands the sections of a rod, by the path for which a cable is refused.
     fn asking(&self, path: &str) -> String {
         let (list, rest) = path.split_once('[').unwrap_or((path, ""));
         let index = rest.split(']').next().and_then(|text| text.parse().ok());
@@ -331,7 +331,7 @@ fn held(resolved: &Resolved<'_>, chosen: &[Chosen]) -> Option<(usize, String)> {
     })
 }
 
-/// What is refused of a body that needs to be a rod says why it does.
+/// Adds to an error about a body the reason why the body became a rod or a beam.
 fn with_reason(chosen: &[Chosen], mut error: Error) -> Error {
     let is_of = |of: &&Chosen| error.path.starts_with(&format!("bodies[{}]", of.body));
     let turned = chosen.iter().find(is_of);

@@ -134,7 +134,7 @@ impl<'a> BodyReference<'a> {
         }
     }
 
-    /// Its markers: name and place, in alphabetical order.
+    /// Lists the markers of the body: name and place, in alphabetical order.
     fn places(self) -> Vec<(&'a str, Place<'a>)> {
         match self {
             Self::Cable(cable) => (cable.body.markers.iter())
@@ -197,7 +197,7 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// Its direction as described.
+    /// Returns the direction at the place as described.
     fn direction(self) -> [f64; 3] {
         match self {
             Self::Along(cable, s) => cable.body.shape.tangent(s),

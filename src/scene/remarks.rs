@@ -204,7 +204,8 @@ mod tests {
         assert!(told[0].ends_with("so is one more body"), "{told:?}");
     }
 
-    /// Of a round rod of radius r the first frequency of bending is `pi c r / (4 L^2)`: with 5172 m/s, 5 mm and 1 m it is 20.3 Hz.
+    /// The first bending frequency of a round rod of radius r is `pi c r / (4 L^2)`: with 5172 m/s, 5 mm and 1 m it is
+    /// 20.3 Hz.
     #[test]
     fn the_first_frequency_is_that_of_bending_between_hinges() {
         let scene = Scene::from_json(SCENE).expect("a valid scene");

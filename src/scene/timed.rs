@@ -128,7 +128,7 @@ impl Timed {
         self.function.periods(from, until)
     }
 
-    /// What is told of a time where it has no value.
+    /// Describes a time at which the function has no value.
     fn broken(&self, t: f64, told: f64) -> Option<Error> {
         const WHAT: [&str; 3] = ["value", "first derivative", "second derivative"];
         let found = self.function.derivatives(t);
@@ -136,7 +136,7 @@ impl Timed {
         Some(self.error(WHAT[order], told, found[order]))
     }
 
-    /// What is told of a time near a pole: within a moment the value has become a multiple of what it was.
+    /// Describes a pole near a time: within a moment the value has become a multiple of what it was.
     fn pole(&self, time: f64) -> Option<Error> {
         let value = self.function.value(time);
         let size = |back: f64| self.function.value(time - back).abs();

@@ -10,7 +10,7 @@ use super::{
 use crate::scene::{Error as SceneError, LoadId, Resolved, Scene};
 use crate::system::{Mode, State};
 
-/// What a step did, and why it was not finished.
+/// Statistics of a step, and its failure.
 type Stepped = (Report, Result<(), StepFailure>);
 /// Points along every body.
 type Outlines = Vec<Vec<[f64; 3]>>;

@@ -18,7 +18,7 @@ use crate::system::{
     eigenvalues, natural_frequencies,
 };
 
-/// What the derivatives at hand are by.
+/// Variables that the present derivatives are taken by.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Derived {
     Nothing,
@@ -35,7 +35,7 @@ pub(super) struct Engine<const D: usize> {
     pub(super) timed: Vec<Timed>,
     /// Owners of constraints, as pairs of list and name, by index. `bodies` holds the names of bodies.
     pub(super) holders: Vec<(&'static str, String)>,
-    /// What the initial state was found with that a person should know.
+    /// Warnings about the initial state.
     remarks: InitialWarnings,
     pub(super) bodies: Vec<String>,
     pub(super) assembled: Assembled<D>,

@@ -14,7 +14,7 @@ use crate::system::{State, System, Workspace, fastest};
 /// tolerance: where both kinds cost the same on pendulums of 10 to 80 elements from soft to stiff
 /// (docs/decisions/0004-integrators.md).
 const EXPLICIT: f64 = 75.0;
-/// The same for the method that takes dampers and constraints, whose evaluations take it less far.
+/// Limit for the method that integrates dampers and constraints, whose evaluations advance it less.
 const EXPLICIT_WITH_RATES: f64 = 42.0;
 /// Tolerance above which the implicit method takes no longer steps.
 const LOOSE: f64 = 1e-4;
@@ -22,7 +22,7 @@ const LOOSE: f64 = 1e-4;
 /// cheaper.
 const LOOSEST: f64 = 5e-3;
 
-/// What projecting the end of a step, and the acceleration there, cost beside an acceleration.
+/// Cost of the projection at the end of a step and of the acceleration there, in accelerations.
 const PROJECTION: f64 = 2.2;
 
 /// Rate of motion at the start, relative to what else there is, up to which it is rest: a motion that begins at rest may begin with roundoff.

@@ -557,7 +557,7 @@ impl Simulation {
         }
     }
 
-    /// The same without some of the parameters.
+    /// Returns the scene with the current parameters, except those for which `is_left` is true.
     fn parametrized_but(&self, is_left: impl Fn(Parameter) -> bool) -> Scene {
         let mut scene = self.scene.clone();
         for (variable, value) in self.variables.iter().zip(&self.values) {

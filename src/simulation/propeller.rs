@@ -24,7 +24,7 @@ pub(super) struct PropellerWatch {
 }
 
 struct Rod {
-    /// Its place among bodies, and among chains.
+    /// Index of the body. `chain` is the index of its chain.
     body: usize,
     chain: usize,
     /// Share of the stiffness of torsion by the square of the rate, s^2.

@@ -270,7 +270,7 @@ fn exerted<const D: usize, N: Number>(
     }
 }
 
-/// What a joint or motion transmits to its second end.
+/// Returns a component of the force or moment that a joint or motion exerts on its second end.
 fn transmitted<const D: usize, N: Number>(
     quantity: Quantity,
     values: &Evaluation<D, N>,
@@ -299,7 +299,7 @@ fn frame<const D: usize, N: Number>(
     std::array::from_fn(|k| combined(&principal, &within.row(k).transpose().map(N::of)))
 }
 
-/// The same of the first end of a joint.
+/// Returns the axes of the first end of a joint.
 fn first<const D: usize, N: Number>(
     values: &Evaluation<D, N>,
     assembled: &Assembled<D>,
@@ -342,8 +342,8 @@ impl Scale {
     }
 }
 
-/// What a quantity is computed from, and what it is where the scene moves at its natural rate; nothing for sums over the
-/// whole run and for what is conserved or held.
+/// Returns the evaluation that a quantity is computed from, and its size in a motion at the natural scales. `None` for
+/// sums over the whole run and for conserved or constrained quantities.
 fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
     use Evaluated::*;
     use Quantity::*;

@@ -217,7 +217,7 @@ fn another_instance_goes_on_bit_for_bit() {
     assert!(error.to_string().contains(words), "{error}");
 }
 
-/// What cannot be met is an error that says what can be.
+/// A demand that cannot be met is an error that names what can be.
 #[test]
 fn spectra_that_there_are_not_are_refused() {
     let rotor = |outputs: &str, spin: &str| {

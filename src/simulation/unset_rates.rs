@@ -9,15 +9,15 @@ const MOVES: u8 = 2;
 #[derive(Default)]
 pub(super) struct UnsetRates {
     motions: Vec<MotionInputs>,
-    /// Of every variable: its motion and order.
+    /// Motion and order of every variable, `[variables]`.
     parts: Vec<Option<(usize, usize)>>,
 }
 
-/// What a master did with a prescribed motion.
+/// Use of a prescribed motion by the master.
 struct MotionInputs {
     /// Place of the input with the value.
     first: usize,
-    /// What there is to tell.
+    /// Message about the motion.
     message: String,
     /// Whether the value was set to another since the last step.
     changed: bool,
@@ -83,7 +83,7 @@ impl UnsetRates {
     }
 }
 
-/// What is told of the motion whose value is this input.
+/// Describes the motion whose value is this input.
 fn message(variables: &[Variable], first: usize) -> String {
     let names = |is_wanted: &dyn Fn(usize) -> bool| {
         let of = |variable: &&Variable| {

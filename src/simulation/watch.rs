@@ -36,7 +36,7 @@ pub(super) fn is_sampled(point: u64) -> bool {
 struct WatchedOutput {
     name: String,
     members: Vec<Quantity>,
-    /// What it is where the scene moves at its natural rate.
+    /// Size of the output in a motion at the natural rate.
     natural: f64,
     /// Where the scene draws its bodies, of places, angles and directions; else 0.
     drawn: [f64; MOST],
@@ -200,7 +200,7 @@ impl Watch {
         }
     }
 
-    /// What steps may have left in an output so far, relative to its largest change.
+    /// Returns the estimated error of steps in an output so far, relative to its largest change.
     fn error(&self, index: usize) -> f64 {
         let group = &self.groups[index];
         let others = group.like.iter().map(|other| self.groups[*other].largest);

@@ -90,9 +90,9 @@ pub struct System<const D: usize = 2> {
     driven: Vec<DrivenRow<D>>,
     /// Non-linear constraints.
     constraints: Vec<Constraint<D>>,
-    /// Those that nothing free can violate, though a motion might.
+    /// Constraints that no free coordinate can violate, though a motion might.
     settled: Vec<Constraint<D>>,
-    /// What joints hold of sections that rows hold: what placement is told by.
+    /// Non-linear form of the section clamps that `linear` eliminates. Only placement at the start uses it.
     clamped: Vec<Constraint<D>>,
     /// For each of them its multiplier, as the assembly counts them.
     multipliers: Vec<usize>,
@@ -318,7 +318,7 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// What inputs say of every coordinate that they drive.
+    /// Lists the inputs of every coordinate that inputs drive.
     fn trajectories(&self) -> impl Iterator<Item = InputSignal> {
         self.drives.iter().filter_map(|drive| match drive {
             Drive::Input { first, derivatives } => {

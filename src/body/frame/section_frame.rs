@@ -59,7 +59,7 @@ pub struct SectionFrameState {
     /// Rotation about the tangent, rad, and angular velocity about it, rad/s.
     rotation: f64,
     spin: f64,
-    /// Of a section that leans.
+    /// Shear rotation of a beam's section.
     lean: Lean,
 }
 
@@ -159,7 +159,7 @@ impl SectionFrame {
         part(&x[self.line], 1)
     }
 
-    /// What stands among free coordinates for its three rotations.
+    /// Reads the three rotations from the free coordinates.
     fn read(&self, y: &[f64]) -> Vector3<f64> {
         let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| y[at] / scale);
         self.places.map(value).into()

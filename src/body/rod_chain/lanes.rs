@@ -336,7 +336,7 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
     }
 }
 
-/// The same of beams, in space or in the plane.
+/// Computes the forces of beam elements in lanes, in space or in the plane.
 fn beam_force<K>(kernel: &K, motion: PackMotion<'_>, force: &mut Force<[f64; PACK]>) -> f64
 where
     for<'a> InLanes<'a, K, Force<[f64; PACK]>>: Vectorized,
@@ -390,7 +390,7 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
     }
 }
 
-/// The same of beams.
+/// Computes the tangents of beam elements in lanes.
 fn beam_tangent<K>(
     kernel: &K,
     motion: PackMotion<'_>,

@@ -126,7 +126,7 @@ impl<N: Real> Kernel<N> {
         }
     }
 
-    /// What the strains at a point are made of, or its rates.
+    /// Computes the quantities from which the strains at a point follow, or their rates.
     #[inline(always)]
     fn local(
         &self,

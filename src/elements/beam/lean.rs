@@ -262,7 +262,7 @@ impl<N: Real> Leaning<N> {
         self.add_second_by_lean(stress, to);
     }
 
-    /// Those by the lean alone: of `D` times a polynomial.
+    /// Adds the second derivatives with respect to the shear rotation alone: those of `D` times a polynomial.
     #[inline(always)]
     fn add_second_by_lean(
         &self,

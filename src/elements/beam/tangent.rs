@@ -32,7 +32,7 @@ const MORE: usize = 9;
 /// Second derivatives of the energy, summed over sections.
 struct Total<N> {
     rod: Curved<N>,
-    /// Of what a rod has with lengths of the slope and leans.
+    /// Second derivatives by the coordinates of a rod and by lengths of the slope and shear rotations.
     mixed: [Sum<N>; MORE],
     more: [[N; MORE]; MORE],
     /// First derivatives by the same.

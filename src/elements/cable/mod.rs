@@ -244,7 +244,7 @@ impl<const D: usize> Cable<D> {
     }
 }
 
-/// Its sign where there is one, its size in space.
+/// Returns the curvature with its sign in the plane, its size in space.
 fn signed<N: Number, const D: usize>(curvature: &[N; TURNS]) -> N {
     if D == 2 {
         return curvature[0];

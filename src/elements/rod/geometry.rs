@@ -97,7 +97,7 @@ pub(in crate::elements) struct Sum<N> {
     /// Factors of the changes of the three vectors.
     pub vectors: [Vector<N>; 3],
     middle: Vector<N>,
-    /// Of the turn of the first end's frame, carried to the middle.
+    /// Factor of the rotation of the first end's frame, transported to the middle.
     turn: N,
     twist: N,
     bubble: N,
@@ -365,7 +365,7 @@ impl<N: Real> Geometry<N> {
         }
     }
 
-    /// What of the spin of an end is not that of its frame carried to the middle.
+    /// Returns the difference between the spin of an end and that of its frame transported to the middle.
     #[inline(always)]
     fn lost(&self, end: &End<N>, du: &Vector<N>, middle: &Vector<N>) -> N {
         // The half is across the tangent: so is all that it sees.

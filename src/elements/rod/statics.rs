@@ -27,7 +27,7 @@ struct Chain {
     bubbles: Vec<f64>,
 }
 
-/// Of the velocities of a chain: seven a station, then the internal twists.
+/// Returns the places of an element's velocities among those of a chain: seven a station, then the internal twists.
 fn place(element: usize, elements: usize) -> [usize; VELOCITIES] {
     std::array::from_fn(|k| match k {
         14 => 7 * (elements + 1) + element,

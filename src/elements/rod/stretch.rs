@@ -282,7 +282,7 @@ impl<N: Real> Geometry<N> {
 
 /// Second derivatives of the energy of a rod with lengths of the slope, summed over sections.
 pub(super) struct Stretching<N> {
-    /// Of what a rod has with them.
+    /// Second derivatives by the coordinates of a rod and by the lengths.
     mixed: [Sum<N>; 3],
     /// With each other.
     own: [[N; 3]; 3],

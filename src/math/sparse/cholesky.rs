@@ -47,10 +47,10 @@ pub struct Reach {
 struct NodeColumn {
     /// `s` by `p`.
     own: f64,
-    /// Those of the next node by `p` and by `s`.
+    /// Vectors of the next node by `p` and by `s`.
     below: [[f64; 2]; 2],
-    /// Those of the next node by `p` once `s` is reduced: `below[.][0] - below[.][1] own`, so that a
-    /// substitution need not wait for that.
+    /// Vectors of the next node by `p` once `s` is reduced: `below[.][0] - below[.][1] own`. A substitution need not
+    /// wait for that.
     direct: [f64; 2],
 }
 

@@ -13,7 +13,7 @@ use crate::scene::{Error, InitialMotion};
 #[derive(Clone, Debug)]
 struct InitialVelocity<const D: usize> {
     nodes: Range<usize>,
-    /// Those that hold axes alone.
+    /// Nodes that hold axes only.
     axes: Vec<usize>,
     /// From which node on they hold numbers that do not move; in the plane angles, which turn.
     still: usize,

@@ -99,7 +99,7 @@ impl<const D: usize> Builder<'_, D> {
         }))
     }
 
-    /// The same with what changes along a body, which is parsed at every place where it is known.
+    /// Builds a force or a moment with the components that vary along a body. These are parsed for every Gauss point.
     fn action_along(&self, action: &Action<'_>, path: &str) -> Result<AppliedLoad<D>, Error> {
         let mut load = self.action(action);
         if let On::Cable(cable) = action.on {

@@ -4,15 +4,15 @@ use crate::scene::resolved::{BodyReference, Resolved};
 use crate::scene::{Error, Model, Sections};
 
 // Memory in the plane and in space, bytes, a third more than measured with thousands of each, factors of the implicit method with them.
-/// Of an element of a cable.
+/// Memory of a cable element.
 const BYTES_OF_CABLE: [usize; 2] = [8_000, 12_000];
-/// Of an element of a rod.
+/// Memory of a rod element.
 const BYTES_OF_ROD: [usize; 2] = [24_000, 36_000];
-/// Of an element of a beam.
+/// Memory of a beam element.
 const BYTES_OF_BEAM: [usize; 2] = [24_000, 46_000];
-/// Of a rigid body.
+/// Memory of a rigid body.
 const BYTES_OF_BODY: [usize; 2] = [12_000, 21_000];
-/// Of a joint, a gear or a motion.
+/// Memory of a joint, a gear or a motion.
 const BYTES_OF_JOINT: [usize; 2] = [18_000, 20_000];
 
 impl Resolved<'_> {

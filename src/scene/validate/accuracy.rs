@@ -36,7 +36,7 @@ impl Scene {
         }
     }
 
-    /// What an input does in the experiment that is planned for.
+    /// Checks the profile of an input in the experiment that is planned for.
     fn validate_course(&self, path: &str, course: &InputCourse) -> Result<(), Error> {
         let ends = [course.from, course.to];
         let Some(value) = &course.value else {

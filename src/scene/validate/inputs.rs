@@ -67,7 +67,7 @@ impl<'a> Resolved<'a> {
         Ok(())
     }
 
-    /// What an input sets, and its values where none are given.
+    /// Resolves the quantity of an input, with its default start values.
     fn resolve_input(
         &mut self,
         path: &str,

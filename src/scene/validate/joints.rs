@@ -44,7 +44,7 @@ impl Joint {
         keys(path, "joint", &all, self.kind.keys())
     }
 
-    /// What there is in the plane alone, or in space.
+    /// Refuses kinds that exist only in the plane or only in space.
     fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let JointSpec { name, holds, .. } = self.kind.declaration();
         let kind = format!("{path}.kind");
@@ -130,7 +130,7 @@ impl Joint {
         }
     }
 
-    /// What a generic joint holds, with the axes that it names at the start, in global axes.
+    /// Returns the primitives of a generic joint, with its axes at the start in global components.
     fn rest(&self, ends: &Ends<'_>) -> Vec<Hold> {
         let axis = |k: usize| {
             let unit = std::array::from_fn(|i| f64::from(u8::from(i == k)));
@@ -205,7 +205,7 @@ impl<'a> Resolved<'a> {
         Ok(())
     }
 
-    /// What a joint joins.
+    /// Resolves the ends of a joint.
     fn joint_ends(&self, path: &str, joint: &'a Joint) -> Result<Ends<'a>, Error> {
         let holds = joint.holds();
         let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));

@@ -8,7 +8,7 @@ use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue, Valu
 use crate::scene::resolved::{self, Resolved, Turning};
 use crate::system::{Attitude, Drive};
 
-/// What is offered in space where the angle of a marker would be driven.
+/// Replacement in space for a driven angle of a marker, in a message.
 const NO_ANGLE: &str = "nothing in space, where a motion of kind `orientation` drives a marker and one of kind `angle` a joint with an axis,";
 /// Most derivatives that the master sets with a motion.
 const MOST_DERIVATIVES: u8 = 2;

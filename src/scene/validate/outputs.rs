@@ -9,7 +9,7 @@ use crate::scene::resolved::{
     self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning,
 };
 
-/// What is offered in space where the angle of a marker would be read.
+/// Replacement in space for an angle of a marker, in a message.
 const NO_ANGLE: &str = "nothing in space, where `orientation`, `quaternion` and `rotation_vector` say how a marker stands, and `angle` is of a `joint`,";
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;

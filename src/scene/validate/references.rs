@@ -171,7 +171,7 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// What is said where no cable, or none of a kind, has a name.
+    /// Describes a reference to a line body, or to one of a kind, that does not exist.
     fn no_line(
         &self,
         path: &str,

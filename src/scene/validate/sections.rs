@@ -113,7 +113,7 @@ impl LineBody {
         }
     }
 
-    /// What a rod says beside its sections.
+    /// Checks the keys of a rod beside its sections.
     fn validate_rod(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
         if dimension == 2 && !self.is_beam() {
@@ -192,7 +192,7 @@ const OF_RODS: &str = "nothing of a cable (an element of \"rod\" has sections th
 const OF_SPACE: &str =
     "nothing in the plane, where nothing twists and sections bend about one axis";
 
-/// What is wanted in the place of what sections have that turn about their line.
+/// Names the replacement for a feature of sections that rotate about their line, in a message.
 fn instead_of_turning(kind: Sections) -> &'static str {
     match kind {
         Sections::None => OF_RODS,
@@ -307,7 +307,7 @@ impl Section {
         }
     }
 
-    /// What a beam's section says beside what a rod's does.
+    /// Checks the keys of a beam's section beside those of a rod's.
     fn validate_beam(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
         self.validate_factors(path)?;

@@ -121,7 +121,7 @@ impl<'a> Resolved<'a> {
         None
     }
 
-    /// What of a fluid is not known of a cable through whose mesh material passes.
+    /// Refuses fluids with added mass on a cable through whose mesh material moves.
     fn check_fluids(&self, cable: Cable<'a>) -> Result<(), Error> {
         for (index, load) in self.loads.iter().enumerate() {
             if let LoadKind::Fluid(fluid) = &load.kind

@@ -72,7 +72,8 @@ impl Search<'_, '_> {
         })
     }
 
-    /// What doubling changes of the answers to inputs that are held, and of natural frequencies; nothing of meshes that are given.
+    /// Lists the changes on doubling the mesh of the responses to inputs that are held, and of natural frequencies.
+    /// Empty for given meshes.
     fn answers(&self, in_space: &[Difference]) -> Vec<(String, f64)> {
         if !self.is_any_free() {
             return Vec::new();

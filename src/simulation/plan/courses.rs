@@ -125,7 +125,7 @@ fn check_inputs(courses: &[InputCourse], variables: &[Variable]) -> Result<(), E
 /// A course, ready to be evaluated.
 struct Move<'a> {
     course: &'a InputCourse,
-    /// Of a course of one's own.
+    /// Function of a course that is given by an expression or a table.
     function: Option<Function>,
     /// Times of jumps, s: communication points.
     jumps: [f64; 2],

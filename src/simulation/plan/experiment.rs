@@ -54,7 +54,7 @@ pub(super) enum Unfinished {
 /// The experiment that is planned for.
 pub(super) struct PlannedExperiment {
     given: TrialConditions,
-    /// What inputs do.
+    /// Table of inputs.
     moved: Option<InputTable>,
     /// Communication steps.
     pub steps: u64,
@@ -64,7 +64,8 @@ pub(super) struct PlannedExperiment {
     every: u64,
     /// Inputs that keep their start values, but for rates of others.
     pub held: Vec<String>,
-    /// These, then other components of their vectors: answers are measured by the largest of a vector's components.
+    /// Inputs that are held, followed by the other components of their vectors. Responses are measured by the largest
+    /// component of a vector.
     asked: Vec<String>,
 }
 
@@ -157,7 +158,7 @@ impl PlannedExperiment {
         Ok(run)
     }
 
-    /// What a simulation that has been initialized answers to inputs that are held.
+    /// Computes the responses of an initialized simulation to inputs that are held.
     fn responses(&self, simulation: &mut Simulation) -> Responses {
         let places = self.asked.iter().filter_map(|name| {
             let variable = simulation.variables().iter().find(|v| v.name == *name);

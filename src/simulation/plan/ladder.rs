@@ -8,8 +8,8 @@ const HALF: f64 = 0.5;
 const PATIENCE: usize = 3;
 /// How many times its least change an output that does not settle may change.
 const NEARLY: f64 = 2.0;
-/// What a rung may leave of what the one before changed where outputs converge so regularly that the next one need not be
-/// run, and the one before that.
+/// Largest ratio of the changes of two rungs for which convergence is regular. The next rung then need not be run.
+/// `BEFORE` is that of the two rungs before.
 const REGULAR: f64 = 0.4;
 const BEFORE: f64 = 0.6;
 /// Part of what may change below which nothing more is asked of an output.
@@ -32,7 +32,7 @@ pub(super) struct Choice {
 /// Choices from cheap to dear, with what the next one changed.
 pub(super) struct Ladder {
     pub rungs: Vec<(Choice, Vec<Difference>)>,
-    /// What every output may change.
+    /// Limits of the changes of every output.
     limits: Vec<f64>,
     /// The part of what a rung changed that the next one changes at least, of every output; infinite where nothing is foreseen.
     least: Vec<f64>,

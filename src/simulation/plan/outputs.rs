@@ -46,7 +46,7 @@ pub(super) struct OutputGroup {
     /// Indices of its components among the computed variables.
     pub members: Vec<usize>,
     pub measure: Measure,
-    /// Its unit; like outputs have the same.
+    /// Unit, which like outputs share.
     unit: Option<Unit>,
     /// Bodies that it is read at, by their places; none of what belongs to the whole scene.
     pub bodies: Vec<usize>,

@@ -2,7 +2,7 @@
 
 use super::outputs::RelativeTo;
 
-/// What is said of a plan that its budget ended.
+/// Remark on a plan that used up its budget.
 const CUT: &str = "planning took all the work it may (`--budget`): this is the best plan so far";
 
 /// Where the numbers of a planned scene come from.

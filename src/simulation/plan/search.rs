@@ -236,7 +236,7 @@ impl<'a, 'p> Search<'a, 'p> {
         self.finished(place)
     }
 
-    /// What inputs that are held would do with the mesh of a choice, where a run with another tolerance has told.
+    /// Returns the responses with the mesh of a choice, if a run with another tolerance has computed them.
     fn responses(&self, choice: &Choice) -> Option<Responses> {
         let mesh = |of: &Choice| Choice {
             tolerance: 0.0,

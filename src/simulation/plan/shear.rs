@@ -8,9 +8,9 @@ use crate::scene::{Body, Chosen, Error, LineBody, Scene};
 
 /// A body that may be a beam.
 pub(super) struct Beam {
-    /// Its place among the bodies.
+    /// Index among the bodies.
     body: usize,
-    /// Its place among those that are no rigid bodies.
+    /// Index among the line bodies.
     cable: usize,
     /// As a beam.
     made: LineBody,

@@ -145,7 +145,7 @@ mod tests {
         assert!(error.contains("joint `o"), "{error}");
     }
 
-    /// What is not held falls: there is no equilibrium.
+    /// A body that nothing holds falls, so there is no equilibrium.
     #[test]
     fn a_start_without_equilibrium_is_told_before_any_run() {
         let scene = cable(1.0, "");

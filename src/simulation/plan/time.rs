@@ -130,7 +130,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// What a tolerance changes beside a tighter one, where it counts more the looser it is.
+    /// Compares a tolerance with a tighter one. The differences are weighted more the looser the tolerance is.
     fn doubted(&mut self, looser: &Choice, closer: &Choice) -> Result<Vec<Difference>, Unfinished> {
         let mut found = self.compare(looser, closer, self.error)?;
         let doubt = doubt(looser.tolerance);
@@ -203,8 +203,8 @@ impl Search<'_, '_> {
         Ok(())
     }
 
-    /// What a tenth of the tolerance changes; where that takes the same steps, since communication points end them, what
-    /// halves of these change.
+    /// Compares the tolerance with a tenth of it. If both take the same steps, which communication points end, the
+    /// steps are halved instead.
     fn in_time(&mut self, choice: &Choice) -> Result<Vec<Difference>, Unfinished> {
         let mut closer = Choice {
             tolerance: tenth(choice.tolerance),
@@ -325,8 +325,8 @@ impl Search<'_, '_> {
         Ok((tighter.tolerance, found))
     }
 
-    /// What each output may still change with the tolerance: what the mesh leaves, but not much more than a third of the
-    /// error where another mesh says it.
+    /// Returns the change that each output may still have by the tolerance. It is the part that the mesh leaves, at
+    /// most a little more than a third of the error if another mesh determines it.
     fn left(&self, in_space: &[Difference], is_chosen: bool) -> Vec<f64> {
         let most = if is_chosen { 1.0 } else { MOST };
         let left = in_space.iter().map(|found| {
@@ -386,8 +386,8 @@ impl Search<'_, '_> {
         Some((tolerance, found?))
     }
 
-    /// What a tenth of a tolerance changes, where ten times as much changes that, and both are in the proportion that they
-    /// have at the coarsest mesh; nothing where that is more than may be.
+    /// Extrapolates the change by a tenth of a tolerance from the change by ten times that, if both have the ratio of
+    /// the coarsest mesh. `None` if that exceeds a limit.
     fn as_coarsest(
         &mut self,
         coarsest: &Choice,

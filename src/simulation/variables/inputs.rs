@@ -36,7 +36,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
     }
 }
 
-/// What comes in through a spring and a damper, which feel it at once.
+/// Adds the inputs of a spring and a damper, which act at once.
 fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
     let before = list.variables.len();
     // Coordinates come first, then their rates.
@@ -105,12 +105,12 @@ fn add_orientation(
     }
 }
 
-/// What the components of a force are along that turns with a marker in the plane.
+/// Directions of the components of a force that rotates with a marker in the plane.
 const ALONG: [&str; 2] = [
     "along the direction there",
     "across, to the left of the direction",
 ];
-/// What an input means that releases a joint.
+/// Meaning of an input that releases a joint.
 const LETS_GO: &str = "Makes a joint let go, for good, where it is above 0 as a step begins:";
 
 /// Key, meaning and unit of a load's variables, and what its components are along.

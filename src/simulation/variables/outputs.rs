@@ -31,14 +31,14 @@ enum OutputShape {
 #[derive(Clone, Copy)]
 enum Read {
     Marker(fn(MarkerId, usize) -> Quantity),
-    /// Of a marker beside another one.
+    /// Quantity of a marker relative to another one.
     Deflected(fn(MarkerId, Option<MarkerId>, usize) -> Quantity),
-    /// Of a marker, of a joint.
+    /// Quantities of a marker and of a joint with an angle.
     Turning(
         fn(MarkerId, usize, Along) -> Quantity,
         fn(ConstraintOwnerId) -> Quantity,
     ),
-    /// Of a marker, of a joint along a line.
+    /// Quantities of a marker and of a joint along a line.
     Moving(
         fn(MarkerId, usize) -> Quantity,
         fn(ConstraintOwnerId) -> Quantity,
@@ -57,7 +57,7 @@ enum Read {
 /// Key, meaning (`{}`: what it is read at), unit, shape, what is read.
 type OutputRow = (&'static str, &'static str, Option<Unit>, OutputShape, Read);
 
-/// What an output of a kind lists.
+/// Lists the rows of an output kind.
 #[rustfmt::skip] // a table
 fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
     use OutputKind as Kind;
@@ -129,7 +129,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
     }
 }
 
-/// What gears and loads exert.
+/// Lists the rows of forces and moments of gears and loads.
 #[rustfmt::skip] // a table
 fn exerted(kind: OutputKind) -> Vec<OutputRow> {
     use OutputKind as Kind;
@@ -220,7 +220,7 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
     }
 }
 
-/// What variables of an output are named after, and what its meaning calls that.
+/// Returns the name that variables of an output begin with, and its form in descriptions.
 fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
     let second = |joint: &str| format!("the second marker of {joint} less that of its first");
     match of {
@@ -301,7 +301,7 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
     })
 }
 
-/// What a port that motions come into exerts on the outside.
+/// Adds the force that a port with an incoming motion exerts on the outside.
 fn add_port_force(list: &mut List, port: &Port<'_>) {
     use Quantity::{CouplingForce, CouplingMoment, MotionForce, MotionMoment};
     let what = format!(

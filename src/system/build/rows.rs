@@ -104,8 +104,9 @@ fn rest<const D: usize>(parts: &Parts<D>, frame: &RigidBodyFrame, linear: &mut V
     linear.extend(without.map(|axis| still((frame.node, 1, axis), 0.0)));
 }
 
-/// Of a carried frame its rotations alone are coordinates, one about the tangent of a rod, three of a beam; of a node inside an element the
-/// internal twist and leans. In the plane they are the direction of a section, and the angle of that inside.
+/// Fixes the vectors of section and inner nodes that are no coordinates. Of a section frame only rotations are
+/// coordinates: one about the tangent of a rod, three of a beam. Of an inner node only the internal twist and shear
+/// rotations are. In the plane the coordinates are the direction of a section and the angle of the section inside.
 fn rest_of_rod<const D: usize>(parts: &Parts<D>, chain: &RodChain, linear: &mut Vec<Linear<D>>) {
     let mut nodes = parts.nodes.clone();
     unplaced_rod(chain, &mut nodes);
@@ -210,7 +211,7 @@ pub(super) fn winches<const D: usize>(parts: &mut Parts<D>) -> Vec<Winch<D>> {
     winches
 }
 
-/// What the elements of a rod couple. Planar sections have their inertia at nodes.
+/// Links the nodes that elements of a rod couple. Planar sections have their inertia at nodes.
 fn link_rod<const D: usize>(chain: &RodChain, links: &mut Links) {
     for j in 0..chain.count() {
         let nodes = chain.nodes(j);

@@ -56,7 +56,8 @@ impl DrivenOrientation {
         unit_with_rates([0, 1, 2].map(order))
     }
 
-    /// What stands before the three axes of the body, `k x G_i / 2`, and its first (1) or second (2) derivative in time.
+    /// Returns the factors of the three axes of the body, `k x G_i / 2`, or their first (1) or second (2) time
+    /// derivative.
     fn weights<const D: usize, N: Number>(
         &self,
         view: &View<'_, D, N>,

@@ -41,7 +41,7 @@ pub(super) fn hold<const D: usize>(
 }
 
 impl<const D: usize> PointOnLine<D> {
-    /// What belongs to the direction of the first end, turned to the line.
+    /// Rotates a direction of the first end to that of the line.
     fn turned<N: Number>(&self, direction: Vector<D, N>) -> Vector<D, N> {
         direction * N::of(self.along[0]) + perpendicular(direction) * N::of(self.along[1])
     }

@@ -75,7 +75,7 @@ struct Touch<const D: usize, N> {
     damped: N,
     /// Velocity along the surface, m/s.
     slip: Vector<D, N>,
-    /// Its size, with the speed at which friction is smooth, m/s.
+    /// Size of the slip velocity, with the speed at which friction is smooth, m/s.
     speed: N,
     /// How fast it goes deeper, m/s.
     rate: N,

@@ -22,7 +22,7 @@ use crate::system::gradient::Terms;
 const SERIES: f64 = 0.1;
 /// Terms of them, below roundoff there.
 const COUNT: u32 = 18;
-/// What is left to half a turn at least.
+/// Least distance to half a turn.
 const HALF_TURN: f64 = 1e-12;
 
 /// Springs and dampers in parallel along and about three axes.
@@ -106,7 +106,7 @@ impl<N: Number> Turned<N> {
         self.skew * self.ratio[0]
     }
 
-    /// Its rate at rates of the products.
+    /// Returns the rate of the rotation vector at rates of the products.
     fn rate(&self, rates: &Matrix3<N>) -> Vector3<N> {
         let z_rate = rates.trace() * N::of(-0.25);
         skew(rates) * self.ratio[0] + self.skew * (self.ratio[1] * z_rate)

@@ -104,8 +104,8 @@ pub enum StepOutcome {
     NotFinite,
 }
 
-/// What operations cost beside an acceleration: medians over 15 scenes with 1 to 16 elements, which scatter by 2 either
-/// way (docs/decisions/0034-integrator-by-counted-cost.md).
+/// Costs of operations in accelerations: medians over 15 scenes with 1 to 16 elements, which scatter by a factor of 2
+/// (docs/decisions/0034-integrator-by-counted-cost.md).
 const LINEARIZE: f64 = 2.5;
 const FACTOR: f64 = 0.6;
 const FACTOR_COMPLEX: f64 = 1.5;
@@ -122,7 +122,7 @@ pub struct DrivenSystem<'a, const D: usize = 2> {
     pub system: &'a System<D>,
     /// Inputs at the start of the model's time.
     pub inputs: &'a [f64],
-    /// Their first and second derivatives; empty where they are held.
+    /// First and second derivatives of the inputs. Empty for frozen inputs.
     slopes: &'a [[f64; 2]],
     start: f64,
     /// Scratch of the system.
@@ -215,7 +215,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         self.accelerate_with(time, [q, v], true, a);
     }
 
-    /// The same, with or without multipliers.
+    /// Computes accelerations with or without multipliers.
     #[inline(always)]
     fn accelerate_with(&mut self, time: f64, [q, v]: [&[f64]; 2], is_told: bool, a: &mut [f64]) {
         self.operations += 1.0;

@@ -23,8 +23,8 @@ const ITERATIONS: usize = 20;
 /// distance `d`) a residual of roundoff tilts the dependent row by `1e-15 / d^2`; leaving it out lets inertia rule for
 /// a time in proportion to `d`. This is in between (docs/decisions/0029-constraints-at-linear-cost.md).
 pub(super) const RANK: f64 = 1e-3;
-/// The same for a state that rows which do not count have left by more than roundoff: where a motion dwells at a
-/// singular configuration.
+/// Part of a row for a state that dependent rows have left by more than roundoff: where a motion dwells at a singular
+/// configuration.
 const FINE_RANK: f64 = 1e-5;
 /// Residual beyond which a state is off the constraints by more than roundoff.
 const ROUNDOFF: f64 = 1e-12;
@@ -244,7 +244,7 @@ impl<const D: usize> System<D> {
         self.missing(work, false)
     }
 
-    /// What corrections are found with: the factors of the tree that constraints make, or the Jacobian.
+    /// Prepares corrections: factors the tree of constraints, or computes the Jacobian.
     fn prepare(&self, work: &mut Workspace<D>) {
         if !self.factor_tree(work) {
             self.jacobians(work);
@@ -299,7 +299,7 @@ impl<const D: usize> System<D> {
         kept.fold(self.settled_residual(view), larger)
     }
 
-    /// The same of constraints that nothing free can violate.
+    /// Returns the residual of the constraints that no free coordinate can violate.
     fn settled_residual<N: Number>(&self, view: &View<'_, D, N>) -> f64 {
         let settled = self.settled.iter().map(|c| self.relative(c, view));
         settled.fold(0.0, larger)

@@ -37,14 +37,14 @@ pub struct Redundant {
     pub nearly: HoldingParts,
 }
 
-/// What has been said of a constraint that does not count.
+/// Report state of a dependent constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ConstraintRemark {
     /// Nothing.
     None,
-    /// It is to be told.
+    /// The constraint is to be reported.
     Due,
-    /// It was told.
+    /// The constraint has been reported.
     Told,
 }
 
@@ -135,7 +135,8 @@ impl<const D: usize> System<D> {
         evenness
     }
 
-    /// What a unit force on the position of a node (0), 1/kg, or a unit moment on its direction (1), 1/(kg m^2), accelerates it by.
+    /// Returns the acceleration by a unit force on the position of a node (0), 1/kg, or by a unit moment on its
+    /// direction (1), 1/(kg m^2).
     fn mobility(&self, node: usize, vector: usize, y: &mut [f64]) -> f64 {
         let mut unit = no_node();
         unit[vector][0] = 1.0;
@@ -328,7 +329,7 @@ impl<const D: usize> System<D> {
             .count()
     }
 
-    /// What constraints belong to.
+    /// Returns the owners of constraints.
     fn holding(&self, rows: impl IntoIterator<Item = usize>) -> HoldingParts {
         let mut held = HoldingParts::default();
         for row in rows {

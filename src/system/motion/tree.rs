@@ -15,7 +15,7 @@ use crate::system::{System, Workspace};
 /// The point that a joint holds.
 #[derive(Clone, Debug)]
 struct Pin<const D: usize> {
-    /// Its rows, one an axis, and the link that they hold: whether it is of the second end.
+    /// Rows of the point, one for each axis. `is_second` tells whether the link is that of the second end.
     rows: [usize; 3],
     ends: [Attachment<D>; 2],
     is_second: bool,
@@ -31,7 +31,7 @@ pub(in crate::system) struct Tree<const D: usize> {
     turns: Vec<usize>,
 }
 
-/// What joins two bodies, or one and the ground.
+/// Constraints between two bodies, or between one and the ground.
 struct Pair<const D: usize> {
     bodies: [Option<usize>; 2],
     pins: Vec<usize>,

@@ -23,7 +23,8 @@ pub struct Derivatives<const D: usize> {
     pub values: Evaluation<D, Jet>,
     /// Forces on the nodes, but for constraints.
     f: Vec<Node<D, Jet>>,
-    /// The same on centres of mass and about axes of rigid bodies in space; angular accelerations of these.
+    /// Forces on the centres of mass and about the axes of rigid bodies in space. `spin_rates` holds the angular
+    /// accelerations of these.
     pulled: Vec<Node<D, Jet>>,
     spin_rates: Vec<Vector3<Jet>>,
     /// Torques of rods, and angular accelerations about the tangents of their carried frames.
@@ -38,7 +39,7 @@ pub struct Derivatives<const D: usize> {
     pub(super) other: Vec<Node<D>>,
     /// Nodal accelerations of the free coordinates and their derivatives.
     moved: [Vec<Node<D>>; 2],
-    /// What constraints ask for.
+    /// Right-hand side of constraints.
     right: Vec<f64>,
     /// Multipliers and their derivatives.
     lambda: [Vec<f64>; 3],
@@ -342,7 +343,7 @@ impl<const D: usize> Derivatives<D> {
         self.turn_carried(system, k);
     }
 
-    /// The same of axes that rods carry.
+    /// Computes derivative `k` of the accelerations of section axes.
     fn turn_carried(&mut self, system: &System<D>, k: usize) {
         let frames = system.frames.carried().iter();
         for (frame, spin_rate) in frames.zip(&mut self.carried_rates) {
@@ -364,8 +365,8 @@ impl<const D: usize> Derivatives<D> {
         }
     }
 
-    /// What constraints ask of derivative `k` of the accelerations; what their multipliers so far do to it as the
-    /// Jacobian changes is taken out of the forces.
+    /// Computes derivative `k` of the right-hand side of constraints. The effect of the present multipliers through the
+    /// change of the Jacobian is subtracted from the forces.
     fn turn_constraints(&mut self, system: &System<D>, k: usize, work: &mut Workspace<D>) {
         let below = if k == 1 { &work.a } else { &self.q[0] };
         let moved = &mut self.moved[k - 1];

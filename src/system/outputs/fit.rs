@@ -30,7 +30,7 @@ const STEPS: usize = 2;
 pub struct RigidFit<N = f64> {
     /// A point as drawn, m.
     drawn: Vector3<N>,
-    /// The same point now, m.
+    /// Present position of the point, m.
     now: Vector3<N>,
     /// The global axes as drawn, in global components now.
     axes: [Vector3<N>; 3],
@@ -144,7 +144,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         fit.displacement(&as_drawn(marker), &now(marker)).into()
     }
 
-    /// What the frame at a marker of a chain has made of the global axes since it was drawn.
+    /// Returns the global axes after the motion of the frame at a marker of a chain since it was drawn.
     fn carried_axes(&self, drawn: &[Node<D>], marker: &Marker) -> [Vector3<N>; 3] {
         let before = full(marker.direction(drawn)).normalize();
         let now: Vector3<N> = full(marker.lift().direction(&self.x)).normalize();

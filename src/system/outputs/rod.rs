@@ -29,11 +29,11 @@ struct RodPart {
 
 /// A marker of a rod.
 struct RodSection {
-    /// Its place, m from the middle.
+    /// Position along the rod, m from the middle.
     at: f64,
     /// Half the length, m.
     half: f64,
-    /// What roundoff keeps apart, m.
+    /// Distance that counts as roundoff, m.
     near: f64,
 }
 
@@ -115,8 +115,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         self.x[rod.node][1].into()
     }
 
-    /// What is spread over a rod between two places: weight and distributed loads less inertia; force, and moment about
-    /// the first place.
+    /// Integrates weight and distributed loads minus inertia over a part of a rod. Returns the force and the moment
+    /// about the first place.
     fn spread(
         &self,
         system: &System<D>,
@@ -137,7 +137,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         (force, moment(&self.along(rod), &turning).into())
     }
 
-    /// Of loads that change along a rod between two places: the integrals of force and of force times the way from the first place.
+    /// Integrates the varying loads over a part of a rod. Returns the force, and the integral of force times distance
+    /// from the first place.
     fn changing_spread(
         &self,
         system: &System<D>,

@@ -43,7 +43,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         normal.dot(&Vector3::from(moment)) * N::of(point.by_torque)
     }
 
-    /// What is across a section, and its axes; in the plane the tangent, and the axis across it last.
+    /// Returns the normal of a section and its axes. In the plane they are the tangent and the perpendicular axis,
+    /// which is last.
     fn section_axes(&self, system: &System<D>, marker: &Marker) -> [Vector3<N>; 3] {
         if marker.is_framed() {
             return self.axes(system, marker).map(Vector3::from);

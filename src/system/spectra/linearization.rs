@@ -243,10 +243,10 @@ impl<const D: usize> System<D> {
         made.follower = made.follower.filter(|_| skew);
     }
 
-    /// What rigid bodies of space add that turn: where forces on their axes turn them, and gyroscopic moments. Small
-    /// rotations are measured about axes that stand still in the frame of the scene, those in which the body's lie at the
-    /// instant. With a body's angular momentum `L = J w` its moment is `J p'' + (w J - J w - L) p'`, every vector as the
-    /// matrix of its cross product.
+    /// Adds the contributions of rigid bodies in space: geometric stiffness of forces on their axes, and gyroscopic
+    /// moments. Small rotations are measured about axes fixed in the frame of the scene, those of the body at the
+    /// instant. With a body's angular momentum `L = J w` its moment is `J p'' + (w J - J w - L) p'`. Each vector stands
+    /// for the matrix of its cross product.
     fn linearize_frames(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};

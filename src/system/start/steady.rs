@@ -119,7 +119,7 @@ impl<const D: usize> System<D> {
         rates
     }
 
-    /// What rows and constraints see of fields, and what they ask for.
+    /// Evaluates rows and constraints on velocity fields, and returns them with their right-hand sides.
     fn velocity_rows(
         &self,
         work: &Workspace<D>,

@@ -56,7 +56,7 @@ pub(super) struct Local<N> {
 /// Velocities as far as they lie in the plane.
 pub(super) struct Motion<N> {
     e: [Two<N>; 4],
-    /// Of the three sections, rad/s.
+    /// Angular velocities of the three sections, rad/s.
     spin: Three<N>,
 }
 

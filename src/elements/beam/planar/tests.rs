@@ -138,7 +138,7 @@ fn damping_takes_out_what_its_force_does() {
     }
 }
 
-/// The same beam of space: nothing but the internal lean is another number.
+/// The planar beam agrees with the spatial one. Only the internal shear rotation is another number.
 #[test]
 fn it_is_the_beam_of_space_in_a_plane() {
     for seed in 10..30 {

@@ -382,9 +382,9 @@ impl<N: Real> Kernel<N> {
         (times(&m, self.bending_stiffness[index]), square)
     }
 
-    /// What of the rate of curvature damping acts against: in space a cable without torsion has no frame that turns
-    /// about its tangent; the rate of the size of the curvature is seen alike from all of them, and where it is straight
-    /// all of the rate.
+    /// Returns the part of the curvature rate that damping acts on. In space a cable without torsion has no frame that
+    /// rotates about its tangent. All such frames agree on the rate of the curvature's size. A straight cable is damped
+    /// by the whole rate.
     #[inline(always)]
     fn damped<const D: usize>(&self, now: &Curvature<N>, change: &[N; TURNS]) -> [N; TURNS] {
         if D == 2 {

@@ -91,7 +91,7 @@ fn the_schema_has_a_variant_for_every_kind() {
     assert!(schema["$defs"].get("JointKind").is_none());
 }
 
-/// What a validator says is of the kind that is meant: no choice stands above it in which none fits.
+/// Messages of a validator concern the kind that is meant. No choice in which none fits is above it.
 #[test]
 fn the_schema_checks_by_kind() {
     let schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");

@@ -32,22 +32,23 @@ const SMALLEST: f64 = 1.0 / 256.0;
 const STEPS: usize = 2000;
 /// Largest turn of a slope in one step, where smaller ones are left to try, rad.
 const BRANCH: f64 = 1.5;
-/// Such a turn that the next step aims at, rad.
+/// Rotation of a slope that the next step aims at, rad.
 const AIM: f64 = 1.2;
 /// Turn under all of the load, were the response linear, from which on the first step is shorter, rad.
 const FAR: f64 = 6.0;
 /// Largest step that closes joints with such a turn.
 const FOLDING: f64 = 2.0 * SMALLEST;
-/// Such turns where smaller steps do not help, at most: what hangs falls into place, an arch snaps through. More of them
-/// go from one equilibrium to others with turns more.
+/// Most steps with larger rotations where smaller steps do not help. A hanging body then falls into place, or an arch
+/// snaps through. More of them lead to equilibria with additional full rotations.
 const LEAPS: usize = 2;
 /// First step of a way that closes joints.
 const CLOSING: f64 = 1.0 / 8.0;
 /// Bending stiffness, relative to `EA L^2`, of ropes while joints are closed: they bend rather than fold.
 const BENT: f64 = 1e-4;
-/// What may be left of forces that balance, in what one rounding of every coordinate and every sum leaves: an element takes some
-/// hundred operations, and Newton's method may end 45 roundings off (its `EXACT`). Of 95 scenes that settle, 17 of them without
-/// load, it was above 1 in nine and at most 51; wrong states of the same tests showed 5e5 and more.
+/// Tolerance of the force balance, in units of one rounding of every coordinate and every sum. An element takes some
+/// hundred operations, and Newton's method may end 45 roundings off (its `EXACT`). Of 95 scenes with equilibrium, 17 of
+/// them without load, the balance was above 1 in nine and at most 51. Wrong states of the same tests showed 5e5 and
+/// more.
 const ROUNDINGS: f64 = 1e3;
 
 /// Why no equilibrium was found.

@@ -34,7 +34,7 @@ const AWAY: f64 = 1e3;
 /// Steps that fail one after the other before the motion is given up.
 const FAILURES: usize = 40;
 
-/// What Newton's method made of a place on the way.
+/// Result of Newton's method near a point of the path.
 enum Beside {
     /// An equilibrium.
     Found(FoundEquilibrium),

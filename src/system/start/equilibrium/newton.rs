@@ -10,8 +10,9 @@ use crate::system::{DrivenSystem, Dynamics, State, StepOutcome};
 /// Iterations for one system, and where time is what regularizes.
 const ITERATIONS: usize = 100;
 const TRANSIENT: usize = 500;
-/// The same for loads without a potential, on the way from one equilibrium to the next with smaller steps left to try: of a beam wound to ten
-/// turns by an end moment, steps that succeed take 11 to 22, those that take more succeed seldom, and half of such a step takes 11.
+/// Iterations for loads that are not conservative, on the path between equilibria while smaller steps are left to try.
+/// For a beam wound to ten turns by an end moment, steps that succeed take 11 to 22. Longer ones succeed seldom, and
+/// half of such a step takes 11.
 const HASTY: usize = 30;
 const HASTY_TRANSIENT: usize = 60;
 /// Shifts that are tried in one iteration, each three times the one before.
@@ -65,7 +66,7 @@ pub(super) struct Newton<'a, 'b, const D: usize> {
     pub(super) trial: Vec<f64>,
     /// The lowest mode.
     mode: Vec<f64>,
-    /// What of the rods could not go where a correction led.
+    /// Rod and element that a correction would deform too far.
     overbent: Option<(usize, usize)>,
     /// Whether it gives up early, as something else is left to try.
     pub(super) is_hasty: bool,

@@ -60,7 +60,7 @@ impl<const D: usize> Newton<'_, '_, D> {
 }
 
 impl<const D: usize> System<D> {
-    /// The same system with references of rows and offsets of constraints a part of the way to those of another.
+    /// Returns a system whose references of rows and offsets of constraints are a part of the way to those of `next`.
     fn closed_by(&self, part: f64, next: &Self) -> Self {
         let mut closed = self.clone();
         for (x, to) in closed.reference.iter_mut().zip(&next.reference) {

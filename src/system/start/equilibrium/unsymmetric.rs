@@ -22,7 +22,7 @@ const NEUTRAL: f64 = 1e-5;
 /// shift that is not part of the tangent costs the iteration a few steps.
 const JOINED: f64 = 1e3;
 
-/// What a product with the whole tangent and its projections cost beside an acceleration, roughly.
+/// Approximate cost of a product with the full tangent and its projections, in accelerations.
 const PRODUCT: f64 = 3.0;
 
 /// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
@@ -130,8 +130,8 @@ fn apply<const D: usize>(model: &mut DrivenSystem<'_, D>, s: f64, q: &[f64]) -> 
     sum
 }
 
-/// What the symmetric tangent leaves out: minus the derivative of the loads without a potential along `q`, less
-/// their part in the symmetric tangent.
+/// Returns the part of the tangent's product that the symmetric tangent leaves out: minus the derivative of the
+/// non-conservative loads along `q`, minus their part in the symmetric tangent.
 fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> {
     let (system, time) = (model.system, Jet::from_re(model.time));
     let work = &mut *model.work;
