@@ -19,7 +19,7 @@
 //!
 //! # Example
 //!
-//! A stone that is let go falls by `g t^2 / 2`:
+//! A stone that is released falls by `g t^2 / 2`:
 //!
 //! ```
 //! use flexbody::{scene::Scene, simulation::Simulation};

@@ -17,7 +17,7 @@ pub struct RedundantNames {
 
 /// Meaning of nearly redundant joints, and remedies, for messages.
 pub const NEARLY: &str = "accelerations and reactions here are those without them; give lengths and axes that agree in \
-                          all digits, let go what is held twice, or start from another position";
+                          all digits, release what is held twice, or start from another position";
 
 /// A singular position that a motion came to.
 #[derive(Clone, Debug, PartialEq)]

@@ -105,7 +105,7 @@ pub struct System<const D: usize = 2> {
     /// Loads that act only where the initial state is looked for.
     initial_loads: Vec<AppliedLoad<D>>,
     angles: Vec<Angle<D>>,
-    /// When joints let go.
+    /// Releases of joints.
     releases: Vec<Release>,
     /// For every slide, its constraint.
     slides: Vec<usize>,

@@ -261,8 +261,8 @@ impl State {
         self.dense.copy_from(&other.dense);
     }
 
-    /// Numbers of coordinates, rates, frames, angles, slides, joints that let go, driven motions, and of what a step within which it stands
-    /// holds.
+    /// Numbers of coordinates, rates, frames, angles, slides, releases and driven motions, and of the vectors
+    /// of a dense step.
     pub fn sizes(&self) -> [usize; 8] {
         [
             self.coordinates.len(),

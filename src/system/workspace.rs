@@ -41,7 +41,7 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) input_rates: Vec<f64>,
     pub(super) angles: Vec<f64>,
     pub(super) travel: Vec<f64>,
-    /// When joints let go, and which of them have done so.
+    /// Releases of joints, and which of them have happened.
     pub(super) releases: Vec<Release>,
     pub(super) released: Vec<bool>,
     /// Frames that rotations are counted from, and how bodies have turned from there.

@@ -349,7 +349,7 @@ impl<const D: usize> Builder<'_, D> {
                     _ => holds.extend(self.primitives(hold, joint, ends)),
                 }
             }
-            // What lets go is held by constraints.
+            // A joint that can be released needs multipliers.
             holds.extend(self.clamp(joint).filter(|_| joint.release.is_none()));
             let springs = joint.holds.iter();
             let turn = self.turn_of(joint);

@@ -1,4 +1,4 @@
-//! Checks of joints that let go.
+//! Checks of joints that can be released.
 
 use super::checks::{expected, quoted};
 use crate::scene::Error;
@@ -41,7 +41,7 @@ impl Resolved<'_> {
                 (None, Some((_, name))) => quoted(name),
                 (None, None) => continue,
             };
-            let wanted = "nothing that acts on the coordinates of a joint that lets go";
+            let wanted = "nothing that acts on the coordinates of a joint that can be released";
             return Err(expected(&path, wanted, found));
         }
         Ok(())

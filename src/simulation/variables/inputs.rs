@@ -111,7 +111,7 @@ const ALONG: [&str; 2] = [
     "across, to the left of the direction",
 ];
 /// Meaning of an input that releases a joint.
-const LETS_GO: &str = "Makes a joint let go, for good, where it is above 0 as a step begins:";
+const RELEASES: &str = "Releases a joint permanently if it is above 0 as a step begins:";
 
 /// Key, meaning and unit of a load's variables, and what its components are along.
 fn words(
@@ -138,7 +138,7 @@ fn words(
         InputKind::RestLength(_) => {
             return ("rest_length", "Length at rest of", Some(METRE), &[""]);
         }
-        InputKind::Release(_) => return ("release", LETS_GO, None, &[""]),
+        InputKind::Release(_) => return ("release", RELEASES, None, &[""]),
         InputKind::Current(_) => {
             return ("current", "Velocity of", Some(METRE_PER_SECOND), &AXES);
         }

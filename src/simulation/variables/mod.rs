@@ -128,7 +128,7 @@ pub enum Parameter {
     SolidLength(RigidId, usize),
     /// Moment of inertia of a rigid body.
     Inertia(RigidId, usize),
-    /// Time at which a joint lets go.
+    /// Time at which a joint is released.
     ReleaseTime(usize),
     /// Mass lumped at a marker.
     LumpedMass(usize),

@@ -65,13 +65,13 @@ pub(super) fn constraints<const D: usize>(
     release_rows(parts, &mut linear, &mut nonlinear);
     let places: Vec<usize> = releases(parts).map(|(joint, _)| joint).collect();
     for constraint in &mut nonlinear {
-        let lets_go = |joint: usize| places.iter().position(|of| *of == joint);
-        constraint.release = constraint.joint.and_then(lets_go);
+        let release_of = |joint: usize| places.iter().position(|of| *of == joint);
+        constraint.release = constraint.joint.and_then(release_of);
     }
     (linear, nonlinear)
 }
 
-/// Joints that let go, and when.
+/// Joints that can be released, with their releases.
 pub(super) fn releases<const D: usize>(parts: &Parts<D>) -> impl Iterator<Item = (usize, Release)> {
     let joints = parts.joints.iter().enumerate();
     joints.filter_map(|(index, joint)| Some((index, joint.release?)))
@@ -142,8 +142,8 @@ pub(super) fn unplaced<const D: usize>([center, _]: &Node<D>) -> Node<D> {
     [*center, [0.0; D]]
 }
 
-/// Rows that hold axes of rigid bodies in space, which are no coordinates, keep multipliers instead of being eliminated. So
-/// do those of joints that let go, those that hold cables which are paid out, and pins that would tie many rigid bodies together: what is tied together is dense.
+/// Rows that hold axes of rigid bodies in space, which are no coordinates, keep multipliers instead of being eliminated. So do
+/// those of joints that can be released, those that hold cables which are paid out, and pins that would tie many rigid bodies together: what is tied together is dense.
 fn release_rows<const D: usize>(
     parts: &Parts<D>,
     linear: &mut Vec<Linear<D>>,

@@ -121,7 +121,7 @@ pub struct View<'a, const D: usize, N = f64> {
     pub travel: &'a [N],
     /// Angles that the system counts, rad: what angles are nearest to.
     pub angles: &'a [N],
-    /// Which of the joints that let go have done so.
+    /// Release state of every joint that can be released.
     pub released: &'a [bool],
 }
 

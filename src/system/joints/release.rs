@@ -1,11 +1,11 @@
-//! Joints that let go: from a time on, or from the first step on that begins with an input above zero. What they hold keeps multipliers; once
-//! they have let go their conditions are zero identically and count no more. Nothing is struck: positions and velocities go on.
+//! Releases of joints: from a time on, or from the first step that begins with an input above zero. Their constraints keep multipliers. Once
+//! released, a constraint is identically zero and does not count. A release is not an impact: positions and velocities stay continuous.
 
 use super::Constraint;
 use crate::math::switches::grain;
 use crate::system::{State, Workspace};
 
-/// When a joint lets go, for good.
+/// Time and input of the permanent release of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Release {
     /// At this time, s.
@@ -22,14 +22,14 @@ impl Release {
 }
 
 impl<const D: usize> Constraint<D> {
-    /// Whether its joint is among those that have let go.
+    /// Whether the joint of the constraint is released.
     pub(in crate::system) fn is_released(&self, released: &[bool]) -> bool {
         self.release.is_some_and(|place| released[place])
     }
 }
 
 impl<const D: usize> Workspace<D> {
-    /// Takes over which joints have let go at a state, and which are due by then.
+    /// Copies the released joints of a state, and releases those that are due by its time.
     pub(in crate::system) fn release(&mut self, state: &State) {
         let told = state.released.iter().zip(&self.releases);
         for (is_released, (told, release)) in self.released.iter_mut().zip(told) {
@@ -37,7 +37,7 @@ impl<const D: usize> Workspace<D> {
         }
     }
 
-    /// Joints let go that are due at a time (s), or by inputs.
+    /// Releases the joints that are due at a time (s), or by inputs.
     pub(in crate::system) fn release_at(&mut self, time: f64, inputs: &[f64]) {
         for (is_released, release) in self.released.iter_mut().zip(&self.releases) {
             let is_told = release.input.is_some_and(|input| inputs[input] > 0.0);

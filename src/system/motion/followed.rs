@@ -1,4 +1,4 @@
-//! What a state keeps beside coordinates and rates: driven motions, angles over full turns, slides, joints that have let go.
+//! What a state keeps beside coordinates and rates: driven motions, angles over full turns, slides, released joints.
 
 use super::dynamics::{DrivenSystem, StepOutcome};
 use crate::system::State;

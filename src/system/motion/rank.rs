@@ -89,7 +89,7 @@ impl RankWatch {
         self.reached.copy_from_slice(coordinates);
     }
 
-    /// Keeps which constraints count where most of them do, with those of joints that have let go. Whether these are as many.
+    /// Keeps which constraints count where most of them do, with those of released joints. Whether these are as many.
     fn keep(&mut self, jacobian: &Jacobian, released: usize) -> bool {
         let rank = jacobian.rank() + released;
         if rank > self.most {
@@ -321,7 +321,7 @@ impl<const D: usize> System<D> {
             .collect()
     }
 
-    /// Number of constraints whose joints have let go.
+    /// Number of constraints whose joints are released.
     fn released_rows(&self, work: &Workspace<D>) -> usize {
         let constraints = self.constraints.iter();
         constraints

@@ -36,7 +36,7 @@ pub struct Evaluation<const D: usize = 2, N = f64> {
     pub(in crate::system) drives: Vec<[N; 3]>,
     /// Frames that the state holds of rigid bodies of space.
     pub(in crate::system) frames: Vec<Quaternion>,
-    /// Which of the joints that let go have done so.
+    /// Release state of every joint that can be released.
     pub(in crate::system) released: Vec<bool>,
 }
 

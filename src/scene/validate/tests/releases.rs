@@ -1,4 +1,4 @@
-//! Joints that let go: when, and what may act on them.
+//! Releases of joints: when, and what may act on them.
 
 use serde_json::{Value, json};
 
@@ -19,11 +19,11 @@ fn a_joint_lets_go_where_nothing_acts_on_its_coordinates() {
         /name | "free" | accepted
         /joints/0/release_time | null | accepted
         /joints/0/release_time | -1 | joints[0].release_time
-        /joints/0 | {"name": "pin", "kind": "revolute", "markers": ["ground", "bob.p"], "stiffness": 1} | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found a spring of its own
-        /loads | [{"name": "motor", "kind": "torque", "joint": "pin", "value": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "motor"
-        /loads | [{"name": "end", "kind": "joint_limit", "joint": "pin", "stiffness": 1, "upper": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "end"
-        /motions | [{"name": "drive", "kind": "angle", "joint": "pin", "value": "t"}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "drive"
-        /inputs | [{"kind": "torque", "joint": "pin"}, {"kind": "release", "joint": "pin"}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "torque"
+        /joints/0 | {"name": "pin", "kind": "revolute", "markers": ["ground", "bob.p"], "stiffness": 1} | joints[0]: expected nothing that acts on the coordinates of a joint that can be released, found a spring of its own
+        /loads | [{"name": "motor", "kind": "torque", "joint": "pin", "value": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that can be released, found "motor"
+        /loads | [{"name": "end", "kind": "joint_limit", "joint": "pin", "stiffness": 1, "upper": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that can be released, found "end"
+        /motions | [{"name": "drive", "kind": "angle", "joint": "pin", "value": "t"}] | joints[0]: expected nothing that acts on the coordinates of a joint that can be released, found "drive"
+        /inputs | [{"kind": "torque", "joint": "pin"}, {"kind": "release", "joint": "pin"}] | joints[0]: expected nothing that acts on the coordinates of a joint that can be released, found "torque"
         /inputs/0/joint | "pen" | inputs[0].joint: expected a joint of this scene (pin), found "pen"; did you mean `pin`?
         /inputs/0/joint | null | inputs[0].joint: expected a name, found nothing
         /inputs/0/marker | "bob.p" | inputs[0].marker
