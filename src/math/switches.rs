@@ -118,7 +118,7 @@ fn angle<N: ConstantPower>(y: N, x: N) -> N {
     near + N::from(exact - near.re())
 }
 
-/// Values of an expression over a stretch of time, of its derivative there, and in the middle.
+/// Values of an expression over an interval of time, of its derivative there, and in the middle.
 #[derive(Clone, Copy)]
 struct Range {
     value: Interval,

@@ -6,10 +6,10 @@ use super::resolved::{
     Cable, InputKind, LoadKind, Marker, MotionKind, Of, On, Place, Resolved, Turning,
 };
 
-/// Shortest stretch between two nodes, in elements of even length: shorter ones swing so fast that they
+/// Shortest segment between two nodes, in elements of even length: shorter ones swing so fast that they
 /// would set the steps of the whole scene.
 pub(super) const SHORTEST: f64 = 1e-3;
-/// Part of the shortest stretch, and of the length of a body, by which roundoff moves a marker.
+/// Part of the shortest segment, and of the length of a body, by which roundoff moves a marker.
 const ROUNDOFF: f64 = 1e-9;
 
 impl<'a> Resolved<'a> {
@@ -129,23 +129,23 @@ fn corners(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error>
 /// coordinate of `held`, of which there are some by this number of stations.
 fn nodes(path: &str, elements: usize, held: &[f64], stations: usize) -> Result<Vec<f64>, Error> {
     let corners = corners(path, elements, held)?;
-    let stretches: Vec<f64> = corners.windows(2).map(|c| c[1] - c[0]).collect();
-    if elements < stretches.len() {
+    let segments: Vec<f64> = corners.windows(2).map(|c| c[1] - c[0]).collect();
+    if elements < segments.len() {
         let inside = match stations {
             0 => "joints, loads and masses act inside the body".into(),
             _ => format!("its {stations} stations and what acts inside it are between elements"),
         };
         let message = format!(
             "expected at least {} elements ({inside}), found {elements}",
-            stretches.len()
+            segments.len()
         );
         return Err(Error::new(format!("{path}.elements"), message));
     }
-    let mut counts = vec![1_u32; stretches.len()];
-    for _ in stretches.len()..elements {
+    let mut counts = vec![1_u32; segments.len()];
+    for _ in segments.len()..elements {
         // The next element goes where elements are longest.
-        let longest = (0..stretches.len()).max_by(|a, b| {
-            let length = |i: usize| stretches[i] / f64::from(counts[i]);
+        let longest = (0..segments.len()).max_by(|a, b| {
+            let length = |i: usize| segments[i] / f64::from(counts[i]);
             length(*a).total_cmp(&length(*b))
         });
         counts[longest.expect("a cable has two ends")] += 1;

@@ -41,7 +41,7 @@ impl<const D: usize> Builder<'_, D> {
     ///
     /// # Errors
     /// A mesh that is not possible.
-    pub(super) fn stretches(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
+    pub(super) fn segments(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
         match cable.id.form {
             Form::Chain(_) => self.resolved.nodes(cable),
             Form::Rod(_) => Ok((0..=PANELS).map(|k| k as f64 / PANELS as f64).collect()),
@@ -62,7 +62,7 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn fluid(&self, fluid: &Fluid<'_>, path: &str) -> Result<AppliedLoad<D>, Error> {
         let cable = fluid.on;
         let mut strips = Vec::new();
-        for ends in self.stretches(cable)?.windows(2) {
+        for ends in self.segments(cable)?.windows(2) {
             let sections = cable.body.sections_about(0.5 * (ends[0] + ends[1]));
             for point in GAUSS_5 {
                 let section = match cable.id.form {

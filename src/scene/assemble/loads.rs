@@ -132,7 +132,7 @@ impl<const D: usize> Builder<'_, D> {
         if given.is_empty() {
             return Ok(());
         }
-        let mesh = self.stretches(cable)?;
+        let mesh = self.segments(cable)?;
         for (k, text) in given {
             for ends in mesh.windows(2) {
                 for point in GAUSS_5 {

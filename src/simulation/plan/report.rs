@@ -200,7 +200,7 @@ impl Settled {
             format!("{name} by {}{error}", in_words(*change))
         });
         format!(
-            "Forces ring with waves of stretching. \"axial\": \"critically_damped\" of {} would change {}, at about {:.2} ms a second",
+            "Forces oscillate with axial vibrations. \"axial\": \"critically_damped\" of {} would change {}, at about {:.2} ms a second",
             self.bodies.join(", "),
             forces.collect::<Vec<_>>().join("; "),
             self.price.milliseconds()

@@ -1,7 +1,7 @@
 //! Contact of a marker, or of the line of a body, with a fixed surface. Where a point is below the surface by `d`, the surface
 //! pushes along its normal with `k d (1 + a d')`, as a stop does; where the bracket is negative it pushes no more: nothing sticks.
 //! Friction is `-mu N v / sqrt(v^2 + w^2)`, `v` the velocity along the surface, `w` the speed of slip: smooth, and none at rest.
-//! Along a body all of this is per reference length and counts at the Gauss points of its stretches.
+//! Along a body all of this is per reference length and counts at the Gauss points of its segments.
 //!
 //! Source: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied
 //! Mechanics 42 (1975) 440-445, with a force that is linear in `d`; P. Wriggers, Computational Contact Mechanics, 2nd ed. (2006),
@@ -51,7 +51,7 @@ pub struct ContactPoint {
 /// Contact with a surface.
 #[derive(Clone, Debug)]
 pub struct Contact<const D: usize = 2> {
-    /// A single marker, or the Gauss points of all stretches of a body in turn: of the elements of a chain, of the panels of a rod.
+    /// A single marker, or the Gauss points of all segments of a body in turn: of the elements of a chain, of the panels of a rod.
     pub places: Vec<ContactPoint>,
     /// Surface that is touched.
     pub surface: ContactSurface<D>,
@@ -190,13 +190,13 @@ impl<const D: usize> Contact<D> {
         self.places[0].marker.nodes[0]
     }
 
-    /// Force per reference length at the Gauss points of a stretch of a body, N/m.
+    /// Force per reference length at the Gauss points of a segment of a body, N/m.
     pub(in crate::system) fn changing<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        stretch: usize,
+        segment: usize,
     ) -> Values<D, N> {
-        let places = &self.places[stretch * GAUSS_5.len()..];
+        let places = &self.places[segment * GAUSS_5.len()..];
         let paid_out = self.paid_out(at);
         let longer = longer_by(paid_out.as_ref());
         std::array::from_fn(|k| {
@@ -204,10 +204,10 @@ impl<const D: usize> Contact<D> {
         })
     }
 
-    /// Nodes of the stretches of a body, or of the marker.
+    /// Nodes of the segments of a body, or of the marker.
     pub(super) fn parts(&self) -> Vec<Vec<usize>> {
-        let stretches = self.places.chunks(GAUSS_5.len());
-        let nodes = stretches.map(|places| places[0].marker.nodes.to_vec());
+        let segments = self.places.chunks(GAUSS_5.len());
+        let nodes = segments.map(|places| places[0].marker.nodes.to_vec());
         nodes.collect()
     }
 

@@ -69,10 +69,10 @@ impl<const D: usize> DistributedForce<D> {
     pub(in crate::system) fn changing<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        stretch: usize,
+        segment: usize,
     ) -> Values<D, N> {
         let longer = self.longer_by(at);
-        self.density.changing(at, stretch).map(|load| load * longer)
+        self.density.changing(at, segment).map(|load| load * longer)
     }
 
     /// First node of the body that it acts on.

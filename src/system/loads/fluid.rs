@@ -120,8 +120,8 @@ impl<const D: usize> Flow<D, f64> {
 }
 
 impl<const D: usize> Fluid<D> {
-    /// Number of its stretches.
-    fn stretches(&self) -> usize {
+    /// Number of its segments.
+    fn segments(&self) -> usize {
         self.strips.len() / GAUSS_5.len()
     }
 
@@ -133,25 +133,25 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    /// Nodes of its stretches.
+    /// Nodes of its segments.
     pub(super) fn parts(&self, chains: &[LineChain<D>]) -> Vec<Vec<usize>> {
         match self.on {
             LoadedLine::Chain(chain) => {
-                let stretches = 0..self.stretches();
-                stretches.map(|j| chains[chain].nodes(j).to_vec()).collect()
+                let segments = 0..self.segments();
+                segments.map(|j| chains[chain].nodes(j).to_vec()).collect()
             }
-            LoadedLine::Rod(rod) => vec![vec![rod.node]; self.stretches()],
+            LoadedLine::Rod(rod) => vec![vec![rod.node]; self.segments()],
         }
     }
 
-    fn place(&self, chains: &[LineChain<D>], stretch: usize, point: usize) -> FluidPoint {
+    fn place(&self, chains: &[LineChain<D>], segment: usize, point: usize) -> FluidPoint {
         let point = GAUSS_5[point];
         match self.on {
             LoadedLine::Chain(chain) => {
                 let chain = &chains[chain];
-                let length = chain.elements()[stretch].length();
+                let length = chain.elements()[segment].length();
                 FluidPoint {
-                    nodes: chain.nodes(stretch),
+                    nodes: chain.nodes(segment),
                     position: shape::values(point.at, length).into(),
                     slope: shape::slopes(point.at, length).into(),
                     weight: point.weight * length,
@@ -159,7 +159,7 @@ impl<const D: usize> Fluid<D> {
             }
             LoadedLine::Rod(rod) => {
                 let part = rod.length / PANELS as f64;
-                let arm = (stretch as f64 + point.at) * part - 0.5 * rod.length;
+                let arm = (segment as f64 + point.at) * part - 0.5 * rod.length;
                 FluidPoint {
                     nodes: [rod.node; 2],
                     position: [1.0, arm, 0.0, 0.0],
@@ -170,11 +170,11 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    /// The current at the Gauss points of a stretch by what its components are: their values or their rates.
-    fn current<N: Number>(&self, stretch: usize, of: impl Fn(&Signal) -> N + Copy) -> Values<D, N> {
+    /// The current at the Gauss points of a segment by what its components are: their values or their rates.
+    fn current<N: Number>(&self, segment: usize, of: impl Fn(&Signal) -> N + Copy) -> Values<D, N> {
         let uniform: Vector<D, N> = self.current.uniform.each_ref().map(of).into();
         std::array::from_fn(|point| {
-            let place = GAUSS_5.len() * stretch + point;
+            let place = GAUSS_5.len() * segment + point;
             let here = |values: &Vec<Signal>| values.get(place).map_or(N::of(0.0), of);
             uniform + Vector::from(self.current.along.each_ref().map(here))
         })
@@ -183,7 +183,7 @@ impl<const D: usize> Fluid<D> {
     fn flow<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        (place, (stretch, xi)): (&FluidPoint, (usize, f64)),
+        (place, (segment, xi)): (&FluidPoint, (usize, f64)),
         (current, paid_out): (Vector<D, N>, Option<&PaidOut<'_, D, N>>),
     ) -> Flow<D, N> {
         let (velocity, rate) = self.carried;
@@ -194,7 +194,7 @@ impl<const D: usize> Fluid<D> {
         let slope = place.sum(&place.slope, at.x);
         let mut velocity = place.sum(&place.position, at.v);
         if let Some(paid_out) = paid_out {
-            velocity += paid_out.passing((stretch, xi), slope);
+            velocity += paid_out.passing((segment, xi), slope);
         }
         let past = current - velocity - carried;
         let tangent = slope / slope.norm();
@@ -210,23 +210,23 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    /// Calls with every Gauss point of a stretch, the flow and what the fluid does there, and the whole force, N/m.
+    /// Calls with every Gauss point of a segment, the flow and what the fluid does there, and the whole force, N/m.
     fn each<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        stretch: usize,
+        segment: usize,
         mut call: impl FnMut(&FluidPoint, &Flow<D, N>, &FluidSegment, Vector<D, N>),
     ) {
-        let current = self.current(stretch, |signal| signal.value(at));
-        let rates = self.current(stretch, |signal| signal.rate(at));
+        let current = self.current(segment, |signal| signal.value(at));
+        let rates = self.current(segment, |signal| signal.rate(at));
         let paid_out = match self.on {
             LoadedLine::Chain(_) => at.paid_out(self.first_node(at.chains)),
             LoadedLine::Rod(_) => None,
         };
         for (point, (current, rate)) in current.into_iter().zip(rates).enumerate() {
-            let strip = &self.strips[GAUSS_5.len() * stretch + point];
-            let place = self.place(at.chains, stretch, point);
-            let on = (&place, (stretch, GAUSS_5[point].at));
+            let strip = &self.strips[GAUSS_5.len() * segment + point];
+            let place = self.place(at.chains, segment, point);
+            let on = (&place, (segment, GAUSS_5[point].at));
             let flow = self.flow(at, on, (current, paid_out.as_ref()));
             let force = flow.drag(strip.drag) + rate * N::of(strip.inert)
                 - (self.gravity * strip.buoyant).map(N::of);
@@ -234,28 +234,28 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    /// Forces at the Gauss points of a stretch, N/m.
+    /// Forces at the Gauss points of a segment, N/m.
     pub(in crate::system) fn values<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        stretch: usize,
+        segment: usize,
     ) -> Values<D, N> {
         let (mut values, mut point) = ([Vector::zeros(); GAUSS_5.len()], 0);
-        self.each(at, stretch, |_, _, _, force| {
+        self.each(at, segment, |_, _, _, force| {
             values[point] = force;
             point += 1;
         });
         values
     }
 
-    /// Adds its forces on a stretch.
+    /// Adds its forces on a segment.
     pub(super) fn add_force_on<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        stretch: usize,
+        segment: usize,
         f: &mut [Node<D, N>],
     ) {
-        self.each(at, stretch, |place, _, _, force| {
+        self.each(at, segment, |place, _, _, force| {
             for (k, part) in place.position.into_iter().enumerate() {
                 let on = force * N::of(part * place.weight);
                 let node = &mut f[place.nodes[k / 2]][k % 2];
@@ -265,8 +265,8 @@ impl<const D: usize> Fluid<D> {
     }
 
     pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        for stretch in 0..self.stretches() {
-            self.add_force_on(at, stretch, f);
+        for segment in 0..self.segments() {
+            self.add_force_on(at, segment, f);
         }
     }
 
@@ -276,10 +276,10 @@ impl<const D: usize> Fluid<D> {
         if !self.is_damped() {
             return;
         }
-        for stretch in 0..self.stretches() {
+        for segment in 0..self.segments() {
             let [mut first, mut between, mut last] = [no_block(); 3];
             let mut nodes = [0; 2];
-            self.each(at, stretch, |place, flow, strip, _| {
+            self.each(at, segment, |place, flow, strip, _| {
                 let matrix = flow.damping(strip.drag) * (place.weight * flow.counts);
                 nodes = place.nodes;
                 for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -307,8 +307,8 @@ impl<const D: usize> Fluid<D> {
     /// Returns the power that the fluid supplies by its motion and by buoyancy, and the power that drag dissipates, W.
     pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let (mut on_line, mut lost) = (N::of(0.0), N::of(0.0));
-        for stretch in 0..self.stretches() {
-            self.each(at, stretch, |place, flow, strip, force| {
+        for segment in 0..self.segments() {
+            self.each(at, segment, |place, flow, strip, force| {
                 let weight = N::of(place.weight);
                 let past = flow.across + flow.tangent * flow.along;
                 let drag = flow.drag(strip.drag) * flow.counts;
@@ -322,8 +322,8 @@ impl<const D: usize> Fluid<D> {
     /// Returns the work from one instant to another of forces that stay as they were at the first, J.
     pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let mut sum = 0.0;
-        for stretch in 0..self.stretches() {
-            self.each(before, stretch, |place, _, _, force| {
+        for segment in 0..self.segments() {
+            self.each(before, segment, |place, _, _, force| {
                 let [from, to] = [before, after].map(|at| place.sum(&place.position, at.x));
                 sum += force.dot(&(to - from)) * place.weight;
             });

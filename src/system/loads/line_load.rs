@@ -1,5 +1,5 @@
 //! Vectors per reference length of a body. A component is the same along the whole body, or changes along it and is known at the Gauss
-//! points of every stretch, which is an element of a cable: between them it is the polynomial of degree 4 through these values.
+//! points of every segment, which is an element of a cable: between them it is the polynomial of degree 4 through these values.
 //! Integrals of its products with shape functions are exact where it is of degree 6 at most, those up to a place inside of degree 4.
 //!
 //! Source: M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), 25.4.29 (Gauss's rule).
@@ -10,7 +10,7 @@ use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
 use crate::system::signal::Signal;
 
-/// Values at the Gauss points of a stretch.
+/// Values at the Gauss points of a segment.
 pub type Values<const K: usize, N> = [Vector<K, N>; GAUSS_5.len()];
 
 /// A vector per reference length, 1/m times its unit.
@@ -18,7 +18,7 @@ pub type Values<const K: usize, N> = [Vector<K, N>; GAUSS_5.len()];
 pub struct LineLoad<const K: usize> {
     /// Components that are the same everywhere; zero of those that change.
     pub uniform: [Signal; K],
-    /// Components that change, at the Gauss points of every stretch in turn; empty of those that do not.
+    /// Components that change, at the Gauss points of every segment in turn; empty of those that do not.
     pub along: [Vec<Signal>; K],
 }
 
@@ -33,14 +33,14 @@ impl<const K: usize> LineLoad<K> {
         self.uniform.each_ref().map(|c| c.value(at)).into()
     }
 
-    /// Components that change, in a stretch.
+    /// Components that change, in a segment.
     pub fn changing<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        stretch: usize,
+        segment: usize,
     ) -> Values<K, N> {
         std::array::from_fn(|point| {
-            let place = GAUSS_5.len() * stretch + point;
+            let place = GAUSS_5.len() * segment + point;
             let here = |values: &Vec<Signal>| values.get(place).map(|signal| signal.value(at));
             let values = self.along.each_ref().map(here);
             values.map(|value| value.unwrap_or(N::of(0.0))).into()

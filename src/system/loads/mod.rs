@@ -126,19 +126,19 @@ impl<const D: usize> AppliedLoad<D> {
     pub(in crate::system) fn changing<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        (first, stretch): (usize, usize),
+        (first, segment): (usize, usize),
     ) -> Option<Values<D, N>> {
         match self {
             Self::DistributedForce(load) => (load.density.changes()
                 && load.first_node(at.chains) == first)
-                .then(|| load.changing(at, stretch)),
+                .then(|| load.changing(at, segment)),
             Self::Contact(load) => (load.is_distributed() && load.first_node() == first)
-                .then(|| load.changing(at, stretch)),
+                .then(|| load.changing(at, segment)),
             Self::Fluid(load) => {
-                (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
+                (load.first_node(at.chains) == first).then(|| load.values(at, segment))
             }
             Self::ConvectiveInertia(load) => {
-                (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
+                (load.first_node(at.chains) == first).then(|| load.values(at, segment))
             }
             _ => None,
         }

@@ -186,16 +186,16 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         sum
     }
 
-    /// Sum of what of them changes along the body, and of what fluids do, at the Gauss points of a stretch, N/m; none where nothing does.
+    /// Sum of what of them changes along the body, and of what fluids do, at the Gauss points of a segment, N/m; none where nothing does.
     pub(super) fn changing(
         &self,
         system: &System<D>,
-        (first, stretch): (usize, usize),
+        (first, segment): (usize, usize),
     ) -> Option<Values<D, N>> {
         let at = self.instant(system);
         let mut sum: Option<Values<D, N>> = None;
         for load in &system.loads {
-            let Some(values) = load.changing(at, (first, stretch)) else {
+            let Some(values) = load.changing(at, (first, segment)) else {
                 continue;
             };
             let sum = sum.get_or_insert([Vector::zeros(); GAUSS_5.len()]);
