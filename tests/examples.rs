@@ -82,7 +82,11 @@ fn run(path: &Path) -> Result<(), String> {
     }
     let mut warnings = Vec::new();
     simulation.tell_warnings(|warning| warnings.push(warning.to_string()));
-    if warnings.is_empty() { Ok(()) } else { Err(warnings.join("; ")) }
+    if warnings.is_empty() {
+        Ok(())
+    } else {
+        Err(warnings.join("; "))
+    }
 }
 
 #[test]

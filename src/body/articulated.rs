@@ -228,7 +228,11 @@ impl Articulated {
             for (k, free) in free.iter_mut().enumerate() {
                 let unit = Vector3::ith(k % 3, 1.0);
                 free.way = Twist::default();
-                if k < 3 { free.way.turn = unit } else { free.way.shift = unit }
+                if k < 3 {
+                    free.way.turn = unit
+                } else {
+                    free.way.shift = unit
+                }
             }
             return true;
         }

@@ -301,7 +301,11 @@ impl Jacobian {
         self.lambda.fill(0.0);
         for _ in 0..passes {
             for (row, place) in self.place.iter().enumerate() {
-                self.missing[*place] = if self.counts[*place] { self.rows.product(row, q) - right(row) } else { 0.0 };
+                self.missing[*place] = if self.counts[*place] {
+                    self.rows.product(row, q) - right(row)
+                } else {
+                    0.0
+                };
             }
             self.factors.solve(&self.pattern, &mut self.missing);
             for (row, (place, lambda)) in self.place.iter().zip(&mut self.lambda).enumerate() {

@@ -109,13 +109,27 @@ impl RodChain {
     pub fn section_at(&self, marker: &Marker) -> Option<Marker> {
         let k = marker.nodes[0] - self.line;
         let frame = self.frames + self.stride * k;
-        marker.is_nodal().then(|| if self.is_planar() { Marker::leaning(marker.body, [self.line + k, frame]) } else { Marker::framed(marker.body, frame, [0.0; 3], [1.0, 0.0, 0.0]) })
+        marker.is_nodal().then(|| {
+            if self.is_planar() {
+                Marker::leaning(marker.body, [self.line + k, frame])
+            } else {
+                Marker::framed(marker.body, frame, [0.0; 3], [1.0, 0.0, 0.0])
+            }
+        })
     }
 
     /// Element and place inside it of a section by the first node of its marker: the element after it, but at the last end.
     pub fn element_at(&self, node: usize) -> (usize, f64) {
-        let k = if self.is_planar() { node - self.line } else { (node - self.frames) / self.stride };
-        if k == self.elements.len() { (k - 1, 1.0) } else { (k, 0.0) }
+        let k = if self.is_planar() {
+            node - self.line
+        } else {
+            (node - self.frames) / self.stride
+        };
+        if k == self.elements.len() {
+            (k - 1, 1.0)
+        } else {
+            (k, 0.0)
+        }
     }
 
     /// Nodes inside its elements.

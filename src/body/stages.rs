@@ -171,7 +171,11 @@ impl<const D: usize> Stages<D> {
             for node in &assembly.clusters()[knot.cluster].nodes {
                 for vector in &mut self.nodes[*node] {
                     let (v, to) = (SVector::from(*vector), &self.turned[stage][*node]);
-                    *vector = if self.elastic[*node] { to * (to.dot(&v) * (ALONG - ACROSS)) + v * ACROSS } else { v * RIGID }
+                    *vector = if self.elastic[*node] {
+                        to * (to.dot(&v) * (ALONG - ACROSS)) + v * ACROSS
+                    } else {
+                        v * RIGID
+                    }
                     .into();
                 }
             }
@@ -187,7 +191,13 @@ fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<TiedCl
         .filter(|(_, cluster)| cluster.basis.ncols() > 0)
         .map(|(index, cluster)| {
             let n = cluster.basis.ncols();
-            let weight = |row: usize| if elastic[cluster.nodes[row / (2 * D)]] { ACROSS } else { RIGID };
+            let weight = |row: usize| {
+                if elastic[cluster.nodes[row / (2 * D)]] {
+                    ACROSS
+                } else {
+                    RIGID
+                }
+            };
             let pattern = Pattern::new(&[n], &[]);
             let mut across = Matrix::zeros(&pattern);
             for (i, row) in cluster.basis.row_iter().enumerate() {
@@ -434,7 +444,11 @@ impl<const D: usize> Tangent<D> {
 /// Directions that nodes turn with; rigid bodies of space have coordinates that turn with them as it is.
 fn unit_directions<const D: usize>(x: &[Node<D>], elastic: &[bool], units: &mut [SVector<f64, D>]) {
     for ((x, unit), is_elastic) in x.iter().zip(units).zip(elastic) {
-        *unit = if D == 2 || *is_elastic { SVector::from(x[1]).normalize() } else { axis(0) };
+        *unit = if D == 2 || *is_elastic {
+            SVector::from(x[1]).normalize()
+        } else {
+            axis(0)
+        };
     }
 }
 

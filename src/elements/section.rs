@@ -249,7 +249,11 @@ mod tests {
             let axes = at.axes[end].map(Vector3::from);
             let [u, du] = [at.e[2 * end + 1], rates.e[2 * end + 1]].map(Vector3::from);
             let spin = rates.spin[end];
-            let velocity = if leans { axes[0] * spin[0] + axes[1] * spin[1] + axes[2] * spin[2] } else { u.cross(&du) / u.norm_squared() + axes[0] * spin[0] };
+            let velocity = if leans {
+                axes[0] * spin[0] + axes[1] * spin[1] + axes[2] * spin[2]
+            } else {
+                u.cross(&du) / u.norm_squared() + axes[0] * spin[0]
+            };
             let turn = nalgebra::Rotation3::new(velocity * time);
             let [mut first, second, _] = axes.map(|axis| turn * axis);
             if !leans {

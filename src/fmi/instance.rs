@@ -209,9 +209,13 @@ impl Instance {
             );
             self.logger.log(Status::Ok, Category::Warning, message);
         }
-        if self.simulation.is_unstable() { Err(Fault::Remark(
+        if self.simulation.is_unstable() {
+            Err(Fault::Remark(
                 "the simulation starts from an equilibrium that is not stable, and no stable one was found beside it",
-            )) } else { Ok(()) }
+            ))
+        } else {
+            Ok(())
+        }
     }
 
     /// Tells of what holds what others hold already, and of what nearly does.

@@ -98,7 +98,11 @@ impl Logger {
             (true, 0) if unknown.is_empty() => ALL,
             (true, _) => named,
         };
-        if unknown.is_empty() { Ok(()) } else { Err(Fault::Category(unknown.join("\", \""))) }
+        if unknown.is_empty() {
+            Ok(())
+        } else {
+            Err(Fault::Category(unknown.join("\", \"")))
+        }
     }
 
     /// Passes a message on, if its category is enabled. Formats nothing otherwise, so that a

@@ -205,7 +205,11 @@ impl SavedState {
             state.driven.as_flattened(),
             slopes.as_flattened(),
             held,
-            if state.dense.length > 0.0 { &state.dense.vectors } else { &[] },
+            if state.dense.length > 0.0 {
+                &state.dense.vectors
+            } else {
+                &[]
+            },
         ]
     }
 }
@@ -215,7 +219,11 @@ const PARTS: &str = "holds a part of a driven motion, of an input, of an eigenva
 
 /// Refuses what is left of arrays that are made of equal parts.
 fn whole(rests: [&[f64]; 4]) -> Result<(), Fault> {
-    if rests.iter().all(|rest| rest.is_empty()) { Ok(()) } else { Err(refused(PARTS)) }
+    if rests.iter().all(|rest| rest.is_empty()) {
+        Ok(())
+    } else {
+        Err(refused(PARTS))
+    }
 }
 
 /// Where an instance stood: its lifecycle state, whether it was initialized, whether it was started.
@@ -313,7 +321,11 @@ impl ByteReader<'_> {
         for (array, length) in arrays.iter_mut().zip(lengths) {
             *array = self.array(length)?;
         }
-        if self.0.len() as u64 == scene_length { Ok(arrays) } else { Err(refused("is not as long as it says")) }
+        if self.0.len() as u64 == scene_length {
+            Ok(arrays)
+        } else {
+            Err(refused("is not as long as it says"))
+        }
     }
 
     fn array(&mut self, length: u64) -> Result<Vec<f64>, Fault> {

@@ -65,7 +65,11 @@ fn members<'a>(
             Causality::of(variable),
             Causality::Input | Causality::Output
         );
-        let letters = if key.starts_with("quaternion") { ["_w", "_x", "_y", "_z"] } else { ["_x", "_y", "_z", ""] };
+        let letters = if key.starts_with("quaternion") {
+            ["_w", "_x", "_y", "_z"]
+        } else {
+            ["_x", "_y", "_z", ""]
+        };
         let named =
             |key: String, (k, letter): (usize, &str)| key.replace(&format!("[{}]", k + 1), letter);
         let member = letters.into_iter().enumerate().fold(key.to_owned(), named);

@@ -41,7 +41,11 @@ impl Pitch {
         match self.0 {
             Some(apart) if wanted < FEW * apart || !is_free => {
                 let pieces = (apart / wanted).ceil().max(1.0);
-                if pieces < FEW { (1.0 + ROUNDOFF) * apart / pieces } else { wanted }
+                if pieces < FEW {
+                    (1.0 + ROUNDOFF) * apart / pieces
+                } else {
+                    wanted
+                }
             }
             _ => wanted,
         }
@@ -145,7 +149,11 @@ impl Controller {
     /// would cost a step of its own.
     pub fn trial(wanted: f64, remaining: f64) -> Trial {
         let pieces = (remaining / wanted).ceil().max(1.0);
-        let h = if pieces < FEW { remaining / pieces } else { wanted };
+        let h = if pieces < FEW {
+            remaining / pieces
+        } else {
+            wanted
+        };
         Trial {
             is_last: pieces <= 1.0,
             is_cut: h < wanted,
@@ -161,7 +169,11 @@ impl Controller {
         let next = next.min(self.ceiling);
         self.grow = GROW;
         // A step cut short by the communication point says nothing against the longer one.
-        if trial.is_cut { next.max(before).min(self.ceiling) } else { next }
+        if trial.is_cut {
+            next.max(before).min(self.ceiling)
+        } else {
+            next
+        }
     }
 
     /// The length to propose after a step that was not accepted.
@@ -196,10 +208,12 @@ mod tests {
         for _ in 0..20 {
             let trial = Controller::trial(step, 1e9);
             let error = error(trial.h, 1e-3);
-            step = if error <= 1.0 { controller.accept(trial, error, step) } else {
-                    rejected += 1;
-                    controller.reject(trial, Attempt::Done(error))
-                };
+            step = if error <= 1.0 {
+                controller.accept(trial, error, step)
+            } else {
+                rejected += 1;
+                controller.reject(trial, Attempt::Done(error))
+            };
         }
         assert!((step / 1e-3 - SAFETY).abs() < 1e-12, "{step}");
         assert!(rejected <= 6, "{rejected}");

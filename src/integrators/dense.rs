@@ -169,7 +169,11 @@ pub(super) fn acceleration(step: &DenseStep, time: f64, a: &mut [f64]) {
 /// Part of what the polynomial is off by at its start that it is off by at `s`, up to the first stage: that of the cubic through 1
 /// at the start and zero at the stages.
 pub(super) fn of_start(s: f64) -> f64 {
-    if s < C[0] { C.iter().map(|c| 1.0 - s / c).product() } else { 0.0 }
+    if s < C[0] {
+        C.iter().map(|c| 1.0 - s / c).product()
+    } else {
+        0.0
+    }
 }
 
 /// A weighted sum of the velocities at the stages, `A^-1 z / h`, by what positions change by to each.

@@ -382,13 +382,21 @@ fn use_cheaper_variant(
 
 /// The outcome of an attempt; work that is not finite is none.
 fn bounded(attempt: Attempt, method: &dyn OneStepMethod) -> Attempt {
-    if method.work().iter().all(|work| work.is_finite()) { attempt } else { Attempt::Failed(0.25) }
+    if method.work().iter().all(|work| work.is_finite()) {
+        attempt
+    } else {
+        Attempt::Failed(0.25)
+    }
 }
 
 /// The state is that at the end of the step attempted last.
 fn take(method: &mut dyn OneStepMethod, state: &mut State, (trial, until): (Trial, f64)) {
     method.accept(&mut state.coordinates, &mut state.rates);
-    state.time = if trial.is_last { until } else { state.time + trial.h };
+    state.time = if trial.is_last {
+        until
+    } else {
+        state.time + trial.h
+    };
     for (sum, part) in state.work.iter_mut().zip(method.work()) {
         *sum += part;
     }

@@ -143,7 +143,11 @@ pub fn quaternion<N: Number>(axes: &[Vector3<N>; 3]) -> Quaternion<N> {
     let mut near = [0.0; 4];
     near[largest] = 1.0;
     let found = quaternion_near(axes, &near);
-    if found[0].plain() < 0.0 { found.map(|part| -part) } else { found }
+    if found[0].plain() < 0.0 {
+        found.map(|part| -part)
+    } else {
+        found
+    }
 }
 
 /// The rotation vector, the angle (from 0 to pi, rad) along the axis, of the rotation by this quaternion of either sign.
@@ -151,10 +155,12 @@ pub fn rotation_vector<N: Number>(q: &Quaternion<N>) -> Vector3<N> {
     let sign = N::of(if q[0].plain() < 0.0 { -1.0 } else { 1.0 });
     let (cosine, along) = (q[0] * sign, Vector3::new(q[1], q[2], q[3]) * sign);
     let square = along.norm_squared();
-    let half_over_sine = if square.plain() < SMALL { (ARC_SINE.iter().rev()).fold(N::of(0.0), |sum, c| sum * square + N::of(*c)) } else {
-            let sine = square.sqrt();
-            sine.atan2(cosine) / sine
-        };
+    let half_over_sine = if square.plain() < SMALL {
+        (ARC_SINE.iter().rev()).fold(N::of(0.0), |sum, c| sum * square + N::of(*c))
+    } else {
+        let sine = square.sqrt();
+        sine.atan2(cosine) / sine
+    };
     along * (half_over_sine * N::of(2.0))
 }
 

@@ -51,7 +51,11 @@ pub fn combine<'a>(out: &mut [f64], mut terms: impl Iterator<Item = Term<'a>>) {
 
 /// [`add`] where a sum is begun, [`sum`] where not.
 fn go_on(is_begun: bool, out: &mut [f64], terms: &[Term<'_>]) {
-    if is_begun { add(out, terms) } else { sum(out, terms) }
+    if is_begun {
+        add(out, terms)
+    } else {
+        sum(out, terms)
+    }
 }
 
 /// [`sum`], or [`add`] if `ADDS`.
@@ -92,7 +96,11 @@ fn sweep<S: Simd, const K: usize, const ADDS: bool>(
         weights[k] = simd.splat_f64s(terms[k].0);
     }
     for i in 0..out.len() {
-        let mut sum = if ADDS { simd.mul_add_e_f64s(weights[0], heads[0][i], out[i]) } else { simd.mul_f64s(weights[0], heads[0][i]) };
+        let mut sum = if ADDS {
+            simd.mul_add_e_f64s(weights[0], heads[0][i], out[i])
+        } else {
+            simd.mul_f64s(weights[0], heads[0][i])
+        };
         for k in 1..K {
             sum = simd.mul_add_e_f64s(weights[k], heads[k][i], sum);
         }

@@ -63,9 +63,11 @@ impl Chosen {
     /// Makes it a beam where shear moves something by more than an error wanted; `what` says what it does.
     pub fn judge_shear(&mut self, part: f64, error: f64, what: &str) {
         if part > error {
-                self.sections = Sections::Lean;
-                self.why = format!("shear {what}, more than {error:e}");
-            } else { self.why += &format!("; shear {what}, no more than {error:e}") }
+            self.sections = Sections::Lean;
+            self.why = format!("shear {what}, more than {error:e}");
+        } else {
+            self.why += &format!("; shear {what}, no more than {error:e}")
+        }
     }
 
     /// Decides on shear by its share in the static deflection. Serves scenes without an experiment in which two runs

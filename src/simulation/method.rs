@@ -100,11 +100,19 @@ pub(super) fn choose<const D: usize>(
     if named != Integrator::Auto {
         return Ok((tolerance, Methods::one(explicit)));
     }
-    let explicit_up_to = if system.reads_rates() { EXPLICIT_WITH_RATES } else { EXPLICIT };
+    let explicit_up_to = if system.reads_rates() {
+        EXPLICIT_WITH_RATES
+    } else {
+        EXPLICIT
+    };
     let is_soft = frequency.max(decay) <= explicit_up_to * rate / relative.min(LOOSE).cbrt();
     Ok((
         tolerance,
-        if is_soft { Methods::two(explicit, radau()) } else { Methods::two(radau(), explicit) },
+        if is_soft {
+            Methods::two(explicit, radau())
+        } else {
+            Methods::two(radau(), explicit)
+        },
     ))
 }
 
@@ -141,7 +149,11 @@ fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kin
         .into_iter()
         .filter(|rate| *rate > 0.0 && rate.is_finite());
     let otherwise = slow.next().unwrap_or(1.0);
-    if rate > REST * otherwise && rate.is_finite() { rate } else { otherwise }
+    if rate > REST * otherwise && rate.is_finite() {
+        rate
+    } else {
+        otherwise
+    }
 }
 
 /// Slowest bending (or stretching) of the first cable that bends, between supports; 0 without one.

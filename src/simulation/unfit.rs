@@ -46,7 +46,11 @@ impl<const D: usize> Engine<D> {
         let word = |gap: &Gap| {
             let (kind, name) = &self.holders[gap.joint];
             let unit = if gap.is_angle { "rad" } else { "m" };
-            if gap.size < 1e-3 { format!("{kind} `{name}` {:.1e} {unit}", gap.size) } else { format!("{kind} `{name}` {:.3} {unit}", gap.size) }
+            if gap.size < 1e-3 {
+                format!("{kind} `{name}` {:.1e} {unit}", gap.size)
+            } else {
+                format!("{kind} `{name}` {:.3} {unit}", gap.size)
+            }
         };
         gaps.iter().map(word).collect::<Vec<_>>().join(", ")
     }

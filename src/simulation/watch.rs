@@ -194,7 +194,11 @@ impl Watch {
         for index in 0..self.groups.len() {
             let is_beyond = self.elapsed >= time && self.error(index) > self.wanted;
             let group = &mut self.groups[index];
-            group.beyond = if is_beyond { group.beyond.or(Some(self.elapsed)) } else { None };
+            group.beyond = if is_beyond {
+                group.beyond.or(Some(self.elapsed))
+            } else {
+                None
+            };
             let since = group.beyond.map(|since| self.elapsed >= 2.0 * since);
             group.is_doubtful |= since == Some(true);
         }
@@ -205,7 +209,11 @@ impl Watch {
         let group = &self.groups[index];
         let others = group.like.iter().map(|other| self.groups[*other].largest);
         let size = others.fold(0.0, f64::max);
-        if size > NOTHING * group.natural { group.squares.sqrt() / group.largest.max(SMALLEST * size) } else { 0.0 }
+        if size > NOTHING * group.natural {
+            group.squares.sqrt() / group.largest.max(SMALLEST * size)
+        } else {
+            0.0
+        }
     }
 
     /// The next output that has become doubtful, still is, and has not been told of.

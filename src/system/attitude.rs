@@ -36,7 +36,11 @@ impl Attitude {
 
     /// The angular velocity (1) or acceleration (2); zero where it is not given.
     fn vector(&self, order: usize, input: impl Fn(usize) -> f64) -> Vector3<f64> {
-        if order <= self.derivatives { Vector3::from_fn(|k, _| input(self.first + 1 + 3 * order + k)) } else { Vector3::zeros() }
+        if order <= self.derivatives {
+            Vector3::from_fn(|k, _| input(self.first + 1 + 3 * order + k))
+        } else {
+            Vector3::zeros()
+        }
     }
 
     /// The quaternion that inputs give, of unit length, with two derivatives.
@@ -118,14 +122,20 @@ impl Attitude {
         let (is_carried, given) = (!moves(self.first, 4), normalized(part(0)));
         if self.derivatives == 0 {
             let target = near(normalized(at_end));
-            let rate = if is_carried { total(&[(1.0 / h, target), (-1.0 / h, *from)]) } else {
-                    let rate = self.quaternion(|i| moved(input(i), h)[1]);
-                    changed(velocity(&at_end, &rate), &target)
-                };
+            let rate = if is_carried {
+                total(&[(1.0 / h, target), (-1.0 / h, *from)])
+            } else {
+                let rate = self.quaternion(|i| moved(input(i), h)[1]);
+                changed(velocity(&at_end, &rate), &target)
+            };
             return [target, rate, [0.0; 4]];
         }
         let [w, way] = self.turn(h, &input, moves(self.first + 4, 3));
-        let target = if is_carried { product(&turn_by(&way), &near(given)) } else { near(normalized(at_end)) };
+        let target = if is_carried {
+            product(&turn_by(&way), &near(given))
+        } else {
+            near(normalized(at_end))
+        };
         orders(target, w, self.vector(2, |i| moved(input(i), h)[0]))
     }
 
@@ -138,7 +148,11 @@ impl Attitude {
     ) -> [Vector3<f64>; 2] {
         // The angular velocity with three derivatives.
         let of = |order: usize, k: usize| self.vector(order, |i| input(i)[k]);
-        let [w, a, b, c] = if is_moving { [of(1, 0), of(1, 1), of(1, 2), Vector3::zeros()] } else { [of(1, 0), of(2, 0), of(2, 1), of(2, 2)] };
+        let [w, a, b, c] = if is_moving {
+            [of(1, 0), of(1, 1), of(1, 2), Vector3::zeros()]
+        } else {
+            [of(1, 0), of(2, 0), of(2, 1), of(2, 2)]
+        };
         let after = w + (a + (b / 2.0 + c * (h / 6.0)) * h) * h;
         let way = (w + (a / 2.0 + (b / 6.0 + c * (h / 24.0)) * h) * h) * h;
         [after, way + a.cross(&w) * (h * h * h / 12.0)]

@@ -158,7 +158,11 @@ impl<const D: usize> System<D> {
         if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }
-        longest.max(if self.has_no_frames() { self.extent(&self.reference) } else { self.reach })
+        longest.max(if self.has_no_frames() {
+            self.extent(&self.reference)
+        } else {
+            self.reach
+        })
     }
 
     /// Number of independent coordinates `q`.

@@ -275,12 +275,22 @@ fn destination(h: f64, p: f64, inputs: &[[f64; 3]]) -> [f64; 3] {
         [[value, ..]] => [value, (value - p) / h, 0.0],
         [value, rate, ref rest @ ..] => {
             let second = rest.first().copied().unwrap_or([rate[1], rate[2], 0.0]);
-            let rate_at_end = if moves(rate) { at_end(rate) } else { rate[0] + gained(second) };
-            let way = if moves(rate) { gained(rate) } else {
-                    let [a, b, c] = second;
-                    h * (rate[0] + h * (a / 2.0 + h * (b / 6.0 + h * c / 24.0)))
-                };
-            let target = if moves(value) { at_end(value) } else { value[0] + way };
+            let rate_at_end = if moves(rate) {
+                at_end(rate)
+            } else {
+                rate[0] + gained(second)
+            };
+            let way = if moves(rate) {
+                gained(rate)
+            } else {
+                let [a, b, c] = second;
+                h * (rate[0] + h * (a / 2.0 + h * (b / 6.0 + h * c / 24.0)))
+            };
+            let target = if moves(value) {
+                at_end(value)
+            } else {
+                value[0] + way
+            };
             [target, rate_at_end, at_end(second)]
         }
     }

@@ -142,7 +142,11 @@ impl<const D: usize> Winch<D> {
     /// The node at the winch.
     pub fn end(&self) -> usize {
         let [first, count] = self.nodes;
-        if self.at_last { first + count - 1 } else { first }
+        if self.at_last {
+            first + count - 1
+        } else {
+            first
+        }
     }
 
     /// How long the cable is.
@@ -167,7 +171,11 @@ impl<const D: usize> Winch<D> {
     /// `xi L_0` at a place in an element, m; negative where the way from the winch leads to the first end.
     fn way(&self, chain: &LineChain<D>, element: usize, at: f64) -> f64 {
         let place = self.starts[element] + at * chain.element_length(element);
-        if self.at_last { -place } else { self.length - place }
+        if self.at_last {
+            -place
+        } else {
+            self.length - place
+        }
     }
 
     /// Velocity at which material passes a place of the mesh, `xi c L_0 r'`, m/s.
@@ -247,7 +255,11 @@ impl<const D: usize> Winch<D> {
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         now: &Length<N>,
     ) -> N {
-        let (j, xi) = if self.at_last { (chain.elements().len() - 1, 1.0) } else { (0, 0.0) };
+        let (j, xi) = if self.at_last {
+            (chain.elements().len() - 1, 1.0)
+        } else {
+            (0, 0.0)
+        };
         let (element, [e, rates]) = (&chain.elements()[j], [x, v].map(|of| chain.element(j, of)));
         let l = element.length();
         let place = e * shape::values(N::of(xi), l);

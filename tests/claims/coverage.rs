@@ -184,7 +184,11 @@ fn complaints(key: &str, records: &Records) -> Vec<String> {
         is_stuck || noticed(changed) || (choice && refused(changed))
     };
     if !holds && !of(Deed::Clashed).iter().any(taken) {
-        let what = if changed.is_empty() { "no specimen has it" } else { "no claim notices a change" };
+        let what = if changed.is_empty() {
+            "no specimen has it"
+        } else {
+            "no claim notices a change"
+        };
         found.push(told(what, changed));
     }
     // Without it there may be no start.

@@ -387,7 +387,13 @@ fn parameters_out_of_their_limits_are_those_that_are_refused() {
                 continue;
             }
             let before = simulation.setting(index);
-            let mut set = |value: f64| if is_integer { simulation.set_integer(index, value as i32).is_ok() } else { simulation.set_real(index, value).is_ok() };
+            let mut set = |value: f64| {
+                if is_integer {
+                    simulation.set_integer(index, value as i32).is_ok()
+                } else {
+                    simulation.set_real(index, value).is_ok()
+                }
+            };
             let [least, greatest] = limits[&name];
             for value in [-1.0, 2e5] {
                 let is_within = least.is_none_or(|least| value >= least)

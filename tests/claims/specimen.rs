@@ -221,7 +221,11 @@ impl<'a> Run<'a> {
 
     fn put(&mut self, place: usize, value: f64) -> Result<(), Outcome> {
         let is_integer = self.simulation.variables()[place].is_integer();
-        let done = if is_integer { self.simulation.set_integer(place, value as i32) } else { self.simulation.set_real(place, value) };
+        let done = if is_integer {
+            self.simulation.set_integer(place, value as i32)
+        } else {
+            self.simulation.set_real(place, value)
+        };
         done.map_err(|error| Outcome::Stuck(error.to_string()))
     }
 

@@ -26,7 +26,11 @@ fn energy(values: &Evaluation, system: &System) -> [f64; 2] {
 fn method(moving: &mut Moving, explicit: bool) -> Box<dyn OneStepMethod> {
     let n = moving.system.coordinates();
     let (frequency, decay) = fastest(&moving.system, &[], &mut moving.work, &moving.state);
-    if explicit { Box::new(RungeKutta::new(&RK4, n, frequency, decay)) } else { Box::new(Radau::new(n)) }
+    if explicit {
+        Box::new(RungeKutta::new(&RK4, n, frequency, decay))
+    } else {
+        Box::new(Radau::new(n))
+    }
 }
 
 fn balance(mechanism: &Mechanism, explicit: bool, seen: &Cell<u32>) -> Outcome {

@@ -346,7 +346,11 @@ pub fn expansion(system: &System) -> DMatrix<f64> {
             flat(&system.chains()[0], &expand(system, &q))
         })
         .collect();
-    if columns.is_empty() { DMatrix::zeros(8 * system.chains()[0].elements().len(), 0) } else { DMatrix::from_columns(&columns) }
+    if columns.is_empty() {
+        DMatrix::zeros(8 * system.chains()[0].elements().len(), 0)
+    } else {
+        DMatrix::from_columns(&columns)
+    }
 }
 
 /// The transposed matrix as `reduce` applies it to forces on elements, column by column.

@@ -46,7 +46,11 @@ fn stay_across(joint: Value, [first, second]: [V; 2], is_grounded: bool, chance:
     let starts = [(base.matrix(), first), (own.matrix(), second)];
     for k in 1..=10 {
         run.step(0.1 * f64::from(k));
-        let first_now = if is_grounded { *base.matrix() } else { standing(&mut run, "a") };
+        let first_now = if is_grounded {
+            *base.matrix()
+        } else {
+            standing(&mut run, "a")
+        };
         let now = [first_now, standing(&mut run, "b")];
         let [a, b] = [0, 1].map(|k| now[k] * starts[k].0.transpose() * starts[k].1);
         assert!(a.dot(&b).abs() < 1e-9, "{joint}: {}", a.dot(&b));
@@ -58,14 +62,22 @@ fn stay_across(joint: Value, [first, second]: [V; 2], is_grounded: bool, chance:
 }
 
 fn ends(is_grounded: bool) -> [&'static str; 2] {
-    if is_grounded { ["ground", "b.c"] } else { ["a.c", "b.c"] }
+    if is_grounded {
+        ["ground", "b.c"]
+    } else {
+        ["a.c", "b.c"]
+    }
 }
 
 #[test]
 fn the_first_of_two_free_rotations_turns_about_an_axis_of_the_first_body() {
     let mut chance = Chance(7);
     for is_grounded in [true, false] {
-        let base = if is_grounded { Rotation3::identity() } else { Rotation3::new(STANDS) };
+        let base = if is_grounded {
+            Rotation3::identity()
+        } else {
+            Rotation3::new(STANDS)
+        };
         for i in 0..3 {
             for j in (0..3).filter(|j| *j != i) {
                 let joint = json!({"name": "j", "kind": "generic", "markers": ends(is_grounded), "free": [AXES[i], AXES[j]]});
@@ -80,7 +92,11 @@ fn the_first_of_two_free_rotations_turns_about_an_axis_of_the_first_body() {
 fn the_direction_of_a_cross_is_fixed_in_the_first_body_and_the_second_in_the_second() {
     let mut chance = Chance(8);
     for is_grounded in [true, false] {
-        let base = if is_grounded { Rotation3::identity() } else { Rotation3::new(STANDS) };
+        let base = if is_grounded {
+            Rotation3::identity()
+        } else {
+            Rotation3::new(STANDS)
+        };
         for _ in 0..3 {
             let first = chance.vector().normalize();
             let second = first.cross(&chance.vector()).normalize();

@@ -103,7 +103,11 @@ pub fn orthogonal(b: &DMatrix<f64>) -> Orthogonal {
     let others = (0..b.ncols()).filter(|i| !order.contains(i));
     let others: Vec<usize> = others.collect();
     order.extend(others);
-    let q = if q.is_empty() { DMatrix::zeros(b.nrows(), 0) } else { DMatrix::from_columns(&q) };
+    let q = if q.is_empty() {
+        DMatrix::zeros(b.nrows(), 0)
+    } else {
+        DMatrix::from_columns(&q)
+    };
     let r = q.transpose() * b.select_columns(&order);
     Orthogonal { q, r, order }
 }
@@ -303,7 +307,11 @@ impl Mechanism {
         match load {
             Acting::Force { at, follower, size } => {
                 let [a, b] = size.map(|wave| wave.value(t));
-                let along = if follower { self.point(*at, x)[1].normalize() } else { Vector2::x() };
+                let along = if *follower {
+                    self.point(*at, x)[1].normalize()
+                } else {
+                    Vector2::x()
+                };
                 self.add_force(Point::On(*at), along * a + left(along) * b, f);
             }
             Acting::Moment { ends, size } => {

@@ -61,7 +61,11 @@ pub fn inertia<const D: usize>(s: &Specimen<D>) -> Outcome {
         let mass = consistent(inertia);
         for (i, count) in counts.iter().enumerate() {
             for j in 0..4 {
-                let expected = if i == j { count / (2.0 * i as f64 + 1.0) } else { 0.0 };
+                let expected = if i == j {
+                    count / (2.0 * i as f64 + 1.0)
+                } else {
+                    0.0
+                };
                 let found = coordinates(i).dot(&(mass * coordinates(j))) / (line_density * l);
                 within("mass of a polynomial", (found - expected).abs(), 1e-13)?;
             }

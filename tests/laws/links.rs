@@ -48,7 +48,11 @@ fn lagrange(angles: &[f64], rates: &[f64], is_closed: bool) -> DVector<f64> {
     for i in 0..n {
         for j in 0..n {
             let beyond = (n - 1 - i.max(j)) as f64;
-            let coupling = if i == j { INERTIA + MASS * LENGTH * LENGTH * (0.25 + beyond) } else { MASS * LENGTH * LENGTH * (0.5 + beyond) };
+            let coupling = if i == j {
+                INERTIA + MASS * LENGTH * LENGTH * (0.25 + beyond)
+            } else {
+                MASS * LENGTH * LENGTH * (0.5 + beyond)
+            };
             let (sin, cos) = (angles[i] - angles[j]).sin_cos();
             a[(i, j)] = coupling * cos;
             b[i] -= coupling * sin * rates[j] * rates[j];

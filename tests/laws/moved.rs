@@ -132,7 +132,11 @@ fn output(simulation: &mut Simulation, name: &str) -> Option<f64> {
 pub fn values(simulation: &mut Simulation, name: &str) -> Vec<f64> {
     let parts = (1..=3).map(|k| format!("{name}[{k}]"));
     let components: Vec<f64> = parts.filter_map(|part| output(simulation, &part)).collect();
-    if components.is_empty() { vec![output(simulation, name).expect("an output")] } else { components }
+    if components.is_empty() {
+        vec![output(simulation, name).expect("an output")]
+    } else {
+        components
+    }
 }
 
 /// Both say the same, but for so much: of positions, and of the rest.

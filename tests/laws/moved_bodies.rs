@@ -171,9 +171,17 @@ fn moved_joint(plane: &Plane, flat: &Value) -> Value {
     let mut joint = flat.clone();
     let on_ground = flat["markers"][0] == "ground";
     if flat["kind"] == "revolute" {
-        joint["direction"] = if on_ground { json!(plane.normal()) } else { json!([0.0, 0.0, 1.0]) };
+        joint["direction"] = if on_ground {
+            json!(plane.normal())
+        } else {
+            json!([0.0, 0.0, 1.0])
+        };
     } else if !flat["direction"].is_null() {
-        joint["direction"] = if on_ground { json!(plane.vector(pair(&flat["direction"]))) } else { along_axes(&flat["direction"]) };
+        joint["direction"] = if on_ground {
+            json!(plane.vector(pair(&flat["direction"])))
+        } else {
+            along_axes(&flat["direction"])
+        };
     }
     joint
 }

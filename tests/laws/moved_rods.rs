@@ -273,7 +273,11 @@ fn scenes_with_rods_and_beams_move_alike_wherever_they_are() {
 /// Then twist and bending about the second axis are what they were, bending about the first is opposite.
 fn from_the_other_end(body: &Value) -> Value {
     let mut other = body.clone();
-    let kind = if body["shape"]["arc"].is_object() { "arc" } else { "line" };
+    let kind = if body["shape"]["arc"].is_object() {
+        "arc"
+    } else {
+        "line"
+    };
     let ends = &body["shape"][kind];
     other["shape"][kind]["from"] = ends["to"].clone();
     other["shape"][kind]["to"] = ends["from"].clone();
@@ -323,7 +327,13 @@ fn rods_and_beams_move_alike_from_whichever_end_they_are_drawn() {
                 *body = from_the_other_end(body);
             }
         }
-        let read = |name: &str, of: &[f64]| if drawn.iter().any(|body| name.starts_with(body)) { seen_from_the_other_end(name, of) } else { of.to_vec() };
+        let read = |name: &str, of: &[f64]| {
+            if drawn.iter().any(|body| name.starts_with(body)) {
+                seen_from_the_other_end(name, of)
+            } else {
+                of.to_vec()
+            }
+        };
         alike(&scene, &other, read).unwrap_or_else(|error| panic!("{drawn:?}: {error}"));
     }
 }

@@ -114,7 +114,11 @@ fn a_shape_beyond_what_elements_hold_is_refused() {
             let arc = json!({"from": [0.0, 0.0, 0.0], "to": [0.4, 0.0, 0.0], "length": length});
             scene["bodies"][0]["shape"] = json!({"arc": arc});
             let told = told_at_start(&scene);
-            if is_held { assert_eq!(told, "", "{element}") } else { assert!(is_named(&told, 1, " at the start"), "{element}: {told}") }
+            if is_held {
+                assert_eq!(told, "", "{element}")
+            } else {
+                assert!(is_named(&told, 1, " at the start"), "{element}: {told}")
+            }
         }
     }
 }

@@ -73,7 +73,11 @@ fn samples(s: &Planar) -> [Vec<(f64, f64)>; 2] {
         let far = far.sqrt() / 2.0;
         vec![(0.5 - far, end), (0.5, 1.0 - 2.0 * end), (0.5 + far, end)]
     };
-    let axial = if s.is_slender() { points(1.0, 1.0 / 6.0) } else { points(13.0 / 15.0, 5.0 / 26.0) };
+    let axial = if s.is_slender() {
+        points(1.0, 1.0 / 6.0)
+    } else {
+        points(13.0 / 15.0, 5.0 / 26.0)
+    };
     let bending = points(0.6, 5.0 / 18.0);
     let times = |points: Vec<(f64, f64)>, stiffness: f64| {
         points

@@ -176,7 +176,11 @@ fn mobility_fits(
     assert!(least > -1e-11 * size, "{run}: {least:e}");
     let miss = (&found - &wanted).amax() / size;
     // Joints are differentiated numerically; a free body has none.
-    let within = if mechanism.joints.is_empty() { 1e-12 } else { 1e-6 };
+    let within = if mechanism.joints.is_empty() {
+        1e-12
+    } else {
+        1e-6
+    };
     assert!(miss < within, "{run}: {miss:e}");
 }
 

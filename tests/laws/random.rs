@@ -269,10 +269,12 @@ impl Builder {
         let body = self.made.bodies.len() - 1;
         let second = self.place(body);
         let grounded = body == 0 || self.dice.pick(3) == 0;
-        let first = if grounded { Point::Ground(self.dice.vector(1.0)) } else {
-                let before = self.dice.pick(body);
-                Point::On(self.place(before))
-            };
+        let first = if grounded {
+            Point::Ground(self.dice.vector(1.0))
+        } else {
+            let before = self.dice.pick(body);
+            Point::On(self.place(before))
+        };
         let (ends, to) = ([first, Point::On(second)], self.end(first)[0]);
         let turns = ends.iter().all(|end| self.made.turns(*end));
         let chosen = self.dice.pick(11);

@@ -276,7 +276,13 @@ fn free(chain: &Chain) -> bool {
 
 #[test]
 fn the_tangent_of_a_model_is_the_derivative_of_its_acceleration() {
-    check(CASES, chains(ORDINARY), |chain| if free(&chain) { model_tangent(&chain) } else { Ok(()) });
+    check(CASES, chains(ORDINARY), |chain| {
+        if free(&chain) {
+            model_tangent(&chain)
+        } else {
+            Ok(())
+        }
+    });
 }
 
 #[test]

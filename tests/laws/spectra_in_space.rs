@@ -141,7 +141,11 @@ fn roots(bound: f64, step: f64, of: impl Fn(f64) -> f64) -> Vec<f64> {
         if of(low).signum() != of(high).signum() {
             for _ in 0..100 {
                 let middle = 0.5 * (low + high);
-                if of(middle).signum() == of(low).signum() { low = middle } else { high = middle }
+                if of(middle).signum() == of(low).signum() {
+                    low = middle
+                } else {
+                    high = middle
+                }
             }
             roots.push(0.5 * (low + high));
         }

@@ -198,7 +198,13 @@ impl Mechanism {
 
     /// Springs, stops and bushings here and there, damped or not.
     pub fn spring(&mut self, chance: &mut Chance, is_damped: bool) {
-        let damping = |chance: &mut Chance| if is_damped { 0.5 + 0.5 * chance.number() } else { 0.0 };
+        let damping = |chance: &mut Chance| {
+            if is_damped {
+                0.5 + 0.5 * chance.number()
+            } else {
+                0.0
+            }
+        };
         for (joint, held) in self.joints.iter().enumerate() {
             for is_angle in held.coordinates() {
                 let (of, value) = ((joint, is_angle), held.coordinate(&self.bodies, is_angle));

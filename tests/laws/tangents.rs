@@ -144,7 +144,11 @@ fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     };
     let values = moving.evaluated();
     let [x, v, a] = [&values.x, &values.v, &values.acceleration].map(|x| mechanism.apart(x));
-    let weakest = if mechanism.missing(0.0, &x).is_empty() { 1.0 } else { mechanism.augmented(0.0, (&x, &v), &a).weakest };
+    let weakest = if mechanism.missing(0.0, &x).is_empty() {
+        1.0
+    } else {
+        mechanism.augmented(0.0, (&x, &v), &a).weakest
+    };
     let [basis, stiffness, damping] =
         linearized(&moving.system, &[], &mut moving.work, &moving.state);
     let (system, n) = (&moving.system, moving.system.coordinates());

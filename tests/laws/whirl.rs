@@ -32,7 +32,11 @@ impl String {
         let tension = fx.hypot(fz);
         let change = [-DENSITY * self.rate * self.rate * x, DENSITY * self.gravity];
         // At a free end the force vanishes, and comes from where it goes.
-        let along = if tension > 1e-9 { [fx, fz] } else { change.map(|c| -c) };
+        let along = if tension > 1e-9 {
+            [fx, fz]
+        } else {
+            change.map(|c| -c)
+        };
         let stretch = (1.0 + tension / STIFFNESS) / along[0].hypot(along[1]);
         [stretch * along[0], stretch * along[1], change[0], change[1]]
     }

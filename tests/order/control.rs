@@ -223,7 +223,11 @@ impl OneStepMethod for Weary {
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
-        if state.0 < self.1 { self.0.attempt(dynamics, state, h, tolerance) } else { Attempt::Failed(0.1) }
+        if state.0 < self.1 {
+            self.0.attempt(dynamics, state, h, tolerance)
+        } else {
+            Attempt::Failed(0.1)
+        }
     }
 
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {
@@ -280,7 +284,11 @@ impl OneStepMethod for Short {
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
-        if h <= self.1 { self.0.attempt(dynamics, state, h, tolerance) } else { Attempt::Failed(0.5) }
+        if h <= self.1 {
+            self.0.attempt(dynamics, state, h, tolerance)
+        } else {
+            Attempt::Failed(0.5)
+        }
     }
 
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {

@@ -27,7 +27,9 @@ impl Item {
         let first = self.doc.first()?;
         let rest = |word: &&str| first.strip_prefix(*word);
         let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric());
-        POINTERS.into_iter().find(|word| rest(word).is_some_and(ends))
+        POINTERS
+            .into_iter()
+            .find(|word| rest(word).is_some_and(ends))
     }
 
     /// Tells whether the item is a function that returns a `Result`.
@@ -35,7 +37,7 @@ impl Item {
         let is_function = words(&self.signature, "fn").next().is_some();
         let bounded = words(&self.signature, "where").next();
         let signature = &self.signature[..bounded.unwrap_or(self.signature.len())];
-        let returned = arrows(signature).last().map(|at| &signature[at..]);
+        let returned = arrows(signature).last().map(|at| &signature[*at..]);
         is_function && returned.is_some_and(|code| words(code, "Result").next().is_some())
     }
 
@@ -148,7 +150,9 @@ fn complaints(source: &Source) -> Vec<String> {
             found.push(format!("{place}: a doc that begins with \"{word}\""));
         }
         if item.can_fail() && !item.has_errors() {
-            found.push(format!("{place}: a function that can fail without `# Errors`"));
+            found.push(format!(
+                "{place}: a function that can fail without `# Errors`"
+            ));
         }
     }
     found
@@ -158,7 +162,11 @@ fn complaints(source: &Source) -> Vec<String> {
 fn docs_are_read_alone_and_tell_errors() {
     let pending = |source: &Source| PENDING.iter().any(|of| source.path.starts_with(of));
     let settled = all().into_iter().filter(|source| !pending(source));
-    no_complaints(&settled.flat_map(|source| complaints(&source)).collect::<Vec<_>>());
+    no_complaints(
+        &settled
+            .flat_map(|source| complaints(&source))
+            .collect::<Vec<_>>(),
+    );
 }
 
 #[test]
@@ -221,6 +229,9 @@ impl K {
     assert_eq!(found.len(), expected.len(), "{found:#?}");
     for (complaint, (line, part)) in found.iter().zip(expected) {
         let place = format!("a.rs:{line}: ");
-        assert!(complaint.starts_with(&place) && complaint.contains(part), "{complaint} {line}");
+        assert!(
+            complaint.starts_with(&place) && complaint.contains(part),
+            "{complaint} {line}"
+        );
     }
 }

@@ -110,9 +110,14 @@ fn every_dependency_is_a_recorded_decision() {
 fn all_manifests_promise_one_rust_version() {
     let promised = |path: &str| {
         let mut lines = lines(&format!("{path}/Cargo.toml")).into_iter();
-        lines.find_map(|(section, line)| (line.starts_with("rust-version")).then_some((section, line)))
+        lines.find_map(|(section, line)| {
+            (line.starts_with("rust-version")).then_some((section, line))
+        })
     };
-    let inherited = Some(("package".to_owned(), "rust-version.workspace = true".to_owned()));
+    let inherited = Some((
+        "package".to_owned(),
+        "rust-version.workspace = true".to_owned(),
+    ));
     for path in [
         ".",
         "crates/fmu",
@@ -130,7 +135,11 @@ fn all_manifests_promise_one_rust_version() {
         section == "workspace.package" && line.starts_with("rust-version")
     };
     let (_, version) = workspace.find(is_one).expect("a version of Rust");
-    for path in ["crates/studies/diffsol", "crates/fmi-rs-checker", "crates/fuzz"] {
+    for path in [
+        "crates/studies/diffsol",
+        "crates/fmi-rs-checker",
+        "crates/fuzz",
+    ] {
         let found = promised(path).map(|(_, line)| line);
         assert_eq!(found.as_deref(), Some(&version[..]), "{path}");
     }

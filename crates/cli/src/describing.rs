@@ -52,7 +52,11 @@ pub fn describe(place: &Path, output: &Path, is_moving: bool, within: &Within) -
     check(&scene).map_err(|error| at(place, error))?;
     let start = Simulation::new(scene.clone()).initialize(0.0);
     start.map_err(|error| at(place, format!("start values: {error}")))?;
-    let motion = if is_moving { viewing::motion(place, &scene)? } else { String::new() };
+    let motion = if is_moving {
+        viewing::motion(place, &scene)?
+    } else {
+        String::new()
+    };
     for (name, text) in fmi2::describe(&scene, &planned, &motion) {
         let path = prepared(&output.join(name))?;
         std::fs::write(&path, text).with_context(|| format!("cannot write {}", shown(&path)))?;

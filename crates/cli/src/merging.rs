@@ -80,7 +80,11 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
     let all: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
     let compared = |content: &Content, file: &String| {
         let bytes = content.get(file)?;
-        Some(if file == PAGE { still(bytes) } else { bytes.clone() })
+        Some(if file == PAGE {
+            still(bytes)
+        } else {
+            bytes.clone()
+        })
     };
     let differ = |file: &&String| compared(&first, file) != compared(&second, file);
     let mut different: Vec<String> = all

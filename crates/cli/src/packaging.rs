@@ -48,7 +48,11 @@ pub struct Package {
 pub fn package(arguments: &Package) -> Result<()> {
     let output = arguments.output.as_deref().unwrap_or(Path::new("."));
     let is_named = !output.is_dir();
-    let output = if is_named { checked_output(output)? } else { output.to_owned() };
+    let output = if is_named {
+        checked_output(output)?
+    } else {
+        output.to_owned()
+    };
     let parts = match &arguments.parts {
         Some(folder) => folder.clone(),
         None => beside()?,
@@ -66,7 +70,11 @@ pub fn package(arguments: &Package) -> Result<()> {
         content.retain(|name, _| !name.starts_with(TERMINALS));
     }
     content.extend(parts);
-    let output = if is_named { output } else { prepared(&output.join(format!("{name}.fmu")))? };
+    let output = if is_named {
+        output
+    } else {
+        prepared(&output.join(format!("{name}.fmu")))?
+    };
     let done = format!("packaged {}", shown(&output));
     announced("packaging", &done, || write(&content, &output))
 }

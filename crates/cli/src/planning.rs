@@ -38,7 +38,11 @@ impl Within {
 fn seconds(text: &str) -> Result<f64, String> {
     let expected = || format!("expected a positive number of seconds, found \"{text}\"");
     let seconds: f64 = text.parse().map_err(|_| expected())?;
-    if seconds > 0.0 && seconds <= 1e6 { Ok(seconds) } else { Err(expected()) }
+    if seconds > 0.0 && seconds <= 1e6 {
+        Ok(seconds)
+    } else {
+        Err(expected())
+    }
 }
 
 /// Which scene, and where to write.

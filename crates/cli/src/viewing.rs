@@ -116,11 +116,13 @@ fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
         inputs: inputs.clone(),
         ..TrialConditions::default()
     };
-    let (scene, inputs) = if is_fmu(file) { (scene, inputs) } else {
-            let courses = courses(&scene).map_err(|error| at(file, error))?;
-            let (planned, _) = planned_for(file, &scene, &given, &arguments.within)?;
-            (planned, inputs.or(courses))
-        };
+    let (scene, inputs) = if is_fmu(file) {
+        (scene, inputs)
+    } else {
+        let courses = courses(&scene).map_err(|error| at(file, error))?;
+        let (planned, _) = planned_for(file, &scene, &given, &arguments.within)?;
+        (planned, inputs.or(courses))
+    };
     let bar = progress_bar(scene.experiment.steps() as u64);
     let found = Recording::new(&scene, inputs.as_ref(), &Limits::PAGE, &mut |number, _| {
         bar.set_position(number);

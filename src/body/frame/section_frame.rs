@@ -147,7 +147,11 @@ impl SectionFrame {
     /// Returns the angular velocity in global axes, rad/s.
     pub fn velocity<const D: usize>(&self, x: &[Node<D>], v: &[Node<D>]) -> Vector3<f64> {
         let spin = self.spin(x, v);
-        if self.leans { combined(&self.axes(x), &spin.into()) } else { angular(&self.slope(x), &self.slope(v), spin[0]) }
+        if self.leans {
+            combined(&self.axes(x), &spin.into())
+        } else {
+            angular(&self.slope(x), &self.slope(v), spin[0])
+        }
     }
 
     /// Sets its axes, or their rates.

@@ -138,7 +138,11 @@ impl RotationMaps {
         };
         let (axes, [a, b, c]) = (frame.axes(x), frame.axes(v));
         for (turn, about) in axes.iter().enumerate().take(D) {
-            let rates = if is_second { [b, c] } else { [Vector3::zeros(), a] };
+            let rates = if is_second {
+                [b, c]
+            } else {
+                [Vector3::zeros(), a]
+            };
             for (part, rate) in rates.iter().enumerate() {
                 let change = about.cross(rate);
                 for axis in 0..D {

@@ -188,7 +188,11 @@ impl RodChain {
         for (k, (frame, momentum)) in ends.into_iter().zip([first, last]).enumerate() {
             let [slope, rate] = [x, v].map(|of| part(&of[frame.line], 1).into());
             let asked = frame.gyroscopic(momentum, [&slope, &rate, &rates.spin[k].into()]);
-            let on = if frame.leans { &mut force.moment[k] } else { &mut force.e[2 * k + 1] };
+            let on = if frame.leans {
+                &mut force.moment[k]
+            } else {
+                &mut force.e[2 * k + 1]
+            };
             on.iter_mut().zip(&asked).for_each(|(sum, f)| *sum += *f);
         }
         if rotation != [0.0; 3] {

@@ -34,10 +34,14 @@ impl RodChain {
         let rates = self.rates(j, (x, v), frames);
         let ends = [j, j + 1].map(|k| self.frame(k, frames));
         let carried = ends.map(|frame| along(frame, rotation, x));
-        let changes = [0, 1].map(|k| if ends[k].leans {
+        let changes = [0, 1].map(|k| {
+            if ends[k].leans {
                 let [turn, spin] = [carried[k], rates.spin[k]].map(Vector3::from);
                 spin.cross(&turn).map(|change| -change).into()
-            } else { along(ends[k], rotation, v) });
+            } else {
+                along(ends[k], rotation, v)
+            }
+        });
         let own = self.momenta_of(j, &rates);
         let [with, changing] = [carried, changes].map(|spin| self.momenta_of_spins(j, spin));
         let (none, minus) = ([N::of(0.0); 3], |p: N| -p);

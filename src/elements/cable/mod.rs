@@ -160,7 +160,11 @@ impl<const D: usize> Cable<D> {
     ) -> Self {
         let p = &parameters;
         let stretching = p.axial_stiffness * p.length * p.length;
-        let sampling = if stretching > SLENDER * p.bending_stiffness { Sampling::Lobatto } else { Sampling::Between };
+        let sampling = if stretching > SLENDER * p.bending_stiffness {
+            Sampling::Lobatto
+        } else {
+            Sampling::Between
+        };
         let (own_stretching, own_bending) = match p.line_of {
             LineOf::Cable => (p.axial_stiffness, p.bending_stiffness),
             LineOf::Rod => (p.axial_stiffness, 0.0),
@@ -251,7 +255,11 @@ fn signed<N: Number, const D: usize>(curvature: &[N; TURNS]) -> N {
     }
     let square = curvature.iter().fold(N::of(0.0), |sum, c| sum + *c * *c);
     // The size of a straight cable's curvature has no derivatives.
-    if square > N::of(0.0) { square.root() } else { N::of(0.0) }
+    if square > N::of(0.0) {
+        square.root()
+    } else {
+        N::of(0.0)
+    }
 }
 
 impl<const D: usize> Element<D> for Cable<D> {
@@ -305,7 +313,11 @@ impl<const D: usize> Element<D> for Cable<D> {
 
     fn weight(&self) -> SVector<f64, 4> {
         let l = self.parameters.length;
-        if self.taper.density.is_uniform() { SVector::from([0.5, l / 12.0, 0.5, -l / 12.0]) * (self.mean_density() * l) } else { self.weight_before(1.0) }
+        if self.taper.density.is_uniform() {
+            SVector::from([0.5, l / 12.0, 0.5, -l / 12.0]) * (self.mean_density() * l)
+        } else {
+            self.weight_before(1.0)
+        }
     }
 
     fn energy_by<N: Number>(&self, e: &Nodal<D, N>, by: N) -> N {

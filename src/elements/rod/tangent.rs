@@ -303,7 +303,11 @@ impl<N: Real> Geometry<N> {
                 let factor = a * b * l;
                 for r in 0..3 {
                     for c in 0..3 {
-                        let value = if i <= j { sum.blocks[i][j][r][c] } else { sum.blocks[j][i][c][r] };
+                        let value = if i <= j {
+                            sum.blocks[i][j][r][c]
+                        } else {
+                            sum.blocks[j][i][c][r]
+                        };
                         matrix[p + r][q + c] = value * factor;
                     }
                 }

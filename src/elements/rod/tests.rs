@@ -207,13 +207,17 @@ fn stiffness_and_damping_are_derivatives_of_the_force() {
 
 /// Stiffness or damping at a point over stretch, twist and curvatures; stretching that is the line's own counts 1.
 fn whole(kernel: &Kernel<f64>, point: usize, is_damping: bool) -> Matrix4<f64> {
-    let (square, axial) = if is_damping { (
+    let (square, axial) = if is_damping {
+        (
             &kernel.law.damping[point],
             kernel.axial.as_ref().map(|axial| &axial.damping),
-        ) } else { (
+        )
+    } else {
+        (
             &kernel.law.stiffness[point],
             kernel.axial.as_ref().map(|axial| &axial.stiffness),
-        ) };
+        )
+    };
     Matrix4::from_fn(|i, j| match (i, j, axial) {
         (0, 0, axial) => axial.map_or(1.0, |axial| axial.own[point]),
         (0, k, axial) | (k, 0, axial) => axial.map_or(0.0, |axial| axial.with[point][k - 1]),

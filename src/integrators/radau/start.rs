@@ -29,7 +29,11 @@ impl Radau {
                     dynamics.solve(slow);
                     slow.iter_mut().for_each(|slow| *slow *= s * s);
                 }
-                let from = if size(&self.a) > DOMINANT * size(&self.error_q) { [&self.error_v[..], &self.error_q] } else { [v, &self.a] };
+                let from = if size(&self.a) > DOMINANT * size(&self.error_q) {
+                    [&self.error_v[..], &self.error_q]
+                } else {
+                    [v, &self.a]
+                };
                 for (stage, c) in self.zq.iter_mut().zip(C) {
                     follow(c * h, from, stage);
                 }

@@ -62,7 +62,13 @@ impl NodeColumn {
             for c in 0..B {
                 // The entry of the first axis over the same vectors.
                 let (twin_r, twin_c) = (r - r % dimension, c - c % dimension);
-                let isotropic = |block: &[[f64; B]; B]| if r % dimension == c % dimension { block[r][c] == block[twin_r][twin_c] } else { block[r][c] == 0.0 };
+                let isotropic = |block: &[[f64; B]; B]| {
+                    if r % dimension == c % dimension {
+                        block[r][c] == block[twin_r][twin_c]
+                    } else {
+                        block[r][c] == 0.0
+                    }
+                };
                 if !isotropic(below) || (c < r && !isotropic(diagonal)) {
                     return None;
                 }

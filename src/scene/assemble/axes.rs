@@ -49,7 +49,13 @@ impl<const D: usize> Builder<'_, D> {
         action: &Action<'_>,
     ) -> AppliedLoad<D> {
         let axes = self.frame_axes(marker);
-        let about = |k: usize| if action.follower { Direction::Of(axes[k]) } else { Direction::Fixed(axis(k)) };
+        let about = |k: usize| {
+            if action.follower {
+                Direction::Of(axes[k])
+            } else {
+                Direction::Fixed(axis(k))
+            }
+        };
         let parts = action.components.iter().enumerate();
         AppliedLoad::SpatialMoment(SpatialMoment {
             ends: self.on_marker(marker),

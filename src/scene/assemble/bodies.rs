@@ -371,7 +371,11 @@ fn build_elements<const D: usize>(
         };
         let added = |xi: f64| added(&numbers_along(body, s)(xi));
         let mut taper = cable::SectionVariation {
-            added: if body.stations.is_empty() { ElementPolynomial::from(added(0.5)) } else { ElementPolynomial::through(added) },
+            added: if body.stations.is_empty() {
+                ElementPolynomial::from(added(0.5))
+            } else {
+                ElementPolynomial::through(added)
+            },
             ..cable::SectionVariation::default()
         };
         if !body.stations.is_empty() {

@@ -50,12 +50,16 @@ impl<const D: usize> Builder<'_, D> {
             }
             MotionKind::Displacement(slider, drive) => {
                 let (ends, drive) = (self.ends(slider.ends), self.drive(drive));
-                let driven = if slider.ends.is_grounded() { Primitive::DrivenDistance(unit(slider.direction), drive) } else { Primitive::Coupler(Coupler {
+                let driven = if slider.ends.is_grounded() {
+                    Primitive::DrivenDistance(unit(slider.direction), drive)
+                } else {
+                    Primitive::Coupler(Coupler {
                         terms: vec![(1.0, Coordinate::Translation(self.way(slider)))],
                         offset: 0.0,
                         drive: Some(drive),
                         size: self.size_of(&ends),
-                    }) };
+                    })
+                };
                 self.hold(driven, ends);
             }
         }

@@ -48,14 +48,16 @@ impl Resolved<'_> {
         let moments = lumped.iter().map(|(mass, point)| point * *mass);
         let mass = body.mass() + lumped.iter().map(|(mass, _)| mass).sum::<f64>();
         let center = moments.sum::<Vector3<f64>>() / mass;
-        let inertia = if lumped.is_empty() { body.inertia() } else {
-                let own = body.inertia().tensor() + parallel(body.mass(), &center);
-                let tensor = (lumped.iter()).fold(own, |sum, (mass, point)| {
-                    sum + parallel(*mass, &(point - center))
-                });
-                let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| tensor[(i, j)]));
-                Inertia::Tensor(rows)
-            };
+        let inertia = if lumped.is_empty() {
+            body.inertia()
+        } else {
+            let own = body.inertia().tensor() + parallel(body.mass(), &center);
+            let tensor = (lumped.iter()).fold(own, |sum, (mass, point)| {
+                sum + parallel(*mass, &(point - center))
+            });
+            let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| tensor[(i, j)]));
+            Inertia::Tensor(rows)
+        };
         let (moments, axes) = inertia.principal();
         RotatingSolid {
             mass,

@@ -191,7 +191,11 @@ impl<'a> LoadKind<'a> {
                 .stiffness
                 .map(|axes| axes.into_iter().fold(0.0, f64::max)),
             Self::JointSpring { on, sizes, .. } | Self::JointLimit { on, sizes, .. } => {
-                if on.is_angle() { [0.0, sizes[0]] } else { [sizes[0], 0.0] }
+                if on.is_angle() {
+                    [0.0, sizes[0]]
+                } else {
+                    [sizes[0], 0.0]
+                }
             }
         }
     }

@@ -17,7 +17,11 @@ impl Scene {
     pub(super) fn validate_accuracy(&self) -> Result<(), Error> {
         let within = |key: &str, range: &RangeInclusive<f64>, value: f64| {
             let wanted = format!("a number from {:e} to {:e}", range.start(), range.end());
-            if range.contains(&value) { Ok(()) } else { Err(expected(&format!("accuracy.{key}"), &wanted, value)) }
+            if range.contains(&value) {
+                Ok(())
+            } else {
+                Err(expected(&format!("accuracy.{key}"), &wanted, value))
+            }
         };
         within("relative_tolerance", &TOLERANCE, self.relative_tolerance())?;
         for (place, course) in self.accuracy.input_profiles.iter().enumerate() {

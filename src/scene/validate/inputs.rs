@@ -60,7 +60,11 @@ impl<'a> Resolved<'a> {
                 return Err(expected(&path, wanted, quoted(of)));
             }
             input.validate_start(&path, self.scene.dimension)?;
-            let start = if input.start.is_empty() { start } else { input.start.clone() };
+            let start = if input.start.is_empty() {
+                start
+            } else {
+                input.start.clone()
+            };
             self.inputs.push(resolved::Input { kind, first, start });
             first += input.components(self.scene.dimension);
         }

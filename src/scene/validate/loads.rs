@@ -175,7 +175,11 @@ impl<'a> Resolved<'a> {
             ActsOn::Marker => {
                 let (at, name) = named("marker", marker)?;
                 // A direction is what a moment turns and what a follower turns with.
-                On::Marker(if follower || !kind.is_force() { self.require_spinning(&at, name)? } else { self.require_marker(&at, name)? })
+                On::Marker(if follower || !kind.is_force() {
+                    self.require_spinning(&at, name)?
+                } else {
+                    self.require_marker(&at, name)?
+                })
             }
             ActsOn::Joint => {
                 let (at, name) = named("joint", joint)?;

@@ -213,10 +213,10 @@ impl<'a> Resolved<'a> {
         let [_, second] = &gear.coordinates;
         if second.is_angle() != (output.kind == OutputKind::GearTorque) {
             let wanted = if second.is_angle() {
-                    "a gear whose second coordinate is a displacement; gear_torque reads angles"
-                } else {
-                    "a gear whose second coordinate is an angle; gear_force reads displacements"
-                };
+                "a gear whose second coordinate is a displacement; gear_torque reads angles"
+            } else {
+                "a gear whose second coordinate is an angle; gear_force reads displacements"
+            };
             return Err(expected(&path, wanted, quoted(name)));
         }
         Ok(Of::Gear(gear.name, gear.holder))
@@ -234,9 +234,11 @@ impl<'a> Resolved<'a> {
         if load.kind.exerts()[usize::from(is_moment)] {
             return Ok(Of::Load(load.name, id, load.kind.exerts_on()));
         }
-        let wanted = if is_moment { "a bushing, or a joint_spring or stop on an angle" } else {
-                "a spring_damper, bushing or contact, or a joint_spring or stop on a displacement"
-            };
+        let wanted = if is_moment {
+            "a bushing, or a joint_spring or stop on an angle"
+        } else {
+            "a spring_damper, bushing or contact, or a joint_spring or stop on a displacement"
+        };
         Err(expected(&path, wanted, quoted(name)))
     }
 
@@ -248,7 +250,11 @@ impl<'a> Resolved<'a> {
         let name = needed(path, "joint", "a name", output.joint.as_deref())?;
         let path = format!("{path}.joint");
         let joint = self.require_joint(&path, name)?;
-        let (wanted, offered) = if is_moment { ("a joint that transmits a moment", joint.holds_direction()) } else { ("a joint that transmits a force", joint.holds_position()) };
+        let (wanted, offered) = if is_moment {
+            ("a joint that transmits a moment", joint.holds_direction())
+        } else {
+            ("a joint that transmits a force", joint.holds_position())
+        };
         if !offered {
             return Err(expected(&path, wanted, quoted(name)));
         }
@@ -278,7 +284,11 @@ impl<'a> Resolved<'a> {
             MotionKind::Angle(..) | MotionKind::Orientation(..)
         );
         if turns != is_moment {
-            let wanted = if is_moment { "a motion driven by a moment" } else { "a motion driven by a force" };
+            let wanted = if is_moment {
+                "a motion driven by a moment"
+            } else {
+                "a motion driven by a force"
+            };
             return Err(expected(path, wanted, quoted(name)));
         }
         Ok(Reaction {

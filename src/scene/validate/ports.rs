@@ -89,7 +89,11 @@ impl<'a> Resolved<'a> {
                     .take(1 + usize::from(port.turns()))
                 {
                     if !driven.insert((is_angle, marker.name)) {
-                        let wanted = if is_angle { "a marker whose direction is not driven yet" } else { "a marker that is not driven yet" };
+                        let wanted = if is_angle {
+                            "a marker whose direction is not driven yet"
+                        } else {
+                            "a marker that is not driven yet"
+                        };
                         return Err(expected(&place, wanted, quoted(&port.marker)));
                     }
                 }

@@ -64,7 +64,11 @@ impl<'a> Resolved<'a> {
                 "a marker of a rigid body with inertia or of a rod; a cable without torsion has a direction alone"
             }
         };
-        if self.scene.dimension == 3 && marker.place.is_framed() { Ok(marker) } else { Err(expected(path, wanted, quoted(name))) }
+        if self.scene.dimension == 3 && marker.place.is_framed() {
+            Ok(marker)
+        } else {
+            Err(expected(path, wanted, quoted(name)))
+        }
     }
 
     /// Finds a marker of a body with inertia about every axis, whose orientation can be driven.
@@ -130,7 +134,11 @@ impl<'a> Resolved<'a> {
             let wanted = "a marker of a rod or beam in space: nothing is twisted in the plane";
             return Err(expected(path, wanted, quoted(name)));
         }
-        if marker.place.is_framed() { Ok(marker) } else { Err(expected(path, "a marker of a rod", quoted(name))) }
+        if marker.place.is_framed() {
+            Ok(marker)
+        } else {
+            Err(expected(path, "a marker of a rod", quoted(name)))
+        }
     }
 
     /// Finds a marker of a flexible line body.

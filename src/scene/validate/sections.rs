@@ -13,7 +13,11 @@ impl LineBody {
     /// A missing section, keys of rods on a cable, or a dimension or stiffness out of range.
     pub(super) fn validate_sections(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let (at, is_rod) = (|key: &str| format!("{path}.{key}"), self.is_rod());
-        if is_rod { self.validate_rod(path, dimension)? } else { self.refuse_what_is_of_rods(path)? }
+        if is_rod {
+            self.validate_rod(path, dimension)?
+        } else {
+            self.refuse_what_is_of_rods(path)?
+        }
         if self.stations.is_empty() && self.section.is_unsaid() {
             let wanted = "a cross section, or `stations`";
             return Err(expected(&at("section"), wanted, "nothing"));
@@ -56,7 +60,11 @@ impl LineBody {
             }
             let has_axes = self.is_rod() && dimension == 3;
             if !has_axes && station.twist != 0.0 {
-                let wanted = if self.is_rod() { "0 in the plane, where nothing twists" } else { "0 of a cable, whose sections have no axes" };
+                let wanted = if self.is_rod() {
+                    "0 in the plane, where nothing twists"
+                } else {
+                    "0 of a cable, whose sections have no axes"
+                };
                 return Err(expected(&format!("{place}.twist"), wanted, station.twist));
             }
             (station.section).validate(&format!("{place}.section"), dimension, self.sections)?;

@@ -33,7 +33,11 @@ impl<'a> Resolved<'a> {
 
     fn joint_spring(&self, path: &str, load: &'a Load) -> Result<LoadKind<'a>, Error> {
         let on = self.coordinate(path, load)?;
-        let units = if on.is_angle() { ["N m/rad", "N m s/rad"] } else { ["N/m", "N s/m"] };
+        let units = if on.is_angle() {
+            ["N m/rad", "N m s/rad"]
+        } else {
+            ["N/m", "N s/m"]
+        };
         if let Some(rest) = load.rest {
             finite(&format!("{path}.rest"), rest)?;
         }
@@ -47,7 +51,11 @@ impl<'a> Resolved<'a> {
 
     fn stop(&self, path: &str, load: &'a Load) -> Result<LoadKind<'a>, Error> {
         let on = self.coordinate(path, load)?;
-        let units = if on.is_angle() { ["N m/rad", "s/rad"] } else { ["N/m", "s/m"] };
+        let units = if on.is_angle() {
+            ["N m/rad", "s/rad"]
+        } else {
+            ["N/m", "s/m"]
+        };
         let stiffness = needed(path, "stiffness", "a stiffness", load.stiffness)?;
         positive(&format!("{path}.stiffness"), units[0], stiffness)?;
         let damping = load.damping.unwrap_or(0.0);

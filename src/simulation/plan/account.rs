@@ -37,7 +37,11 @@ impl Search<'_, '_> {
             outputs,
             settled,
             cheaper,
-            dearer: if double == *choice { None } else { self.price(&double, None) },
+            dearer: if double == *choice {
+                None
+            } else {
+                self.price(&double, None)
+            },
             is_cut: self.is_cut,
             runs: self.runs.len(),
             runs_cost: if cost > 0.0 { self.work / cost } else { 0.0 },

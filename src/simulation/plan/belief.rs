@@ -44,8 +44,16 @@ impl Search<'_, '_> {
         let counting = self.outputs().iter().enumerate();
         let shown = counting.filter_map(|(index, group)| shown((group, index), run));
         let least = shown.fold(f64::INFINITY, f64::min);
-        let by_motion = if run.rests { f64::INFINITY } else { self.error * least / run.size.max(f64::MIN_POSITIVE) };
-        let at_rest = if self.is_at_rest(run) { STILL * self.error } else { f64::INFINITY };
+        let by_motion = if run.rests {
+            f64::INFINITY
+        } else {
+            self.error * least / run.size.max(f64::MIN_POSITIVE)
+        };
+        let at_rest = if self.is_at_rest(run) {
+            STILL * self.error
+        } else {
+            f64::INFINITY
+        };
         by_motion.min(at_rest).max(TIGHTEST)
     }
 

@@ -169,7 +169,9 @@ impl<'a> Move<'a> {
             (Course::Ramp, Some(duration)) => risen(time / duration),
             (Course::Ramp, None) => risen(part / JUMPS[0]) - risen((part - JUMPS[1]) / JUMPS[0]),
             (Course::Step, _) => {
-                let passed = self.jumps.map(|jump| if is_after { time >= jump } else { time > jump });
+                let passed = self
+                    .jumps
+                    .map(|jump| if is_after { time >= jump } else { time > jump });
                 f64::from(u8::from(passed[0] && !passed[1]))
             }
             (Course::Sine, _) => 0.5 - 0.5 * (2.0 * PI * SWINGS * part).cos(),

@@ -135,7 +135,11 @@ impl PlannedExperiment {
                 };
                 let report = simulation.report();
                 if let Err(reason) = taken {
-                    return Err(if run.work + report.work < SPENT * most_work { failed(reason) } else { Unfinished::TooMuchWork });
+                    return Err(if run.work + report.work < SPENT * most_work {
+                        failed(reason)
+                    } else {
+                        Unfinished::TooMuchWork
+                    });
                 }
                 run.work += report.work;
                 run.steps += report.steps;
@@ -168,7 +172,11 @@ impl PlannedExperiment {
             }
         });
         let places: Vec<usize> = places.collect();
-        if places.is_empty() { Responses::default() } else { Responses::new(simulation, &places, (self.stop, self.step)) }
+        if places.is_empty() {
+            Responses::default()
+        } else {
+            Responses::new(simulation, &places, (self.stop, self.step))
+        }
     }
 
     /// Places among the inputs whose answers are known of the components of the vector of one that is held.

@@ -67,7 +67,11 @@ impl Ladder {
     pub fn foreseen(&self) -> Option<Vec<Difference>> {
         let groups = self.limits.iter().enumerate().map(|(group, limit)| {
             let now = self.rungs.last()?.1[group].largest;
-            let largest = if now <= QUIET * limit { now } else { now * self.rate(group)? };
+            let largest = if now <= QUIET * limit {
+                now
+            } else {
+                now * self.rate(group)?
+            };
             (largest <= *limit).then_some(Difference {
                 largest,
                 until: None,
@@ -144,7 +148,13 @@ impl Ladder {
             })
         };
         // The first of equals.
-        let best = (0..rungs.len()).reduce(|best, rung| if excess(rung) < excess(best) { rung } else { best });
+        let best = (0..rungs.len()).reduce(|best, rung| {
+            if excess(rung) < excess(best) {
+                rung
+            } else {
+                best
+            }
+        });
         best.map(|best| rungs.swap_remove(best))
     }
 }

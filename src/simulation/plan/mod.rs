@@ -56,7 +56,11 @@ impl Default for Budget<'_> {
 impl Budget<'_> {
     /// The work of all runs (operations times parts), of a fuzzer little.
     fn work(&self) -> f64 {
-        if cfg!(fuzzing) { 1e5 } else { WORK * self.seconds }
+        if cfg!(fuzzing) {
+            1e5
+        } else {
+            WORK * self.seconds
+        }
     }
 }
 

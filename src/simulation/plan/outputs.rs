@@ -245,7 +245,11 @@ pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, Relati
         let natural = group.members.iter().map(|m| run.natural[*m]);
         let natural = natural.fold(0.0, f64::max);
         let deformed = run.deformed.iter().copied().fold(0.0, f64::max);
-        let nothing = if group.measure == Measure::Elastic && deformed <= NOTHING * run.size { STIFF * natural } else { NOTHING * natural };
+        let nothing = if group.measure == Measure::Elastic && deformed <= NOTHING * run.size {
+            STIFF * natural
+        } else {
+            NOTHING * natural
+        };
         match (changes[index], like(groups, index, &changes)) {
             (_, by_body) if by_body <= nothing => (SMALLEST * natural, RelativeTo::Scene),
             (change, by_body) if change < by_body => (by_body, RelativeTo::Body),

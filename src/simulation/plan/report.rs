@@ -120,11 +120,19 @@ impl Plan {
         };
         let bodies = self.bodies.iter().filter(|body| body.fewest.is_some());
         let bodies: Vec<String> = bodies.map(body).collect();
-        let bodies = if bodies.is_empty() { String::new() } else { format!("{}, ", bodies.join(", ")) };
-        let held = if self.held.is_empty() { String::new() } else { format!(
+        let bodies = if bodies.is_empty() {
+            String::new()
+        } else {
+            format!("{}, ", bodies.join(", "))
+        };
+        let held = if self.held.is_empty() {
+            String::new()
+        } else {
+            format!(
                 "; inputs held at their start values: {} (the mesh follows from the linear answers to them)",
                 self.held.join(", ")
-            ) };
+            )
+        };
         format!(
             "planned for an error of {:e}: {bodies}relative tolerance {:e}{held}",
             self.error, self.tolerance
@@ -234,5 +242,9 @@ impl Price {
 }
 
 fn in_words(error: f64) -> String {
-    if error.is_finite() { format!("{error:.1e}") } else { "not known".into() }
+    if error.is_finite() {
+        format!("{error:.1e}")
+    } else {
+        "not known".into()
+    }
 }

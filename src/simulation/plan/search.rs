@@ -141,11 +141,19 @@ impl<'a, 'p> Search<'a, 'p> {
             Ok(verified) => verified.unwrap_or(in_time),
             Err(_) => self.unverified(&choice, in_time),
         };
-        let in_space = if choice.tolerance < found_with { match self.refine_resolved(&mut choice, &in_space) {
+        let in_space = if choice.tolerance < found_with {
+            match self.refine_resolved(&mut choice, &in_space) {
                 Some(found) => found,
                 None => self.coarsen(&mut choice, in_space),
-            } } else { in_space };
-        let in_space = if self.is_cut { self.measured(&choice, in_space) } else { in_space };
+            }
+        } else {
+            in_space
+        };
+        let in_space = if self.is_cut {
+            self.measured(&choice, in_space)
+        } else {
+            in_space
+        };
         let sheared = self.shear(&choice);
         let plan = self.report(&choice, &in_space, &in_time);
         let mut scene = self.planned(&choice);
@@ -163,7 +171,11 @@ impl<'a, 'p> Search<'a, 'p> {
             // What has no bending stiffness does not push.
             let bends = cable.bending_stiffness() > 0.0;
             let is_open = cable.elements.is_none() && cable.model == Model::Auto && bends;
-            if is_open && with_rigid(self.scene.clone(), body).resolve().is_ok() { 0 } else { *count }
+            if is_open && with_rigid(self.scene.clone(), body).resolve().is_ok() {
+                0
+            } else {
+                *count
+            }
         });
         least.collect()
     }

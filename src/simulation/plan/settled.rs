@@ -36,7 +36,11 @@ impl Search<'_, '_> {
         }
         let mut double = settled.clone();
         self.refine(&mut double);
-        let errors = if double == settled { None } else { self.compare(&settled, &double, self.error).ok() };
+        let errors = if double == settled {
+            None
+        } else {
+            self.compare(&settled, &double, self.error).ok()
+        };
         let error = |index: usize| errors.as_ref().map(|errors| errors[index].largest);
         let settles = |index: &usize| error(*index).is_some_and(|error| error <= self.error);
         let [now, then] = [choice, &settled].map(|made| self.known(made).map(|run| run.work));

@@ -33,7 +33,11 @@ impl Search<'_, '_> {
                 ladder.add(&tried, found);
                 break;
             }
-            if tried.elements.contains(&0) { self.resolve(&mut closer) } else { self.tighten(&tried, &mut closer) }
+            if tried.elements.contains(&0) {
+                self.resolve(&mut closer)
+            } else {
+                self.tighten(&tried, &mut closer)
+            }
             match self.compare(&tried, &closer, self.error) {
                 Ok(found) => ladder.add(&tried, found),
                 Err(Unfinished::TooMuchWork) => break,
@@ -55,7 +59,11 @@ impl Search<'_, '_> {
             tried = closer;
         }
         let Some((best, found)) = ladder.best() else {
-            return Ok(if self.is_any_free() { self.unknown() } else { vec![Difference::NONE; self.compared()] });
+            return Ok(if self.is_any_free() {
+                self.unknown()
+            } else {
+                vec![Difference::NONE; self.compared()]
+            });
         };
         *choice = best;
         Ok(self.economize(choice, found))
@@ -70,11 +78,18 @@ impl Search<'_, '_> {
             closer.clone_from(choice);
         }
         self.coarsen_one_by_one(choice, &closer, &found);
-        let last = if closer == *choice { Vec::new() } else { self
-                .compare(choice, &closer, self.error)
-                .unwrap_or_default() };
+        let last = if closer == *choice {
+            Vec::new()
+        } else {
+            self.compare(choice, &closer, self.error)
+                .unwrap_or_default()
+        };
         let worst = |(a, b): (&Difference, &Difference)| a.worst(*b);
-        if last.is_empty() { found } else { found.iter().zip(&last).map(worst).collect() }
+        if last.is_empty() {
+            found
+        } else {
+            found.iter().zip(&last).map(worst).collect()
+        }
     }
 
     /// Whether what the last rung changed and all doublings to come would leaves enough to the tolerance.

@@ -73,7 +73,11 @@ impl Search<'_, '_> {
         if resolved.tolerance >= tenth(choice.tolerance) {
             return self.loosest(choice, &limits);
         }
-        self.loosest = if self.rests(&resolved) { resolved.tolerance } else { choice.tolerance };
+        self.loosest = if self.rests(&resolved) {
+            resolved.tolerance
+        } else {
+            choice.tolerance
+        };
         choice.tolerance = decade(10.0 * resolved.tolerance).min(self.loosest);
         let mut found = self.loosest(choice, &limits)?;
         // The one that it was compared with says what looser ones miss.
@@ -193,7 +197,11 @@ impl Search<'_, '_> {
         self.run(closer)?;
         let mut tried = closer.clone();
         while self.take_same_steps(choice, closer) && tried.tolerance > TIGHTEST {
-            if tried.is_halved { tried.tolerance = tenth(tried.tolerance) } else { tried.is_halved = true }
+            if tried.is_halved {
+                tried.tolerance = tenth(tried.tolerance)
+            } else {
+                tried.is_halved = true
+            }
             // What fails when it is asked for more says nothing of what is asked for.
             if self.run(&tried).is_err() {
                 break;
@@ -331,7 +339,11 @@ impl Search<'_, '_> {
         let most = if is_chosen { 1.0 } else { MOST };
         let left = in_space.iter().map(|found| {
             let left = (SHARED * self.error - found.largest).min(most * self.error);
-            if left > LITTLE * self.error { left } else { OF_TIME * self.error }
+            if left > LITTLE * self.error {
+                left
+            } else {
+                OF_TIME * self.error
+            }
         });
         left.collect()
     }
@@ -402,7 +414,11 @@ impl Search<'_, '_> {
         let loosest = with(decade(10.0 * looser.tolerance));
         let tighter = with(tenth(coarsest.tolerance));
         // The tightest three of them that were run.
-        let made = if self.known(&tighter).is_some() { [looser, coarsest.clone(), tighter] } else { [loosest, looser, coarsest.clone()] };
+        let made = if self.known(&tighter).is_some() {
+            [looser, coarsest.clone(), tighter]
+        } else {
+            [loosest, looser, coarsest.clone()]
+        };
         for choice in &made {
             self.known(choice)?;
         }
@@ -428,7 +444,11 @@ fn doubt(tolerance: f64) -> f64 {
 
 /// A tenth of a tolerance, as a power of ten where it is one.
 pub(super) fn tenth(tolerance: f64) -> f64 {
-    if tolerance == decade(tolerance) { decade(0.1 * tolerance) } else { 0.1 * tolerance }
+    if tolerance == decade(tolerance) {
+        decade(0.1 * tolerance)
+    } else {
+        0.1 * tolerance
+    }
 }
 
 /// The power of ten that is not above a tolerance.

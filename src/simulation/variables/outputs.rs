@@ -256,7 +256,11 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
             (load, format!("{load} on {on}"))
         }
         Of::Reaction(reaction) => {
-            let on = if reaction.is_motion { "what it drives" } else { "its second marker" };
+            let on = if reaction.is_motion {
+                "what it drives"
+            } else {
+                "its second marker"
+            };
             (reaction.name, format!("{} on {on}", reaction.name))
         }
         Of::Scene => ("", String::new()),

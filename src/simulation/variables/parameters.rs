@@ -284,14 +284,22 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
                 let starts = [spring.stiffness, spring.damping];
                 (starts, along, [SpringStiffness(i), SpringDamping(i)])
             }
-            LoadKind::JointSpring { on, sizes, .. } => if on.is_angle() { (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)]) } else { (*sizes, along, [SpringStiffness(i), SpringDamping(i)]) },
-            LoadKind::JointLimit { on, sizes, .. } => if on.is_angle() {
+            LoadKind::JointSpring { on, sizes, .. } => {
+                if on.is_angle() {
+                    (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)])
+                } else {
+                    (*sizes, along, [SpringStiffness(i), SpringDamping(i)])
+                }
+            }
+            LoadKind::JointLimit { on, sizes, .. } => {
+                if on.is_angle() {
                     let parameters = [TorsionStiffness(i), TorsionStopDamping(i)];
                     (*sizes, [about[0], SECOND_PER_RADIAN], parameters)
                 } else {
                     let parameters = [SpringStiffness(i), StopDamping(i)];
                     (*sizes, [along[0], SECOND_PER_METRE], parameters)
-                },
+                }
+            }
         };
         list.damper(load.name, units, parameters, starts);
     }

@@ -269,7 +269,11 @@ impl<const D: usize> Constraint<D> {
 
     /// `d^2 g / dt^2` without the part of accelerations, 1/s^2.
     pub fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        if self.is_released(view.released) { N::of(0.0) } else { each!(self, c => c.bias(view)) }
+        if self.is_released(view.released) {
+            N::of(0.0)
+        } else {
+            each!(self, c => c.bias(view))
+        }
     }
 
     /// Second derivatives times the multiplier, block by block of nodes.

@@ -125,7 +125,11 @@ impl<const D: usize> ContactSurface<D> {
 impl<const D: usize> Contact<D> {
     /// The body, if a winch pays it out.
     fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
-        if self.is_distributed() { at.paid_out(self.first_node()) } else { None }
+        if self.is_distributed() {
+            at.paid_out(self.first_node())
+        } else {
+            None
+        }
     }
 
     /// How a point touches; none above the surface.
@@ -305,7 +309,11 @@ impl<const D: usize> Contact<D> {
             let turning = self.surface.curvature(touch.depth, normal) * push;
             let stiff = along * (self.stiffness * touch.damped) - turning;
             between(&ends, stiff * weight, 0, &mut *stiffness);
-            let mut damped = if touch.damped > 0.0 { along * (self.stiffness * self.damping * touch.depth) } else { SMatrix::zeros() };
+            let mut damped = if touch.damped > 0.0 {
+                along * (self.stiffness * self.damping * touch.depth)
+            } else {
+                SMatrix::zeros()
+            };
             if self.friction > 0.0 {
                 let way = touch.slip / touch.speed;
                 let across = SMatrix::identity() - along - way * way.transpose();

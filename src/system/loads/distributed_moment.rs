@@ -32,12 +32,19 @@ impl DistributedMoment {
         element: usize,
     ) -> Vectors<N> {
         let uniform = self.density.uniform(at);
-        let moments = if self.density.changes() { self
-                .density
+        let moments = if self.density.changes() {
+            self.density
                 .changing(at, element)
-                .map(|here| here + uniform) } else { [uniform; _] };
+                .map(|here| here + uniform)
+        } else {
+            [uniform; _]
+        };
         let moments = moments.map(Into::into);
-        if self.follower { at.sections.0[self.on].outward(element, at.x, &moments) } else { moments }
+        if self.follower {
+            at.sections.0[self.on].outward(element, at.x, &moments)
+        } else {
+            moments
+        }
     }
 
     fn rod<'a, const D: usize, N>(&self, at: Instant<'a, D, N>) -> &'a RodChain {

@@ -89,7 +89,11 @@ struct Flow<const D: usize, N> {
 
 /// The length of a vector; none, without derivatives, of a vector that is zero.
 fn length<const D: usize, N: Number>(v: &Vector<D, N>) -> N {
-    if v.iter().all(|part| part.plain() == 0.0) { N::of(0.0) } else { v.norm() }
+    if v.iter().all(|part| part.plain() == 0.0) {
+        N::of(0.0)
+    } else {
+        v.norm()
+    }
 }
 
 /// The size of a number.

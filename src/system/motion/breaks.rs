@@ -61,7 +61,11 @@ impl<const D: usize> System<D> {
 
     /// The time at which functions of time are taken between steps: after a kink or a jump at it.
     pub(in crate::system) fn now(&self, time: f64) -> f64 {
-        if self.has_breaks { time + grain(time) } else { time }
+        if self.has_breaks {
+            time + grain(time)
+        } else {
+            time
+        }
     }
 
     /// The first kink or jump after `from`, `until` at the latest.
@@ -179,6 +183,10 @@ impl<const D: usize> DrivenSystem<'_, D> {
             state.work[0] += system.kinetic(&self.work.drives, motion) - energy;
         }
         self.work.smooth_interval = None;
-        if kept { StepOutcome::Moved } else { StepOutcome::ConstraintsViolated }
+        if kept {
+            StepOutcome::Moved
+        } else {
+            StepOutcome::ConstraintsViolated
+        }
     }
 }

@@ -251,10 +251,12 @@ impl<const D: usize> System<D> {
     ) {
         let assembly = &self.elimination.assembly;
         let shortened;
-        let block = if self.winches.is_empty() { block } else {
-                shortened = self.shorten_block((a, b), drives, block);
-                &shortened
-            };
+        let block = if self.winches.is_empty() {
+            block
+        } else {
+            shortened = self.shorten_block((a, b), drives, block);
+            &shortened
+        };
         if self.has_no_frames() {
             return assembly.add(a, b, block, matrix);
         }

@@ -185,7 +185,13 @@ impl<const D: usize> System<D> {
             &view,
             &mut right,
             |end| end.velocity(&work.other),
-            |constraint, view| if is_driven { constraint.bias(view) + constraint.along(view, &work.other) } else { constraint.bias(view) },
+            |constraint, view| {
+                if is_driven {
+                    constraint.bias(view) + constraint.along(view, &work.other)
+                } else {
+                    constraint.bias(view)
+                }
+            },
             false,
         );
         work.right = right;
@@ -264,8 +270,20 @@ impl<const D: usize> System<D> {
         self.fill_right(
             &view,
             &mut right,
-            |end| if is_position { end.position(&work.x) } else { end.velocity(&work.v) },
-            |constraint, view| if is_position { constraint.value(view) } else { constraint_rate(constraint, view) },
+            |end| {
+                if is_position {
+                    end.position(&work.x)
+                } else {
+                    end.velocity(&work.v)
+                }
+            },
+            |constraint, view| {
+                if is_position {
+                    constraint.value(view)
+                } else {
+                    constraint_rate(constraint, view)
+                }
+            },
             is_position,
         );
         let mut largest = 0.0;

@@ -21,7 +21,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             return (force, turning.into());
         };
         // The element after the node, and the one before it.
-        let sides = if xi == 1.0 { [None, Some(j)] } else { [Some(j), j.checked_sub(1)] };
+        let sides = if xi == 1.0 {
+            [None, Some(j)]
+        } else {
+            [Some(j), j.checked_sub(1)]
+        };
         for (end, element) in sides.into_iter().enumerate() {
             let Some(element) = element else {
                 continue;

@@ -149,7 +149,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Principal axes of the rigid body of space that a marker belongs to, in global components; the global ones where it
     /// belongs to none.
     pub fn axes(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 3] {
-        if system.frames.has_axes(marker.nodes[0]) { axes_at(marker.nodes[0], &self.x).map(<[N; 3]>::from) } else { std::array::from_fn(|k| axis::<3, N>(k).into()) }
+        if system.frames.has_axes(marker.nodes[0]) {
+            axes_at(marker.nodes[0], &self.x).map(<[N; 3]>::from)
+        } else {
+            std::array::from_fn(|k| axis::<3, N>(k).into())
+        }
     }
 
     /// Quaternion of the principal axes that the state holds of the body that a marker belongs to: less than half a turn from

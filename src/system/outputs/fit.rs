@@ -213,7 +213,11 @@ fn planar<N: Number>(moments: &Matrix3<N>) -> [Vector3<N>; 3] {
     let cosine = moments[(0, 0)] + moments[(1, 1)];
     let sine = moments[(1, 0)] - moments[(0, 1)];
     let square = cosine * cosine + sine * sine;
-    let [c, s] = if square > zero { [cosine, sine].map(|part| part / square.root()) } else { [one, zero] };
+    let [c, s] = if square > zero {
+        [cosine, sine].map(|part| part / square.root())
+    } else {
+        [one, zero]
+    };
     [
         Vector3::new(c, s, zero),
         Vector3::new(-s, c, zero),

@@ -57,7 +57,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             }
         }
         // Curvatures are those by reference length, by which elements have not become longer.
-        if largest > N::of(0.0) { largest.root() * system.length_now(chain, &self.drives).longer_by() } else { largest }
+        if largest > N::of(0.0) {
+            largest.root() * system.length_now(chain, &self.drives).longer_by()
+        } else {
+            largest
+        }
     }
 }
 
@@ -80,7 +84,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         let [a, b] = sums.map(|sum| sum.norm_squared());
         let square = if a > b { a } else { b };
-        if square > N::of(0.0) { square.root() * system.length_now(chain, &self.drives).longer_by() } else { square }
+        if square > N::of(0.0) {
+            square.root() * system.length_now(chain, &self.drives).longer_by()
+        } else {
+            square
+        }
     }
 }
 

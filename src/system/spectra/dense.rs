@@ -19,7 +19,13 @@ pub(super) fn sort(found: &mut [Complex<f64>]) {
             .iter()
             .take_while(|s| near(s.norm(), size))
             .count();
-        let order = |a: &Complex<f64>, b: &Complex<f64>| if near(a.im, b.im) { a.re.total_cmp(&b.re) } else { a.im.total_cmp(&b.im) };
+        let order = |a: &Complex<f64>, b: &Complex<f64>| {
+            if near(a.im, b.im) {
+                a.re.total_cmp(&b.re)
+            } else {
+                a.im.total_cmp(&b.im)
+            }
+        };
         found[first..first + alike].sort_by(order);
         first += alike;
     }

@@ -189,7 +189,13 @@ impl<const D: usize> System<D> {
         let [inputs, input_rates, angles] =
             [&work.inputs, &work.input_rates, &work.angles].map(|x| lift(x));
         // What is driven stands still at rest.
-        let drive = |[p, v, a]: &[f64; 3]| if at_rest { [*p, 0.0, 0.0].map(Jet::from_re) } else { [*p, *v, *a].map(Jet::from_re) };
+        let drive = |[p, v, a]: &[f64; 3]| {
+            if at_rest {
+                [*p, 0.0, 0.0].map(Jet::from_re)
+            } else {
+                [*p, *v, *a].map(Jet::from_re)
+            }
+        };
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(drive).collect();
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut following: Option<General<f64>> = None;
@@ -255,7 +261,11 @@ impl<const D: usize> System<D> {
             let spin = frame.spin(&work.x, &work.v);
             let turned = RotationMaps::geometric(frame, &work.linear_constraint_forces, &work.x);
             // At rest without the moment that speeds the body up, which is none in equilibrium.
-            let turned = if spin == Vector3::zeros() { (turned + turned.transpose()) * 0.5 } else { turned };
+            let turned = if spin == Vector3::zeros() {
+                (turned + turned.transpose()) * 0.5
+            } else {
+                turned
+            };
             assembly.add_block(
                 node,
                 &turning_block(&turned),

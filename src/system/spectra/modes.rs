@@ -66,7 +66,11 @@ pub fn modes<const D: usize>(
     if is_small(&linear, count) {
         return all(&linear);
     }
-    let found = if linear.is_symmetric && !system.is_turning() { iteration::lowest(system, work, &linear, count) } else { Err(NoEigenvalues::Missing(count)) };
+    let found = if linear.is_symmetric && !system.is_turning() {
+        iteration::lowest(system, work, &linear, count)
+    } else {
+        Err(NoEigenvalues::Missing(count))
+    };
     match found {
         Err(NoEigenvalues::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
             all(&linear)

@@ -244,7 +244,11 @@ fn refuse_paid_out<const D: usize>(
         if travel.abs() > 1e-9 * winch.length || !(at_rest || rate == 0.0) {
             let mut bodies = system.bodies.iter();
             let body = bodies.position(|nodes| nodes.contains(&winch.nodes[0]));
-            return Err(SpectrumError::PaidOut(body.expect("a winch pays out a body"), travel, rate));
+            return Err(SpectrumError::PaidOut(
+                body.expect("a winch pays out a body"),
+                travel,
+                rate,
+            ));
         }
     }
     Ok(())
@@ -324,7 +328,9 @@ pub(super) fn at_rest<'a, const D: usize>(
         let acted: Vec<usize> = parts.into_iter().flatten().collect();
         let mut bodies = system.bodies.iter();
         let body = bodies.position(|nodes| acted.iter().any(|node| nodes.contains(node)));
-        return Err(SpectrumError::NotConservative(body.expect("a load acts on a body")));
+        return Err(SpectrumError::NotConservative(
+            body.expect("a load acts on a body"),
+        ));
     }
     refuse_turning(system, &linear, state)?;
     linear.hand_over(work);

@@ -69,7 +69,11 @@ impl<const D: usize> System<D> {
             let (Some(joint), true) = (owner, gap.is_nan() || gap.abs() > least) else {
                 continue;
             };
-            let gap = if is_angle { gap.abs() } else { self.length_of(joint, gap * size).abs() };
+            let gap = if is_angle {
+                gap.abs()
+            } else {
+                self.length_of(joint, gap * size).abs()
+            };
             match (sums.iter_mut()).find(|(g, _)| (g.joint, g.is_angle) == (joint, is_angle)) {
                 Some((sum, count)) => (sum.size, *count) = (sum.size.hypot(gap), *count + 1),
                 None => sums.push((

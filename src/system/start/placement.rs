@@ -93,7 +93,11 @@ impl<const D: usize> System<D> {
                 .close((nodes, &x), inputs, work, &mut state)
                 .ok_or(error)?,
         }
-        if self.start_moving(rates, inputs, work, &mut state) { Ok(state) } else { Err(NotAssembled { gaps: Vec::new() }) }
+        if self.start_moving(rates, inputs, work, &mut state) {
+            Ok(state)
+        } else {
+            Err(NotAssembled { gaps: Vec::new() })
+        }
     }
 
     /// Gives a state rates as near to those given over the nodes, in the mass norm, as joints and motions allow.

@@ -100,7 +100,11 @@ impl<const D: usize> System<D> {
             steady.velocity += unit.velocity * *part;
             (steady.rate.iter_mut().zip(unit.rate)).for_each(|(sum, rate)| *sum += part * rate);
         }
-        if self.keeps(&steady, &x, work) { Ok(steady) } else { Err(NotSteady::Accelerates) }
+        if self.keeps(&steady, &x, work) {
+            Ok(steady)
+        } else {
+            Err(NotSteady::Accelerates)
+        }
     }
 
     /// The rates of nodes in a steady motion. Second nodes of frames hold axes alone; what is inside elements stands still in space.
@@ -174,11 +178,15 @@ impl<const D: usize> System<D> {
         };
         let mut found = DVector::zeros(count);
         for is_weighted in [true, false] {
-            let weigh = |field: &Vec<Node<D>>| if is_weighted {
+            let weigh = |field: &Vec<Node<D>>| {
+                if is_weighted {
                     let mut momentum = vec![no_node(); field.len()];
                     self.add_inertia(1.0, field, &mut momentum);
                     momentum
-                } else { field.clone() };
+                } else {
+                    field.clone()
+                }
+            };
             let weighted: Vec<Vec<Node<D>>> = fields.iter().map(weigh).collect();
             let norm = DMatrix::from_fn(count, count, |i, j| inner(&weighted[i], &fields[j]));
             let given = DVector::from_fn(count, |i, _| inner(&weighted[i], rates));

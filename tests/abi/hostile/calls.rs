@@ -142,7 +142,13 @@ impl Master<'_> {
 
     fn set_up_experiment(&mut self, bytes: &mut Bytes<'_>) {
         let hostile = bytes.once_in(4);
-        let mut number = |usual: &[f64]| if hostile { bytes.number() } else { bytes.pick(usual) };
+        let mut number = |usual: &[f64]| {
+            if hostile {
+                bytes.number()
+            } else {
+                bytes.pick(usual)
+            }
+        };
         let tolerance = number(&[1e-4, 5e-5, 2e-4]);
         let start = number(&[0.0, 0.5, -2.0]);
         let stop = number(&[start + 0.1, start + 1.0, start + 1e-3]);
@@ -173,7 +179,11 @@ impl Master<'_> {
     }
 
     fn do_step(&mut self, bytes: &mut Bytes<'_>) {
-        let step = if bytes.once_in(5) { bytes.number() } else { bytes.pick(&[0.01, 0.002, 1e-6, 0.02]) };
+        let step = if bytes.once_in(5) {
+            bytes.number()
+        } else {
+            bytes.pick(&[0.01, 0.002, 1e-6, 0.02])
+        };
         let now = self.memory.time;
         let current = match bytes.byte() {
             0..220 => now,
@@ -334,9 +344,11 @@ impl Master<'_> {
         self.free_all();
         self.memory = Memory::new(self.unit);
         self.instance = if bytes.once_in(2) {
-                self.memory.mode = Mode::Bare;
-                Instance::bare(self.unit)
-            } else { Instance::new(self.unit) };
+            self.memory.mode = Mode::Bare;
+            Instance::bare(self.unit)
+        } else {
+            Instance::new(self.unit)
+        };
         self.enabled = self.declared.clone();
     }
 

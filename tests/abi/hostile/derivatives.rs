@@ -24,7 +24,11 @@ impl Master<'_> {
         self.all_of_type(picked, false)
             && picked.iter().all(|reference| {
                 let index = *reference as usize;
-                if inputs { is_input(self.unit, index) } else { is_output(self.unit, index) }
+                if inputs {
+                    is_input(self.unit, index)
+                } else {
+                    is_output(self.unit, index)
+                }
             })
     }
 
@@ -42,7 +46,13 @@ impl Master<'_> {
         let function = "fmi2SetRealInputDerivatives";
         let arguments = Arguments::of(self.unit, bytes, &self.inputs);
         let (orders, no_orders) = Self::orders(bytes);
-        let values = [(); MOST].map(|()| if bytes.once_in(6) { bytes.number() } else { bytes.pick(&[0.0, 0.5, -1.0]) });
+        let values = [(); MOST].map(|()| {
+            if bytes.once_in(6) {
+                bytes.number()
+            } else {
+                bytes.pick(&[0.0, 0.5, -1.0])
+            }
+        });
         let picked = arguments.picked();
         let (given, ranks) = (&values[..picked.len()], &orders[..picked.len()]);
         let right = arguments.sound()
@@ -83,7 +93,11 @@ impl Master<'_> {
             && self.all_are(picked, false)
             && ranks.iter().all(|order| *order >= 1);
         let usual = ranks.iter().all(|order| ORDERS.contains(order));
-        let expected = if self.derivatives && right { self.derived(function, usual) } else { ERROR };
+        let expected = if self.derivatives && right {
+            self.derived(function, usual)
+        } else {
+            ERROR
+        };
         let mut values = [0.0; MOST + 1];
         let (vr, count, target) = (
             arguments.vr(),
@@ -107,7 +121,13 @@ impl Master<'_> {
         let function = "fmi2GetDirectionalDerivative";
         let unknown = Arguments::of(self.unit, bytes, &self.outputs);
         let known = Arguments::of(self.unit, bytes, &self.inputs);
-        let seed = [(); MOST].map(|()| if bytes.once_in(8) { bytes.number() } else { bytes.pick(&[0.0, 1.0, -2.0]) });
+        let seed = [(); MOST].map(|()| {
+            if bytes.once_in(8) {
+                bytes.number()
+            } else {
+                bytes.pick(&[0.0, 1.0, -2.0])
+            }
+        });
         let (unknowns, knowns) = (unknown.picked(), known.picked());
         let seeds = &seed[..knowns.len()];
         let sound = unknown.sound() && known.sound();

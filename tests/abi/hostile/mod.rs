@@ -146,7 +146,11 @@ impl<'a> Master<'a> {
         let expected = if allowed { expected } else { ERROR };
         let before = self.fingerprint();
         self.instance.record.take();
-        let status = if self.nobody { call(ptr::null_mut()) } else { call(self.instance.component) };
+        let status = if self.nobody {
+            call(ptr::null_mut())
+        } else {
+            call(self.instance.component)
+        };
         let lines = self.instance.record.take();
         let place = format!("{function} in {mode:?}: {status:?}, {lines:?}");
         assert!(expected.contains(&status), "{place}, not of {expected:?}");

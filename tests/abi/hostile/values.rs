@@ -26,7 +26,11 @@ pub fn is_output(unit: &Unit, index: usize) -> bool {
 /// Values of a parameter or input that make no trouble.
 pub fn tame(unit: &Unit, index: usize) -> [f64; 3] {
     let start = unit.variables[index].start.unwrap_or(0.0);
-    if is_input(unit, index) { [start, 0.5, -0.25] } else { [start, 2.0 * start, 0.5 * start] }
+    if is_input(unit, index) {
+        [start, 0.5, -0.25]
+    } else {
+        [start, 2.0 * start, 0.5 * start]
+    }
 }
 
 /// Arguments of a call on variables: what is wrong with the arrays, and the references.
@@ -75,15 +79,27 @@ impl Arguments {
     }
 
     pub fn vr(&self) -> *const u32 {
-        if self.null_references { ptr::null() } else { self.references.as_ptr() }
+        if self.null_references {
+            ptr::null()
+        } else {
+            self.references.as_ptr()
+        }
     }
 
     pub fn array<T>(&self, values: &[T; MOST]) -> *const T {
-        if self.null_values { ptr::null() } else { values.as_ptr() }
+        if self.null_values {
+            ptr::null()
+        } else {
+            values.as_ptr()
+        }
     }
 
     pub fn array_mut<T>(&self, values: &mut [T; MOST + 1]) -> *mut T {
-        if self.null_values { ptr::null_mut() } else { values.as_mut_ptr() }
+        if self.null_values {
+            ptr::null_mut()
+        } else {
+            values.as_mut_ptr()
+        }
     }
 }
 
@@ -166,17 +182,27 @@ impl Master<'_> {
             arguments.array_mut(&mut words),
             arguments.array_mut(&mut truths),
         );
-        let _ = if bytes.once_in(2) { self.call("fmi2GetBoolean", expected, |c| {
+        let _ = if bytes.once_in(2) {
+            self.call("fmi2GetBoolean", expected, |c| {
                 call!(fmi2GetBoolean, c, vr, count, truths)
-            }) } else { self.call("fmi2GetString", expected, |c| {
+            })
+        } else {
+            self.call("fmi2GetString", expected, |c| {
                 call!(fmi2GetString, c, vr, count, words)
-            }) };
+            })
+        };
     }
 
     /// What the standard says to setting these values now.
     fn settable(&self, function: &str, arguments: &Arguments, values: &[f64]) -> &'static [Status] {
         let mark = mark(function, self.memory.mode);
-        let open = |index: usize| if is_input(self.unit, index) { mark != '-' } else { self.unit.variables[index].start.is_some() && mark == 'e' };
+        let open = |index: usize| {
+            if is_input(self.unit, index) {
+                mark != '-'
+            } else {
+                self.unit.variables[index].start.is_some() && mark == 'e'
+            }
+        };
         let integers = function == "fmi2SetInteger";
         let picked = arguments.picked();
         let known = self.all_of_type(picked, integers);
@@ -189,7 +215,11 @@ impl Master<'_> {
             is_input(self.unit, index) || tame(self.unit, index).contains(value)
         };
         let all = picked.iter().zip(values).all(harmless);
-        if all && self.temper() != Temper::Absurd { OK } else { OK_OR_ERROR }
+        if all && self.temper() != Temper::Absurd {
+            OK
+        } else {
+            OK_OR_ERROR
+        }
     }
 
     fn keep(&mut self, status: Status, arguments: &Arguments, values: &[f64]) {
@@ -204,7 +234,11 @@ impl Master<'_> {
         let arguments = Arguments::new(self.unit, bytes);
         let values = arguments.references.map(|reference| {
             let index = reference as usize;
-            if index < self.unit.variables.len() && !bytes.once_in(6) { bytes.pick(&tame(self.unit, index)) } else { bytes.number() }
+            if index < self.unit.variables.len() && !bytes.once_in(6) {
+                bytes.pick(&tame(self.unit, index))
+            } else {
+                bytes.number()
+            }
         });
         let (vr, count, source) = (arguments.vr(), arguments.count, arguments.array(&values));
         let values = &values[..arguments.picked().len()];
@@ -238,10 +272,14 @@ impl Master<'_> {
         let (vr, count) = (arguments.vr(), arguments.count);
         let (words, truths) = ([ptr::null::<c_char>(); MOST], [1; MOST]);
         let (words, truths) = (arguments.array(&words), arguments.array(&truths));
-        let _ = if bytes.once_in(2) { self.call("fmi2SetBoolean", expected, |c| {
+        let _ = if bytes.once_in(2) {
+            self.call("fmi2SetBoolean", expected, |c| {
                 call!(fmi2SetBoolean, c, vr, count, truths)
-            }) } else { self.call("fmi2SetString", expected, |c| {
+            })
+        } else {
+            self.call("fmi2SetString", expected, |c| {
                 call!(fmi2SetString, c, vr, count, words)
-            }) };
+            })
+        };
     }
 }

@@ -67,14 +67,14 @@ fn dampers(name: &'static str, is_along: bool) -> Specimen {
     let mut outputs = outputs.concat();
     let mut mount = json!({"name": "mount", "kind": "bushing", "markers": ["u.c", "v.c"]});
     let (along, about) = if is_along {
-            mount["translational_damping"] = json!(along);
-            outputs.push(json!({"kind": "load_force", "load": "mount"}));
-            (along, [0.0; 3])
-        } else {
-            mount["rotational_damping"] = json!(about);
-            outputs.push(json!({"kind": "load_moment", "load": "mount"}));
-            ([0.0; 3], about)
-        };
+        mount["translational_damping"] = json!(along);
+        outputs.push(json!({"kind": "load_force", "load": "mount"}));
+        (along, [0.0; 3])
+    } else {
+        mount["rotational_damping"] = json!(about);
+        outputs.push(json!({"kind": "load_moment", "load": "mount"}));
+        ([0.0; 3], about)
+    };
     let scene = json!({"name": "damped", "dimension": 3, "bodies": [first.described(Value::Null), second.described(Value::Null)],
         "loads": [mount], "outputs": outputs});
     let damping =
@@ -83,7 +83,11 @@ fn dampers(name: &'static str, is_along: bool) -> Specimen {
     // Forces stand at one point: none turns the bodies.
     let moment = -damping(about) * second.spin;
     let mut specimen = Specimen::new(name, scene);
-    specimen = if is_along { vector(specimen, "mount.force", "N", force) } else { vector(specimen, "mount.moment", "N.m", moment) };
+    specimen = if is_along {
+        vector(specimen, "mount.force", "N", force)
+    } else {
+        vector(specimen, "mount.moment", "N.m", moment)
+    };
     for (body, sign) in [(&first, -1.0), (&second, 1.0)] {
         let name = body.name;
         let a = force * (sign / body.mass);

@@ -127,10 +127,12 @@ fn sheared(is_tapered: bool) -> Specimen {
     let place = |k: usize| {
         let mut made = body(names[k], k as f64);
         if is_tapered {
-                let station =
-                    |at: f64| json!({"at": at, "section": sheared_section(k, taper(at * LENGTH))});
-                made["stations"] = json!([station(0.0), station(1.0)]);
-            } else { made["section"] = sheared_section(k, 1.0) }
+            let station =
+                |at: f64| json!({"at": at, "section": sheared_section(k, taper(at * LENGTH))});
+            made["stations"] = json!([station(0.0), station(1.0)]);
+        } else {
+            made["section"] = sheared_section(k, 1.0)
+        }
         made
     };
     let bodies: Vec<Value> = (0..names.len()).map(place).collect();
@@ -205,9 +207,11 @@ fn place_matrices(is_at_stations: bool, made: &mut Value) {
     let section = json!({"stiffness": WHOLE, "inertia": inertia(), "about": [0.0, ABOUT]});
     made["material"] = json!({});
     if is_at_stations {
-            let stations = [0.0, 1.0].map(|at| json!({"at": at, "section": section}));
-            made["stations"] = json!(stations);
-        } else { made["section"] = section }
+        let stations = [0.0, 1.0].map(|at| json!({"at": at, "section": section}));
+        made["stations"] = json!(stations);
+    } else {
+        made["section"] = section
+    }
 }
 
 /// Force and moment on the tip of a beam whose section is a whole matrix about another line: displacement and rotation are integrals of
@@ -227,7 +231,11 @@ fn whole(is_at_stations: bool) -> Specimen {
     ];
     let point = Vector3::new(0.0, 0.0, ABOUT);
     let (way, turn) = moved_tip((&WHOLE, point), LENGTH, loads);
-    let title = if is_at_stations { "planar whole matrices at stations" } else { "planar whole matrices" };
+    let title = if is_at_stations {
+        "planar whole matrices at stations"
+    } else {
+        "planar whole matrices"
+    };
     let within = 1e-4 * way.norm();
     Specimen::new(title, scene)
         .claim_within("beam.tip.position[1]", "m", LENGTH + way.x, within)
@@ -240,13 +248,13 @@ fn whole(is_at_stations: bool) -> Specimen {
 fn turning(is_at_stations: bool) -> Specimen {
     let mut made = body("beam", 0.0);
     let (mass, rotary, title) = if is_at_stations {
-            place_matrices(true, &mut made);
-            (MASS, ROTARY, "turning planar beam of whole matrices")
-        } else {
-            let (area, second) = (0.01, 9e-6);
-            made["section"] = json!({"area": area, "second_moment": second, "shear_factor": 0.7});
-            (DENSITY * area, DENSITY * second, "turning planar beam")
-        };
+        place_matrices(true, &mut made);
+        (MASS, ROTARY, "turning planar beam of whole matrices")
+    } else {
+        let (area, second) = (0.01, 9e-6);
+        made["section"] = json!({"area": area, "second_moment": second, "shear_factor": 0.7});
+        (DENSITY * area, DENSITY * second, "turning planar beam")
+    };
     let spin = 0.9;
     // The centre stands still at the origin.
     made["shape"] = json!({"line": {"from": [-0.5 * LENGTH, 0.0], "to": [0.5 * LENGTH, 0.0]}});

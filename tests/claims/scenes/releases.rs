@@ -25,7 +25,11 @@ fn flung(name: &'static str, keys: Value, due: f64, told: f64) -> Specimen {
         joint["release_time"] = time.clone();
     }
     let start = json!([f64::from(u8::from(due == 0.0))]);
-    let inputs = if by_input { json!([{"kind": "release", "joint": "pin", "start": start}]) } else { json!([]) };
+    let inputs = if by_input {
+        json!([{"kind": "release", "joint": "pin", "start": start}])
+    } else {
+        json!([])
+    };
     let scene = json!({
         "name": name, "dimension": 2,
         "bodies": [{"element": "rigid", "name": "bob", "mass": mass, "inertia": 0.3, "position": [1.0, 0.1],

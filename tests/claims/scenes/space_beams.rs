@@ -252,9 +252,11 @@ fn matrices() -> Value {
 
 fn place_matrices(is_at_stations: bool, made: &mut Value) {
     if is_at_stations {
-            let stations = [0.0, 1.0].map(|at| json!({"at": at, "section": matrices()}));
-            made["stations"] = json!(stations);
-        } else { made["section"] = matrices() }
+        let stations = [0.0, 1.0].map(|at| json!({"at": at, "section": matrices()}));
+        made["stations"] = json!(stations);
+    } else {
+        made["section"] = matrices()
+    }
 }
 
 /// Displacement and rotation of the tip of a clamped beam of this length along x under a force and a moment there: integrals of strains,
@@ -350,7 +352,11 @@ fn turning_matrices(is_at_stations: bool) -> Specimen {
     place_matrices(is_at_stations, &mut made);
     let (_, mass, own) = inertia_about();
     let line = mass * LENGTH.powi(3) / 12.0;
-    let title = if is_at_stations { "turning whole matrices at stations" } else { "turning whole matrices" };
+    let title = if is_at_stations {
+        "turning whole matrices at stations"
+    } else {
+        "turning whole matrices"
+    };
     spun(title, made, |w| {
         let row = |k: usize| (0..3).map(|j| own[k][j] * w[j]).sum::<f64>() * LENGTH;
         Vector3::new(row(0), row(1) + line * w.y, row(2) + line * w.z)

@@ -68,8 +68,16 @@ impl Body {
     pub fn described(&self, orientation: Value) -> Value {
         let rows = |of: &Matrix3<f64>| json!([0, 1, 2].map(|i| [0, 1, 2].map(|j| of[(i, j)])));
         let is_diagonal = self.inertia == Matrix3::from_diagonal(&self.inertia.diagonal());
-        let inertia = if is_diagonal { json!(array(self.inertia.diagonal())) } else { rows(&self.inertia) };
-        let orientation = if orientation.is_null() { json!({"matrix": rows(&self.axes)}) } else { orientation };
+        let inertia = if is_diagonal {
+            json!(array(self.inertia.diagonal()))
+        } else {
+            rows(&self.inertia)
+        };
+        let orientation = if orientation.is_null() {
+            json!({"matrix": rows(&self.axes)})
+        } else {
+            orientation
+        };
         json!({"element": "rigid", "name": self.name, "mass": self.mass, "inertia": inertia,
                "position": array(self.place), "orientation": orientation,
                "motion": {"velocity": array(self.velocity), "spin": array(self.spin)},
@@ -315,7 +323,11 @@ enum Acted {
 
 /// Angular acceleration of a body, and acceleration of its marker `p`, where a force acts or a moment.
 fn moved_by(pushed: Vector3<f64>, is_force: bool, body: &Body) -> [Vector3<f64>; 2] {
-    let (moment, push) = if is_force { (body.arm().cross(&pushed), pushed / body.mass) } else { (pushed, Vector3::zeros()) };
+    let (moment, push) = if is_force {
+        (body.arm().cross(&pushed), pushed / body.mass)
+    } else {
+        (pushed, Vector3::zeros())
+    };
     let turning = body.turning(moment);
     [turning, push + body.carried(turning, body.arm())]
 }

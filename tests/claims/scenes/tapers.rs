@@ -40,7 +40,11 @@ const MIDDLE: f64 = 0.4;
 
 /// A body along -y (plane) or -z (space) from a point, held at its first end.
 pub fn body(name: &str, is_rod: bool, place: f64) -> Value {
-    let (from, to) = if is_rod { (json!([place, 0.0, 0.0]), json!([place, 0.0, -LENGTH])) } else { (json!([place, 0.0]), json!([place, -LENGTH])) };
+    let (from, to) = if is_rod {
+        (json!([place, 0.0, 0.0]), json!([place, 0.0, -LENGTH]))
+    } else {
+        (json!([place, 0.0]), json!([place, -LENGTH]))
+    };
     let mut material = json!({"youngs_modulus": YOUNG, "density": DENSITY});
     if is_rod {
         material["shear_modulus"] = json!(SHEAR);
@@ -71,7 +75,11 @@ pub fn hung(name: &str, is_rod: bool, bodies: Vec<Value>) -> Value {
     }
     let joints: Vec<Value> = names.iter().map(joint).collect();
     let loads: Vec<Value> = names.iter().filter(|_| is_rod).map(load).collect();
-    let gravity = if is_rod { json!([0.0, 0.0, -GRAVITY]) } else { json!([0.0, -GRAVITY]) };
+    let gravity = if is_rod {
+        json!([0.0, 0.0, -GRAVITY])
+    } else {
+        json!([0.0, -GRAVITY])
+    };
     json!({"name": name, "dimension": if is_rod { 3 } else { 2 }, "gravity": gravity, "bodies": bodies,
            "joints": joints, "loads": loads, "initial": "static_equilibrium",
            "accuracy": {"relative_tolerance": 1e-9}, "outputs": outputs})
@@ -95,7 +103,13 @@ fn integral(of: impl Fn(f64) -> f64) -> f64 {
 
 /// A quantity that goes through three values at the stations, linear between them.
 fn through([a, b, c]: [f64; 3]) -> impl Fn(f64) -> f64 {
-    move |s| if s < MIDDLE { a + (b - a) * s / MIDDLE } else { b + (c - b) * (s - MIDDLE) / (1.0 - MIDDLE) }
+    move |s| {
+        if s < MIDDLE {
+            a + (b - a) * s / MIDDLE
+        } else {
+            b + (c - b) * (s - MIDDLE) / (1.0 - MIDDLE)
+        }
+    }
 }
 
 /// What hangs is as heavy as its area says, longer by its weight, and a rod turns by its torsion constant.
@@ -181,7 +195,13 @@ fn shapes(is_rod: bool, is_tapered: bool) -> Specimen {
     let mut specimen = Specimen::new(title, hung("shapes", is_rod, bodies));
     for (k, (shape, _, lengths)) in sizes.iter().enumerate() {
         let at = |s: f64| {
-            [0, 1].map(|i| if is_tapered { through([0, 1, 2].map(|j| lengths[j][i]))(s) } else { lengths[0][i] })
+            [0, 1].map(|i| {
+                if is_tapered {
+                    through([0, 1, 2].map(|j| lengths[j][i]))(s)
+                } else {
+                    lengths[0][i]
+                }
+            })
         };
         let (area, torsion) = (
             |s: f64| geometry(shape, at(s))[0],
@@ -217,7 +237,13 @@ fn geometry(shape: &str, [a, b]: [f64; 2]) -> [f64; 2] {
 fn numbers(is_rod: bool) -> Specimen {
     let (before, after) = ([2.0e-3, 1.5e-3], [1.0e-3, 1.2e-3]);
     let torsion = [[5.0e-7, 4.0e-7], [3.0e-7, 2.0e-7]];
-    let section = |area: f64, torsion: f64| if is_rod { json!({"area": area, "second_moments": [3e-7, 7e-7], "torsion_constant": torsion}) } else { json!({"area": area, "second_moment": 3e-7}) };
+    let section = |area: f64, torsion: f64| {
+        if is_rod {
+            json!({"area": area, "second_moments": [3e-7, 7e-7], "torsion_constant": torsion})
+        } else {
+            json!({"area": area, "second_moment": 3e-7})
+        }
+    };
     let mut made = body("stepped", is_rod, 0.0);
     made["stations"] = json!([
         {"at": 0.0, "section": section(before[0], torsion[0][0])},
@@ -231,7 +257,13 @@ fn numbers(is_rod: bool) -> Specimen {
     };
     let specimen = Specimen::new(title, hung("stepped", is_rod, vec![made]));
     let stepped = |before: [f64; 2], after: [f64; 2]| {
-        move |s: f64| if s < MIDDLE { before[0] + (before[1] - before[0]) * s / MIDDLE } else { after[0] + (after[1] - after[0]) * (s - MIDDLE) / (1.0 - MIDDLE) }
+        move |s: f64| {
+            if s < MIDDLE {
+                before[0] + (before[1] - before[0]) * s / MIDDLE
+            } else {
+                after[0] + (after[1] - after[0]) * (s - MIDDLE) / (1.0 - MIDDLE)
+            }
+        }
     };
     let [first, last] = torsion;
     claimed(
@@ -251,8 +283,10 @@ fn bent(is_rod: bool) -> Specimen {
         let mut made = body(name, is_rod, place);
         let station = |k: usize| {
             let section = if is_rod {
-                    json!({"area": 2e-3, "second_moments": [first[k], second[k]], "torsion_constant": 5e-7})
-                } else { json!({"area": 2e-3, "second_moment": first[k]}) };
+                json!({"area": 2e-3, "second_moments": [first[k], second[k]], "torsion_constant": 5e-7})
+            } else {
+                json!({"area": 2e-3, "second_moment": first[k]})
+            };
             json!({"at": ([0.0, MIDDLE, 1.0][k]), "section": section})
         };
         made["stations"] = [0, 1, 2].map(station).into();
@@ -325,7 +359,11 @@ fn helix(is_rod: bool) -> Specimen {
         "radius": radius, "turns": turns, "start": [0.5, 0.0, 2.0]}});
     // With a node at the marker in between.
     (made["elements"], made["markers"]["mid"]) = (json!(20), json!(0.4));
-    made["section"] = if is_rod { json!({"shape": {"circle": {"radius": 0.01}}}) } else { json!({"area": 1e-4, "second_moment": 0.0}) };
+    made["section"] = if is_rod {
+        json!({"shape": {"circle": {"radius": 0.01}}})
+    } else {
+        json!({"area": 1e-4, "second_moment": 0.0})
+    };
     let places = [("root", 0.0), ("mid", 0.4), ("tip", 1.0)];
     let outputs = places.map(|(at, _)| json!({"kind": "position", "marker": format!("coil.{at}")}));
     let scene = json!({"name": "helix", "dimension": 3, "bodies": [made], "outputs": outputs});

@@ -45,7 +45,11 @@ fn field(text: &str) -> String {
         Ok(value) if value.is_nan() => String::new(),
         Ok(value) if value.is_finite() && value.fract() != 0.0 => {
             let rounded = format!("{value:.4e}").parse().unwrap_or(value);
-            if (1e-2..1e5).contains(&value.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+            if (1e-2..1e5).contains(&value.abs()) {
+                rounded.to_string()
+            } else {
+                format!("{rounded:e}")
+            }
         }
         Err(_) if text.contains([',', '"']) => format!("\"{}\"", text.replace('"', "\"\"")),
         _ => text.to_owned(),

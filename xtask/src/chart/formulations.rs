@@ -43,7 +43,11 @@ pub fn measure(bench: &Bench) -> Result<()> {
         for (count, rounds) in MESHES.iter().zip(swings) {
             let [time, gap, pin] = medians(rounds, ["cpu_time", "gap", "pin"])?;
             let path = path(&rounds[0]["path"])?;
-            let error = if path.len() < reference.len() { f64::INFINITY } else { largest_distance(&path, &reference) / LENGTH };
+            let error = if path.len() < reference.len() {
+                f64::INFINITY
+            } else {
+                largest_distance(&path, &reference) / LENGTH
+            };
             csv.row(&[kind, count, &no, &no, &no, &no, &time, &error, &gap, &pin]);
         }
     }

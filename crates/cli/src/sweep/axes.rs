@@ -150,7 +150,11 @@ fn title(field: &str) -> Result<&str> {
         .strip_prefix('"')
         .and_then(|rest| rest.strip_suffix('"'));
     let name = inside.unwrap_or(field);
-    if name.contains('"') { bail!("expected names with quotation marks around them or none, found {field}") } else { Ok(name) }
+    if name.contains('"') {
+        bail!("expected names with quotation marks around them or none, found {field}")
+    } else {
+        Ok(name)
+    }
 }
 
 /// The column of a CSV file that is named like a variable.

@@ -209,7 +209,11 @@ impl<'a> Parquet<'a> {
     /// All columns have a value more.
     fn end_row(&mut self) -> Result<()> {
         self.rows += 1;
-        if self.rows * self.columns.len() < HELD { Ok(()) } else { self.write() }
+        if self.rows * self.columns.len() < HELD {
+            Ok(())
+        } else {
+            self.write()
+        }
     }
 
     fn write(&mut self) -> Result<()> {

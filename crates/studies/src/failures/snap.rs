@@ -287,7 +287,11 @@ fn a_step_load_snaps_a_damped_truss_to_its_other_equilibrium() {
         for body in 0..2 {
             scene["bodies"][body]["material"]["damping_time"] = json!(1e-3);
         }
-        let wanted = if other { height(force, -0.1, -1.0) } else { height(force, limit().1, TRUSS[1]) };
+        let wanted = if other {
+            height(force, -0.1, -1.0)
+        } else {
+            height(force, limit().1, TRUSS[1])
+        };
         let mut product = Product::start(&scene).expect("a scene");
         let first = product.balance().expect("energies");
         product.step(20.0).expect("a step");

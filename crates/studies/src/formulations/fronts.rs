@@ -28,7 +28,13 @@ impl Fronts {
             let (q, next) = front(j, count, scaling, &passed);
             passed = next;
             let back = back(j);
-            let entry = |r: usize, c: usize| if c < 4 { (0..4).map(|k| q[r][k] * back[c][k]).sum() } else { q[r][c] };
+            let entry = |r: usize, c: usize| {
+                if c < 4 {
+                    (0..4).map(|k| q[r][k] * back[c][k]).sum()
+                } else {
+                    q[r][c]
+                }
+            };
             fronts.push(std::array::from_fn(|r| {
                 std::array::from_fn(|c| entry(r, c))
             }));

@@ -94,8 +94,10 @@ impl Rod {
     pub fn force(&self, x: &[Node], f: &mut [Node]) {
         f.copy_from_slice(&self.weight);
         if self.connected {
-                self.chain.add_force((x, x), [1.0, 0.0], f);
-            } else { vectorized(AddForce { rod: self, x, f }) }
+            self.chain.add_force((x, x), [1.0, 0.0], f);
+        } else {
+            vectorized(AddForce { rod: self, x, f })
+        }
     }
 
     /// Scalar masses of the elements.

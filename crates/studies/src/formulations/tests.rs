@@ -93,7 +93,13 @@ fn compared(formulation: Formulation, inertia: Inertia, lengths: &[f64]) -> (Vec
     let mut a = vec![0.0; system.transformation.coordinates()];
     system.transformation.restrict(&mut f, &mut a);
     system.transformation.prolong(&a, &mut f);
-    let pick = |index: usize| if system.rod.connected { f[index.div_ceil(2)] } else { f[index] };
+    let pick = |index: usize| {
+        if system.rod.connected {
+            f[index.div_ceil(2)]
+        } else {
+            f[index]
+        }
+    };
     ((0..expected.len()).map(pick).collect(), expected)
 }
 

@@ -51,9 +51,15 @@ pub struct Build<'a> {
 /// A method by its name.
 pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn OneStepMethod>> {
     let n = build.start.state.rates.len();
-    let only_positions = || if build.start.assembled.system.reads_rates() { Err(format!(
-            "{name}: expected accelerations that do not read rates"
-        )) } else { Ok(()) };
+    let only_positions = || {
+        if build.start.assembled.system.reads_rates() {
+            Err(format!(
+                "{name}: expected accelerations that do not read rates"
+            ))
+        } else {
+            Ok(())
+        }
+    };
     let turned = name.ends_with("_turned");
     Ok(match name.trim_end_matches("_turned") {
         "verlet" => Box::new(verlet::Verlet::new(n)),

@@ -65,7 +65,11 @@ impl FloatingFrame {
         let (mut at, mut by) = ([shape.x, 0.0], [[0.0; 2]; MOST]);
         for k in 0..n {
             let row = &shape.shortening[n * k..n * (k + 1)];
-            let short: f64 = if self.basis.foreshortening { row.iter().zip(e).map(|(g, e)| g * e).sum() } else { 0.0 };
+            let short: f64 = if self.basis.foreshortening {
+                row.iter().zip(e).map(|(g, e)| g * e).sum()
+            } else {
+                0.0
+            };
             by[k] = [shape.u[k] - short, shape.w[k]];
             at = plus(at, e[k], [shape.u[k] - 0.5 * short, shape.w[k]]);
         }

@@ -184,7 +184,11 @@ impl Sheet<'_> {
             }
         };
         let fails = error.is_nan() || error > LOST;
-        let [error, time] = if fails { ["inf".to_owned(), "nan".to_owned()] } else { [error, times[times.len() / 2]].map(|x| format!("{x:.3e}")) };
+        let [error, time] = if fails {
+            ["inf".to_owned(), "nan".to_owned()]
+        } else {
+            [error, times[times.len() / 2]].map(|x| format!("{x:.3e}"))
+        };
         println!(
             "{name},{},{settings},{count},{error},{time}",
             self.scene.name()
@@ -250,7 +254,11 @@ fn choices(grid: &Grid) -> Vec<Choice> {
 
 fn measure(sheet: &Sheet<'_>, choice: Choice, grid: &Grid, references: &References) {
     let scene = sheet.scene;
-    let reference = if choice.shears() { &references.shearing } else { &references.cable };
+    let reference = if choice.shears() {
+        &references.shearing
+    } else {
+        &references.cable
+    };
     let once = |kind: Kind| {
         let seen = run(
             &mut scene.system(choice),
@@ -266,7 +274,11 @@ fn measure(sheet: &Sheet<'_>, choice: Choice, grid: &Grid, references: &Referenc
         Choice::Frame(bending, axial, _) => format!(" modes={bending}+{axial}"),
         _ => String::new(),
     };
-    let parts: &[f64] = if modal { &[0.9, 0.5, 0.25, 0.1, 0.05, 0.02] } else { &[0.9, 0.5] };
+    let parts: &[f64] = if modal {
+        &[0.9, 0.5, 0.25, 0.1, 0.05, 0.02]
+    } else {
+        &[0.9, 0.5]
+    };
     if grid.explicit[usize::from(modal)] && choice.count() > 0 {
         for part in parts {
             let label = (

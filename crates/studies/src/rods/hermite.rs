@@ -203,7 +203,11 @@ impl Line for Rod {
     fn held(&self) -> Vec<usize> {
         let held = [0, 1, 2, 4, 5, 6].into_iter();
         let internal = NODE * self.nodes.len()..NODE * self.nodes.len() + self.bubbles.len();
-        if self.kept.internal_twist { held.collect() } else { held.chain(internal).collect() }
+        if self.kept.internal_twist {
+            held.collect()
+        } else {
+            held.chain(internal).collect()
+        }
     }
 
     fn slopes(&self, element: usize, step: &[f64]) -> Vec<f64> {

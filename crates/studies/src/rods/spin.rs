@@ -137,7 +137,13 @@ impl Motion {
         let line = DMatrix::from_fn(2 * (n + 1), 3, |r, c| {
             numbers[NODE * (r / 2) + 3 * (r % 2) + c]
         });
-        let sections = DVector::from_fn(2 * n + 1, |r, _| if r <= n { numbers[NODE * r + 6] } else { numbers[NODE * (n + 1) + r - n - 1] });
+        let sections = DVector::from_fn(2 * n + 1, |r, _| {
+            if r <= n {
+                numbers[NODE * r + 6]
+            } else {
+                numbers[NODE * (n + 1) + r - n - 1]
+            }
+        });
         (line, sections)
     }
 
@@ -179,7 +185,11 @@ impl Motion {
         for element in 0..n {
             let slopes = rod.slopes(element, &[0.0; ELEMENT]);
             for (k, slope) in slopes.iter().enumerate() {
-                let at = if k < 2 * NODE { NODE * element + k } else { NODE * (n + 1) + element };
+                let at = if k < 2 * NODE {
+                    NODE * element + k
+                } else {
+                    NODE * (n + 1) + element
+                };
                 force[at] -= slope;
             }
         }

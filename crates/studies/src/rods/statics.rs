@@ -60,7 +60,13 @@ fn assembled<L: Line>(line: &L, part: f64) -> (DMatrix<f64>, DVector<f64>) {
     let n = nodes + L::INTERNAL * elements;
     let (mut tangent, mut missing) = (DMatrix::zeros(n, n), DVector::zeros(n));
     for element in 0..elements {
-        let index = |k: usize| if k < 2 * L::NODE { L::NODE * element + k } else { nodes + L::INTERNAL * element + k - 2 * L::NODE };
+        let index = |k: usize| {
+            if k < 2 * L::NODE {
+                L::NODE * element + k
+            } else {
+                nodes + L::INTERNAL * element + k - 2 * L::NODE
+            }
+        };
         let size = 2 * L::NODE + L::INTERNAL;
         let (own, columns) = differences(size, |step| line.slopes(element, step));
         for r in 0..size {

@@ -348,7 +348,11 @@ impl Path<'_> {
         work: &mut Workspace<D>,
         (from, state): (&State, &mut State),
     ) -> Result<FoundEquilibrium, Failure> {
-        let guards = if next.is_conservative() { [AcceptanceTest::Turns, AcceptanceTest::Potential] } else { [AcceptanceTest::Turns, AcceptanceTest::Transient] };
+        let guards = if next.is_conservative() {
+            [AcceptanceTest::Turns, AcceptanceTest::Potential]
+        } else {
+            [AcceptanceTest::Turns, AcceptanceTest::Transient]
+        };
         let start = |work: &mut Workspace<D>, state: &mut State| {
             state.copy_from(from);
             if self.predicts {
@@ -433,7 +437,11 @@ fn first_step<const D: usize>(
     let pairs = state.coordinates.iter().zip(&x);
     let moved: Vec<f64> = pairs.map(|(q, x)| q + part * x).collect();
     let turn = model.largest_turn(&state.coordinates, &moved) / part;
-    if turn > FAR { (AIM / turn).max(SMALLEST) } else { 1.0 }
+    if turn > FAR {
+        (AIM / turn).max(SMALLEST)
+    } else {
+        1.0
+    }
 }
 
 /// Root of the smallest multiple of the mass that regularizes the tangent: a part of the stiffest mode that is at

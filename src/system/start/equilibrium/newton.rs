@@ -170,7 +170,11 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
                 return Err(correction);
             }
             // A shift that is kept makes the end linear.
-            let (is_last, part) = if self.kept > 0.0 { (true, 0.9) } else { (shift == 0.0, 0.1) };
+            let (is_last, part) = if self.kept > 0.0 {
+                (true, 0.9)
+            } else {
+                (shift == 0.0, 0.1)
+            };
             if is_last && correction < CLOSE {
                 if !self.correct_whole(state) {
                     return Err(correction);

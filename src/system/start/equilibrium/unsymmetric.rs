@@ -105,7 +105,11 @@ fn substitute_back(columns: &[Vec<f64>], target: &mut [f64]) {
     for i in (0..columns.len()).rev() {
         let term = |j: usize| columns[j][i] * target[j];
         let later: f64 = (i + 1..columns.len()).map(term).sum();
-        target[i] = if columns[i][i] > NEUTRAL * largest { (target[i] - later) / columns[i][i] } else { 0.0 };
+        target[i] = if columns[i][i] > NEUTRAL * largest {
+            (target[i] - later) / columns[i][i]
+        } else {
+            0.0
+        };
     }
 }
 
