@@ -16,6 +16,8 @@ use crate::process;
 pub const PROGRAM: &str = "flexbody-cli";
 /// The package that links the library of FMUs.
 const LIBRARY: &str = "flexbody-fmu";
+/// The package of the tests of the library from outside.
+const TESTS: &str = "flexbody-tests";
 
 /// Where the project lies and where its products go.
 pub struct Workspace {
@@ -129,17 +131,33 @@ impl Workspace {
         name: &str,
         find: impl Fn(&Value) -> Option<&str>,
     ) -> Result<PathBuf> {
-        let linker = Linker::prepare(self, platform)?;
-        let mut flags = [self.flags()?, linker.flags].concat();
-        flags.push("-Cstrip=symbols".into());
-        let mut command = self.cargo("build");
-        command.envs(linker.sdk.map(|folder| ("SDKROOT", folder)));
-        command.args(["--target", platform.target()]);
+        let mut command = self.for_platform("build", platform)?;
         let package = if package == PACKAGE { LIBRARY } else { package };
         if package == LIBRARY && platform.is_host() {
             command.args(["--package", PROGRAM]);
         }
-        product(released(&mut command, package, &flags), name, find)
+        product(named(&mut command, package), name, find)
+    }
+
+    /// A command that tests the program, and the library from outside, in the very code that is delivered.
+    ///
+    /// # Errors
+    /// Linker or compiler are not there.
+    pub fn tests_of_product(&self) -> Result<Command> {
+        let mut command = self.for_platform("test", Platform::host()?)?;
+        command.args(["--package", PROGRAM, "--package", TESTS]);
+        Ok(command)
+    }
+
+    /// A cargo command that compiles for release what runs on any machine of a platform.
+    fn for_platform(&self, subcommand: &str, platform: Platform) -> Result<Command> {
+        let linker = Linker::prepare(self, platform)?;
+        let mut flags = [self.flags()?, linker.flags].concat();
+        flags.push("-Cstrip=symbols".into());
+        let mut command = self.cargo(subcommand);
+        command.envs(linker.sdk.map(|folder| ("SDKROOT", folder)));
+        released(&mut command, &flags).args(["--target", platform.target()]);
+        Ok(command)
     }
 
     /// Builds the program of a package outside the workspace. Returns its path.
@@ -159,9 +177,11 @@ impl Workspace {
     }
 
     fn executable(&self, command: &mut Command, name: &str) -> Result<PathBuf> {
-        let command = released(command, name, &self.flags()?);
-        product(command, name, |artifact| artifact["executable"].as_str())
-            .with_context(|| format!("building the {name} program"))
+        let command = released(command, &self.flags()?);
+        product(named(command, name), name, |artifact| {
+            artifact["executable"].as_str()
+        })
+        .with_context(|| format!("building the {name} program"))
     }
 }
 
@@ -207,11 +227,17 @@ pub fn executables(command: &mut Command) -> Result<Vec<PathBuf>> {
     Ok(programs.map(PathBuf::from).collect())
 }
 
-/// Completes a command that builds a package in release.
-fn released<'a>(command: &'a mut Command, package: &str, flags: &[String]) -> &'a mut Command {
+/// Completes a command that compiles for release.
+fn released<'a>(command: &'a mut Command, flags: &[String]) -> &'a mut Command {
     command
         .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"))
-        .args(["--package", package, "--release"])
+        .arg("--release")
+}
+
+/// Completes a command that builds a package and tells its products.
+fn named<'a>(command: &'a mut Command, package: &str) -> &'a mut Command {
+    command
+        .args(["--package", package])
         .args(["--message-format", "json-render-diagnostics"])
 }
 

@@ -17,6 +17,18 @@ use crate::{assembly, describe, fuzz};
 /// Tells the tests of FMUs that every case is meant.
 const ALL: &str = "FLEXBODY_ALL";
 
+/// The library's own tests of its parts, and packages that have nothing of it.
+const PARTS: [&str; 8] = [
+    "--package",
+    "flexbody",
+    "--package",
+    "fmu-package",
+    "--package",
+    "example-fmus",
+    "--package",
+    "xtask",
+];
+
 /// Outcome of a check.
 #[derive(Clone, Copy, PartialEq)]
 enum Outcome {
@@ -43,7 +55,7 @@ const fn always(name: &'static str, run: fn(&Workspace, bool) -> Result<Outcome>
 }
 
 /// The checks in order.
-const CHECKS: [Check; 13] = [
+const CHECKS: [Check; 14] = [
     always("formatting", |workspace, _| formatting(workspace)),
     always("clippy", |workspace, _| clippy(workspace)),
     always("dependencies", |workspace, _| dependencies(workspace)),
@@ -73,6 +85,16 @@ const CHECKS: [Check; 13] = [
             "tests/masters",
         ],
         run: master_tests,
+    },
+    Check {
+        name: "model descriptions under fmi-rs",
+        folders: &[
+            "src/fmi",
+            "src/fmi2",
+            "tests/checkers",
+            "crates/fmi-rs-checker",
+        ],
+        run: |workspace, _| fmi_rs(workspace),
     },
     Check {
         name: "studies",
@@ -111,7 +133,11 @@ pub fn test(workspace: &Workspace, words: &[String], all: bool) -> Result<()> {
         let started = Instant::now();
         let is_asked_for = all || !words.is_empty() || check.folders.is_empty();
         let hash = hash_of(workspace, check.folders)?;
-        let outcome = if is_asked_for || !recorded.holds(check.name, &hash) { (check.run)(workspace, all).with_context(|| format!("{place} failed"))? } else { Outcome::Unchanged };
+        let outcome = if is_asked_for || !recorded.holds(check.name, &hash) {
+            (check.run)(workspace, all).with_context(|| format!("{place} failed"))?
+        } else {
+            Outcome::Unchanged
+        };
         if outcome == Outcome::Passed && !check.folders.is_empty() {
             recorded.note(check.name, hash)?;
         }
@@ -204,32 +230,20 @@ fn declared_rust(workspace: &Workspace) -> Result<Outcome> {
     .map(passed)
 }
 
-/// Runs the Rust tests. The parts of FMUs compile meanwhile, in one unit that keeps one core busy.
+/// Tests of what is delivered run in the code that is delivered. It is compiled while parts are tested, in code that is compiled quickly.
 fn rust_tests(workspace: &Workspace) -> Result<Outcome> {
     std::thread::scope(|scope| {
-        let products = scope.spawn(|| {
+        let delivered = scope.spawn(|| {
+            run(workspace.tests_of_product()?.arg("--no-run"))?;
             assembly::check(&workspace.code()?)?;
             workspace.library(PACKAGE, Platform::host()?)?;
             workspace.program(PACKAGE)
         });
-        let tested = native_tests(workspace);
-        let built = products.join().expect("a build that does not panic");
-        tested.and(built.map(drop)).map(passed)
-    })
-}
-
-/// The library is compiled well for tests that simulate, and quickly for those of its parts.
-fn native_tests(workspace: &Workspace) -> Result<()> {
-    let mut whole = workspace.cargo("test");
-    run(whole.args([
-        "--workspace",
-        "--exclude",
-        "studies",
-        "--exclude",
-        "flexbody",
-    ]))?;
-    let mut parts = workspace.cargo("test");
-    run(parts.args(["--profile", "parts", "--package", "flexbody"]))
+        let parts = run(workspace.cargo("test").args(PARTS));
+        let built = delivered.join().expect("a build that does not panic");
+        parts.and(built.map(drop))
+    })?;
+    run(&mut workspace.tests_of_product()?).map(passed)
 }
 
 /// Native runs have checked every claim of every case: a dozen cases run through their FMUs, and of a release all of them.
@@ -258,7 +272,21 @@ fn browser_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
     run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "load"]))?;
     // Without one, tests that need it have been skipped, and have said so.
     let driver = Command::new("chromedriver").arg("--version").output();
-    Ok(if driver.is_ok() { Outcome::Passed } else { Outcome::Skipped })
+    Ok(if driver.is_ok() {
+        Outcome::Passed
+    } else {
+        Outcome::Skipped
+    })
+}
+
+fn fmi_rs(workspace: &Workspace) -> Result<Outcome> {
+    let mut tests = workspace.cargo("test");
+    tests.arg("--manifest-path");
+    tests.arg(workspace.path("crates/fmi-rs-checker/Cargo.toml"));
+    tests
+        .arg("--target-dir")
+        .arg(workspace.target("fmi-rs-checker"));
+    run(&mut tests).map(passed)
 }
 
 fn studies(workspace: &Workspace) -> Result<Outcome> {
@@ -266,7 +294,11 @@ fn studies(workspace: &Workspace) -> Result<Outcome> {
 }
 
 fn fuzzing(workspace: &Workspace) -> Result<Outcome> {
-    Ok(if fuzz::test(workspace)? { Outcome::Passed } else { Outcome::Skipped })
+    Ok(if fuzz::test(workspace)? {
+        Outcome::Passed
+    } else {
+        Outcome::Skipped
+    })
 }
 
 /// Not all masters have packages for other platforms than this one.
