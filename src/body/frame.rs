@@ -17,8 +17,8 @@
 //! Multibody System Dynamics 4 (2000) 129-193 (Cayley-Gibbs-Rodrigues parameters); H. Munthe-Kaas, BIT 38 (1998) 92-111
 //! (one-step methods in coordinates that are renewed every step).
 
-mod lean;
 mod section_frame;
+mod shear_rotation;
 mod tangent;
 mod turn;
 

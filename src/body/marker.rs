@@ -56,7 +56,7 @@ impl Marker {
     }
 
     /// The section of a planar beam at a node of its line: its position is that of the line, its direction that of the section's node.
-    pub fn leaning(body: usize, nodes: [usize; 2]) -> Self {
+    pub fn sheared(body: usize, nodes: [usize; 2]) -> Self {
         Self {
             body,
             nodes,

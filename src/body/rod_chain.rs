@@ -1,6 +1,6 @@
 //! The sections of a rod or beam, along the chain that is its line: bending and torsion; of a beam shear and stretching too. Its nodes are
 //! those of the line, two for the frame carried at each of them, and one inside every element, which holds the internal twist and a beam's
-//! internal leans alone. In the plane there are beams alone; the section at a node is a unit vector in one node (`plane.rs`).
+//! internal shear rotations alone. In the plane there are beams alone; the section at a node is a unit vector in one node (`plane.rs`).
 
 mod inertia;
 mod lanes;
@@ -25,14 +25,14 @@ use lanes::{Packed, packs};
 pub use plane::{axes as planar_axes, middle, turn_inner};
 pub use shaped::carried_nodes;
 
-/// Where the internal twist and a beam's two internal leans stand in a node inside an element: part and axis. The first axis stands one
-/// further than the lean, so that the node has a direction.
+/// Where the internal twist and a beam's two internal shear rotations stand in a node inside an element: part and axis. The first axis stands one
+/// further than the shear rotation, so that the node has a direction.
 pub const INNER: [(usize, usize); 3] = [(1, 1), (1, 0), (1, 2)];
 
 /// Values in the places of [`INNER`] where the coordinates are zero.
 const AHEAD: [f64; 3] = [0.0, 1.0, 0.0];
 
-/// A node inside an element without internal twist and leans.
+/// A node inside an element without internal twist and shear rotations.
 pub fn untwisted<const D: usize>() -> Node<D> {
     let mut node = no_node();
     for ((part, axis), ahead) in INNER.into_iter().zip(AHEAD) {
@@ -111,7 +111,7 @@ impl RodChain {
         let frame = self.frames + self.stride * k;
         marker.is_nodal().then(|| {
             if self.is_planar() {
-                Marker::leaning(marker.body, [self.line + k, frame])
+                Marker::sheared(marker.body, [self.line + k, frame])
             } else {
                 Marker::framed(marker.body, frame, [0.0; 3], [1.0, 0.0, 0.0])
             }
@@ -152,8 +152,8 @@ impl RodChain {
         self.parts.len()
     }
 
-    /// Whether its sections lean against the tangent: those of a beam.
-    pub fn leans(&self) -> bool {
+    /// Whether its sections have a shear rotation: those of a beam.
+    pub fn has_shear(&self) -> bool {
         self.parts.end > 1
     }
 

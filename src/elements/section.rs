@@ -212,8 +212,8 @@ mod tests {
 
     use super::*;
 
-    /// An element that is bent, twisted and, of a beam, leans, with axes that are orthonormal.
-    fn bent(leans: bool) -> At<f64> {
+    /// An element that is bent, twisted and, of a beam, sheared, with axes that are orthonormal.
+    fn bent(has_shear: bool) -> At<f64> {
         let e = [
             [0.1, -0.2, 0.3],
             [1.1, 0.3, -0.2],
@@ -224,16 +224,16 @@ mod tests {
         let thirds = [[0.1, 0.2, 1.0], [0.5, -0.3, 1.0]].map(Vector3::from);
         let axes = [0, 1].map(|end| {
             let tangent = Vector3::from(e[2 * end + 1]).normalize();
-            let lean = if leans {
+            let shear_rotation = if has_shear {
                 normals[end]
             } else {
                 Vector3::zeros()
             };
-            let first = (tangent + lean).normalize();
+            let first = (tangent + shear_rotation).normalize();
             let second = thirds[end].cross(&first).normalize();
             [first, second, first.cross(&second)].map(Into::into)
         });
-        let inner = if leans {
+        let inner = if has_shear {
             [0.2, 0.1, -0.15]
         } else {
             [0.2, 0.0, 0.0]
@@ -242,21 +242,21 @@ mod tests {
     }
 
     /// Moves an element for a short time at given rates.
-    fn moved(at: &At<f64>, rates: &Rates<f64>, time: f64, leans: bool) -> At<f64> {
+    fn moved(at: &At<f64>, rates: &Rates<f64>, time: f64, has_shear: bool) -> At<f64> {
         let vector = |x: &[f64; 3], v: &[f64; 3]| Vector3::from(*x) + Vector3::from(*v) * time;
         let e: [[f64; 3]; 4] = std::array::from_fn(|k| vector(&at.e[k], &rates.e[k]).into());
         let axes = [0, 1].map(|end| {
             let axes = at.axes[end].map(Vector3::from);
             let [u, du] = [at.e[2 * end + 1], rates.e[2 * end + 1]].map(Vector3::from);
             let spin = rates.spin[end];
-            let velocity = if leans {
+            let velocity = if has_shear {
                 axes[0] * spin[0] + axes[1] * spin[1] + axes[2] * spin[2]
             } else {
                 u.cross(&du) / u.norm_squared() + axes[0] * spin[0]
             };
             let turn = nalgebra::Rotation3::new(velocity * time);
             let [mut first, second, _] = axes.map(|axis| turn * axis);
-            if !leans {
+            if !has_shear {
                 first = Vector3::from(e[2 * end + 1]).normalize();
             }
             let second = (second - first * first.dot(&second)).normalize();
@@ -297,13 +297,13 @@ mod tests {
             [0.2, 0.2, 0.9],
             [-0.5, 0.6, 0.3],
         ];
-        for (section, leans) in elements() {
-            let inside = if leans {
+        for (section, has_shear) in elements() {
+            let inside = if has_shear {
                 [0.7, -0.4, 0.3]
             } else {
                 [0.7, 0.0, 0.0]
             };
-            let spin = |of: [f64; 3]| if leans { of } else { [of[0], 0.0, 0.0] };
+            let spin = |of: [f64; 3]| if has_shear { of } else { [of[0], 0.0, 0.0] };
             let rates = Rates {
                 e: [
                     [0.2, 0.5, -0.3],
@@ -314,7 +314,7 @@ mod tests {
                 spin: [spin([0.8, -0.3, 0.4]), spin([-0.6, 0.5, 0.9])],
                 inner: inside,
             };
-            let at = bent(leans);
+            let at = bent(has_shear);
             let force = section.loaded(&at, &moments);
             let sum = |a: &[[f64; 3]], b: &[[f64; 3]]| -> f64 {
                 let pairs = a.as_flattened().iter().zip(b.as_flattened());
@@ -324,7 +324,7 @@ mod tests {
                 + sum(&force.moment, &rates.spin)
                 + sum(&[force.inner], &[rates.inner]);
             let h = 1e-5;
-            let [before, after] = [-h, h].map(|time| moved(&at, &rates, time, leans));
+            let [before, after] = [-h, h].map(|time| moved(&at, &rates, time, has_shear));
             let mut wanted = 0.0;
             for (k, point) in GAUSS_5.iter().enumerate() {
                 let mut velocity = Vector3::zeros();

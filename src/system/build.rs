@@ -384,11 +384,11 @@ fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &RotationMaps) {
 fn take_frames<const D: usize>(parts: &mut Parts<D>) -> RotationMaps {
     let chains = || parts.rod_chains.iter();
     let carried = chains().filter(|_| D > 2);
-    let carried = carried.flat_map(|chain| chain.frames().map(|frame| (chain.leans(), frame)));
-    let carried = carried.map(|(leans, (node, line))| SectionFrame {
+    let carried = carried.flat_map(|chain| chain.frames().map(|frame| (chain.has_shear(), frame)));
+    let carried = carried.map(|(has_shear, (node, line))| SectionFrame {
         node,
         line,
-        leans,
+        has_shear,
         places: [None; 3],
     });
     let inner = chains().flat_map(RodChain::inner);

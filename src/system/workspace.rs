@@ -49,7 +49,7 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) turns: Vec<RotationIncrement>,
     /// States of the section frames of rods and beams.
     pub(super) carries: Vec<SectionFrameState>,
-    /// Both where the tangent was made, and of frames that lean at the stages of an implicit method too.
+    /// Both where the tangent was made, and of frames with a shear rotation at the stages of an implicit method too.
     pub(super) base_turns: Vec<RotationIncrement>,
     pub(super) stages: [Vec<SectionFrameState>; 1 + STAGES],
     /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
@@ -217,7 +217,7 @@ fn moving<const D: usize>(system: &System<D>) -> ([Vec<bool>; 2], Vec<(usize, us
     let mut still = vec![false; elastic.len()];
     let mut sections = Vec::new();
     for chain in &system.rod_chains {
-        if chain.leans() {
+        if chain.has_shear() {
             // These turn with their sections; in the plane by directions, as cables do.
             sections.extend(chain.frames().map(|(frame, line)| (line, frame)));
             sections

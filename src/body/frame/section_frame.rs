@@ -1,5 +1,5 @@
 //! Frames that rods and beams carry along their lines. Of rods the first axis is the tangent, the others are turned about it; sections of
-//! beams lean against it, have three coordinates and are in `lean.rs`.
+//! beams have a shear rotation against it, three coordinates and are in `shear_rotation.rs`.
 //!
 //! Of a rod what is integrated is position and slope `(r, u)` of the node of the line and one rotation `p` about the tangent `t = u / |u|`,
 //! measured from where the smallest rotation that takes the tangent `t0` of the frame which the state holds to `t` carries its second
@@ -13,7 +13,7 @@
 
 use nalgebra::Vector3;
 
-use super::lean::Lean;
+use super::shear_rotation::ShearRotation;
 use super::{Axes, RotationMaps, axes_at, combined, set_axes_at, spin_at, turned};
 use crate::body::connectivity::Node;
 use crate::body::stages::rotated;
@@ -29,8 +29,8 @@ pub struct SectionFrame {
     pub node: usize,
     /// The node of the line that it is at.
     pub line: usize,
-    /// Whether it leans against the tangent, as those of beams do: three coordinates; else one, the rotation about the tangent.
-    pub leans: bool,
+    /// Whether it has a shear rotation against the tangent, as those of beams do: three coordinates; else one, the rotation about the tangent.
+    pub has_shear: bool,
     /// Where its rotations are among the free coordinates, and how many of that make a radian; none where the ground holds it.
     pub places: [Option<(usize, f64)>; 3],
 }
@@ -42,7 +42,7 @@ pub enum Derivative {
     First,
     /// Second derivatives in time.
     Second,
-    /// The way back of the first: spins, or small rotations about tangents or along the axes of sections that lean.
+    /// The way back of the first: spins, or small rotations about tangents or along the axes of sections with a shear rotation.
     Back,
 }
 
@@ -60,7 +60,7 @@ pub struct SectionFrameState {
     rotation: f64,
     spin: f64,
     /// Shear rotation of a beam's section.
-    lean: Lean,
+    shear_rotation: ShearRotation,
 }
 
 impl SectionFrameState {
@@ -83,8 +83,8 @@ impl SectionFrameState {
 
     /// How far it has turned, rad: as a whole or about the tangent.
     fn size(&self, frame: &SectionFrame) -> f64 {
-        if frame.leans {
-            return self.lean.size();
+        if frame.has_shear {
+            return self.shear_rotation.size();
         }
         let across = self.from.cross(&self.tangent).norm();
         across
@@ -116,13 +116,13 @@ impl SectionFrame {
 
     /// How many coordinates it has.
     pub fn turns(&self) -> usize {
-        if self.leans { 3 } else { 1 }
+        if self.has_shear { 3 } else { 1 }
     }
 
     /// Returns the free rotation rates along the section axes, rad/s: the angular velocity of a beam's section, only
     /// the part about the tangent for a rod. Where `v` holds changes, the result is a small rotation, rad.
     pub fn spin<const D: usize, N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> [N; 3] {
-        if self.leans {
+        if self.has_shear {
             return spin_at(self.node, x, v).into();
         }
         let ([_, _, third], [_, second, _]) = (self.axes(x), self.axes(v));
@@ -147,7 +147,7 @@ impl SectionFrame {
     /// Returns the angular velocity in global axes, rad/s.
     pub fn velocity<const D: usize>(&self, x: &[Node<D>], v: &[Node<D>]) -> Vector3<f64> {
         let spin = self.spin(x, v);
-        if self.leans {
+        if self.has_shear {
             combined(&self.axes(x), &spin.into())
         } else {
             angular(&self.slope(x), &self.slope(v), spin[0])
@@ -186,7 +186,7 @@ impl SectionFrame {
         spin: [N; 3],
     ) -> Axes<N> {
         let axes = self.axes(x);
-        if self.leans {
+        if self.has_shear {
             return turned(&axes, &spin.into());
         }
         turned_by(&axes, &angular(&self.slope(x), &self.slope(dx), spin[0]))
@@ -199,7 +199,7 @@ impl SectionFrame {
         momentum: [N; 3],
         [slope, rate, spin]: [&Vector3<N>; 3],
     ) -> Vector3<N> {
-        if self.leans {
+        if self.has_shear {
             return Vector3::from(momentum).cross(spin);
         }
         let square = slope.norm_squared();
@@ -216,7 +216,7 @@ impl SectionFrame {
     ) {
         let (slope, rate, spin) = (self.slope(x), self.slope(v), self.spin(x, v).into());
         let asked = self.gyroscopic(momentum, [&slope, &rate, &spin]);
-        let node = if self.leans { self.node } else { self.line };
+        let node = if self.has_shear { self.node } else { self.line };
         for (sum, f) in force[node][1].iter_mut().zip(&asked) {
             *sum += *f;
         }
@@ -230,7 +230,7 @@ impl SectionFrame {
         stretch: N,
         f: &mut impl FnMut(usize, usize, [N; D]),
     ) {
-        if self.leans {
+        if self.has_shear {
             return f(self.node, 1, vector::<D, N>((*moment).into()).into());
         }
         let across = (second * moment[2] - third * moment[1]) / stretch;
@@ -262,9 +262,9 @@ impl RotationMaps {
         }
     }
 
-    /// Whether any of them leans.
-    pub fn lean(&self) -> bool {
-        self.carried.iter().any(|frame| frame.leans)
+    /// Whether any of them has a shear rotation.
+    pub fn shear_rotation(&self) -> bool {
+        self.carried.iter().any(|frame| frame.has_shear)
     }
 
     /// The carried frame that a node belongs to, and whether it is its second node.
@@ -290,10 +290,10 @@ impl RotationMaps {
         for ((frame, from), carry) in self.carried.iter().zip(from).zip(carries) {
             let slope = frame.slope(x);
             x[frame.node][0] = x[frame.line][0];
-            if frame.leans {
+            if frame.has_shear {
                 let rotation = part(&x[frame.node], 1);
-                let (lean, axes) = Lean::placed(from, slope, rotation);
-                carry.lean = lean;
+                let (shear_rotation, axes) = ShearRotation::placed(from, slope, rotation);
+                carry.shear_rotation = shear_rotation;
                 set_axes_at(frame.node, &axes, x);
                 continue;
             }
@@ -323,9 +323,11 @@ impl RotationMaps {
         for (frame, carry) in self.carried.iter().zip(carries) {
             let rate = frame.slope(v);
             v[frame.node][0] = v[frame.line][0];
-            if frame.leans {
-                carry.lean.set_rates(rate, part(&v[frame.node], 1));
-                let axes = frame.turned(x, v, carry.lean.spin.into());
+            if frame.has_shear {
+                carry
+                    .shear_rotation
+                    .set_rates(rate, part(&v[frame.node], 1));
+                let axes = frame.turned(x, v, carry.shear_rotation.spin.into());
                 set_axes_at(frame.node, &axes, v);
                 continue;
             }
@@ -359,7 +361,7 @@ impl RotationMaps {
     ) {
         for frame in &self.carried {
             let spin = frame.spin(x, v);
-            if frame.leans {
+            if frame.has_shear {
                 let by_spin = turned(&frame.axes(v), &spin.into());
                 let sum = frame.axes(a);
                 let sum = std::array::from_fn(|k| sum[k] + by_spin[k]);
@@ -430,12 +432,12 @@ impl RotationMaps {
     ) {
         for (frame, carry) in self.carried.iter().zip(carries) {
             let slope = frame.slope(dx);
-            if frame.leans {
+            if frame.has_shear {
                 let spin = frame.read(y);
                 let changed = match order {
-                    Derivative::First => carry.lean.change_of(&spin, &slope),
-                    Derivative::Second => carry.lean.second_of(&spin, &slope),
-                    Derivative::Back => carry.lean.spin_of(&spin, &slope),
+                    Derivative::First => carry.shear_rotation.change_of(&spin, &slope),
+                    Derivative::Second => carry.shear_rotation.second_of(&spin, &slope),
+                    Derivative::Back => carry.shear_rotation.spin_of(&spin, &slope),
                 };
                 frame.write(&changed, y);
                 continue;
@@ -471,9 +473,9 @@ impl RotationMaps {
         for ((frame, carry), from) in self.carried.iter().zip(carries).zip(frames) {
             let axes = frame.axes(x);
             *from = normalized(quaternion_near(&axes, from));
-            if frame.leans {
+            if frame.has_shear {
                 frame.write(&Vector3::zeros(), q);
-                frame.write(&carry.lean.rate_anew(&axes), v);
+                frame.write(&carry.shear_rotation.rate_anew(&axes), v);
                 continue;
             }
             if let Some((at, scale)) = frame.places[0] {

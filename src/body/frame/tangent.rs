@@ -187,7 +187,7 @@ impl RotationMaps {
         x: &[Node<D>],
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
-        if frame.leans {
+        if frame.has_shear {
             let (axes, forces) = (frame.axes(x), axes_at(frame.node, f));
             let turned = Self::geometric_at(&axes, &forces);
             let block = turning_block(&((turned + turned.transpose()) * 0.5));
@@ -206,8 +206,8 @@ impl RotationMaps {
         }
         let by_slope = t.cross_matrix() / stretch;
         let mut on_slope = by_slope.transpose() * turning * by_slope;
-        let leaned = moment.cross(&t) * t.transpose() / (stretch * stretch);
-        on_slope += leaned + leaned.transpose();
+        let sheared = moment.cross(&t) * t.transpose() / (stretch * stretch);
+        on_slope += sheared + sheared.transpose();
         let across = moment - t * moment.dot(&t);
         let mixed = by_slope.transpose() * turning * t - across * (0.5 / stretch);
         let on_turn = t.dot(&(turning * t));
@@ -237,7 +237,7 @@ impl SectionFrame {
         let [mut by_line, mut by_turn] = [no_block(), no_block()];
         let kept = if is_second { [1, 2] } else { [3, 0] };
         for (p, k) in kept.into_iter().enumerate().filter(|(_, k)| *k < 3) {
-            if self.leans {
+            if self.has_shear {
                 for (turn, about) in axes.iter().enumerate().take(D) {
                     let change = about.cross(&axes[k]);
                     (0..D).for_each(|axis| by_turn[p][axis][1][turn] = change[axis]);

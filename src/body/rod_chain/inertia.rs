@@ -188,7 +188,7 @@ impl RodChain {
         for (k, (frame, momentum)) in ends.into_iter().zip([first, last]).enumerate() {
             let [slope, rate] = [x, v].map(|of| part(&of[frame.line], 1).into());
             let asked = frame.gyroscopic(momentum, [&slope, &rate, &rates.spin[k].into()]);
-            let on = if frame.leans {
+            let on = if frame.has_shear {
                 &mut force.moment[k]
             } else {
                 &mut force.e[2 * k + 1]

@@ -9,7 +9,7 @@
 //! Half the product of `Q` and `W` is their energy, part of that of the centrifugal force.
 //!
 //! Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed. (2020), sections 3.6 and 5.4 (inertia in frames that move), for the
-//! equations of `frame/section_frame.rs` and `frame/lean.rs`.
+//! equations of `frame/section_frame.rs` and `frame/shear_rotation.rs`.
 
 use nalgebra::Vector3;
 
@@ -35,7 +35,7 @@ impl RodChain {
         let ends = [j, j + 1].map(|k| self.frame(k, frames));
         let carried = ends.map(|frame| along(frame, rotation, x));
         let changes = [0, 1].map(|k| {
-            if ends[k].leans {
+            if ends[k].has_shear {
                 let [turn, spin] = [carried[k], rates.spin[k]].map(Vector3::from);
                 spin.cross(&turn).map(|change| -change).into()
             } else {
@@ -53,7 +53,7 @@ impl RodChain {
         for (k, frame) in ends.into_iter().enumerate() {
             let [own, with] = [&own, &with].map(|momenta| Vector3::from(momenta[2 * k]));
             let turn = Vector3::from(carried[k]);
-            if frame.leans {
+            if frame.has_shear {
                 let spin = turn + Vector3::from(rates.spin[k]);
                 let asked = own.cross(&turn) + with.cross(&spin);
                 (force.moment[k].iter_mut().zip(&asked)).for_each(|(sum, f)| *sum += *f);

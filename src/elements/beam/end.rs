@@ -1,10 +1,10 @@
-//! An end of a beam: the tangent's frame, the section's lean in it, and what both do when slope and section move.
+//! An end of a beam: the tangent's frame, the section's shear rotation in it, and what both do when slope and section move.
 //!
 //! Source: (1) of `beam/mod.rs`. With the spin `w` of the section along the axes of the tangent's frame, `x = t x t'` and
-//! `v = w - x` across the tangent, the lean changes by `c' = (1 + |c|^2 / 4) v` and the tangent's frame turns about the tangent by
+//! `v = w - x` across the tangent, the shear rotation changes by `c' = (1 + |c|^2 / 4) v` and the tangent's frame turns about the tangent by
 //! `w . t - t . (c x v) / 2`: the relative rotation has the rational vector `c`.
 
-use super::lean::leaned;
+use super::shear_rotation::turned_by_shear;
 use crate::elements::line::{dot, times};
 use crate::elements::rod::vectors::{Vector, cross, plus, unit};
 use crate::math::lanes::Real;
@@ -18,9 +18,9 @@ pub(super) struct End<N> {
     pub size: N,
     /// The axes of the tangent's frame across it.
     pub across: [Vector<N>; 2],
-    /// Lean about these axes, twice the tangent of half the angle.
-    pub lean: [N; 2],
-    /// `1 + |c|^2 / 4`: rate of the lean by angular velocity.
+    /// shear rotation about these axes, twice the tangent of half the angle.
+    pub shear_rotation: [N; 2],
+    /// `1 + |c|^2 / 4`: rate of the shear rotation by angular velocity.
     pub gain: N,
 }
 
@@ -31,28 +31,28 @@ impl<N: Real> End<N> {
         let one = inverse_size.constant(1.0);
         let half = one / (one + dot(&tangent, normal));
         let double = half + half;
-        let lean = [
+        let shear_rotation = [
             double * dot(&tangent, third),
             -(double * dot(&tangent, second)),
         ];
         let both = plus(normal, one, &tangent);
-        let first = plus(&both, lean[1] * one.constant(0.5), second);
+        let first = plus(&both, shear_rotation[1] * one.constant(0.5), second);
         Self {
             size: dot(u, &tangent),
             across: [first, cross(&tangent, &first)],
-            gain: dot(&lean, &lean).times_plus(one.constant(0.25), one),
+            gain: dot(&shear_rotation, &shear_rotation).times_plus(one.constant(0.25), one),
             tangent,
             inverse_size,
-            lean,
+            shear_rotation,
         }
     }
 
-    /// Rates of the turn of the tangent's frame and of the lean, from those of the slope and from the angular velocity along the
+    /// Rates of the turn of the tangent's frame and of the shear rotation, from those of the slope and from the angular velocity along the
     /// section's own axes.
     #[inline(always)]
     pub fn rates(&self, du: &Vector<N>, spin: &[N; 3]) -> (N, [N; 2]) {
-        let [p, q] = self.lean;
-        let [turn, second, third] = leaned([-p, -q], spin);
+        let [p, q] = self.shear_rotation;
+        let [turn, second, third] = turned_by_shear([-p, -q], spin);
         let [first, other] = &self.across;
         let v = [
             dot(other, du).times_plus(self.inverse_size, second),
@@ -62,19 +62,19 @@ impl<N: Real> End<N> {
         (turn - back, times(&v, self.gain))
     }
 
-    /// Force on the slope and moment along the section's own axes from the torque about the tangent of its frame and what the lean
+    /// Force on the slope and moment along the section's own axes from the torque about the tangent of its frame and what the shear rotation
     /// is taken with.
     #[inline(always)]
-    pub fn load(&self, torque: N, lean: &[N; 2]) -> (Vector<N>, [N; 3]) {
-        let [p, q] = self.lean;
+    pub fn load(&self, torque: N, shear_rotation: &[N; 2]) -> (Vector<N>, [N; 3]) {
+        let [p, q] = self.shear_rotation;
         let half = torque * torque.constant(0.5);
-        let second = lean[0].times_plus(self.gain, half * q);
-        let third = lean[1] * self.gain - half * p;
+        let second = shear_rotation[0].times_plus(self.gain, half * q);
+        let third = shear_rotation[1] * self.gain - half * p;
         let [first, other] = &self.across;
         let force = plus(other, second, &times(first, -third));
         (
             times(&force, self.inverse_size),
-            leaned(self.lean, &[torque, second, third]),
+            turned_by_shear(self.shear_rotation, &[torque, second, third]),
         )
     }
 }
@@ -83,8 +83,8 @@ impl<N: Real> End<N> {
 pub(super) type Six<N> = [[N; 6]; 6];
 
 impl<N: Real> End<N> {
-    /// Second derivatives of the turn of the tangent's frame and of the lean while slope and angular velocity change evenly, taken
-    /// with the torque about the tangent and what the lean is taken with.
+    /// Second derivatives of the turn of the tangent's frame and of the shear rotation while slope and angular velocity change evenly, taken
+    /// with the torque about the tangent and what the shear rotation is taken with.
     ///
     /// With `f` this torque, `m` the moment of both along the tangent's frame, `s = t . u' / |u|`, and what is across the tangent as
     /// complex numbers, they are
@@ -95,11 +95,11 @@ impl<N: Real> End<N> {
     ///
     /// as components of a vector that stands still turn against the frame, and `x' = -2 s x` in space.
     #[inline(always)]
-    pub fn second(&self, torque: N, lean: &[N; 2]) -> Six<N> {
-        let ([p, q], half) = (self.lean, torque.constant(0.5));
+    pub fn second(&self, torque: N, shear_rotation: &[N; 2]) -> Six<N> {
+        let ([p, q], half) = (self.shear_rotation, torque.constant(0.5));
         let (twist, zero) = (torque * half, torque.constant(0.0));
-        let m = lean[0].times_plus(self.gain, twist * q);
-        let n = lean[1] * self.gain - twist * p;
+        let m = shear_rotation[0].times_plus(self.gain, twist * q);
+        let n = shear_rotation[1] * self.gain - twist * p;
         let quarter = half * twist * half;
         let a = half * (p * m - q * n) - quarter * (p * q + p * q);
         let b = half * (p * n + q * m) + quarter * (p * p - q * q);
@@ -137,7 +137,7 @@ impl<N: Real> End<N> {
         let [first, other] = &self.across;
         let by_u = plus(other, *z, &plus(first, *y, &times(&self.tangent, *s)));
         let [a, b, c] = times(&by_u, self.inverse_size);
-        let [d, e, f] = leaned(self.lean, &[*t, *v, *w]);
+        let [d, e, f] = turned_by_shear(self.shear_rotation, &[*t, *v, *w]);
         [a, b, c, d, e, f]
     }
 }

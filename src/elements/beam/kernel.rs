@@ -3,7 +3,7 @@
 //! Source: the equations of `beam/mod.rs`.
 
 use super::end::End;
-use super::lean::{Leaning, Local, Six};
+use super::shear_rotation::{Local, ShearedSection, Six};
 use super::{At, Force, Rates};
 use crate::elements::constitutive::Law;
 use crate::elements::line::{Sample, combine, dot, times};
@@ -28,8 +28,8 @@ pub(super) struct Placed<N> {
     pub frame: Frame<N>,
     /// Length of the slope at the first end, in the middle and at the last end.
     pub stretches: [N; 3],
-    /// Lean at the first end, at the last, and the internal one.
-    pub leans: [[N; 2]; 3],
+    /// shear rotation at the first end, at the last, and the internal one.
+    pub shear_rotations: [[N; 2]; 3],
     pub bubble: N,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Placed<N> {
 pub(super) struct Moving<N> {
     motion: Motion<N>,
     stretches: [N; 3],
-    leans: [[N; 2]; 3],
+    shear_rotations: [[N; 2]; 3],
 }
 
 /// Shape functions at a point of the length of the slope and of the shear rotations.
@@ -45,7 +45,7 @@ pub(super) struct Shapes {
     /// Shape functions of the length of the slope, in the order first end, middle, last end.
     pub stretch: [f64; 3],
     /// Shape functions of the shear rotation, in the order first end, last end, internal.
-    pub lean: [f64; 3],
+    pub shear_rotation: [f64; 3],
     /// Derivatives of these by the reference length times the length.
     pub change: [f64; 3],
 }
@@ -56,7 +56,7 @@ impl Shapes {
         let (rest, bubble) = (1.0 - at, 4.0 * at * (1.0 - at));
         Self {
             stretch: parabola(at),
-            lean: [rest, at, bubble],
+            shear_rotation: [rest, at, bubble],
             change: [-1.0, 1.0, 4.0 - 8.0 * at],
         }
     }
@@ -98,7 +98,11 @@ impl<N: Real> Kernel<N> {
         let middle = dot(&combine(&MIDDLE, &v), &frame.middle);
         Placed {
             stretches: [ends[0].size, middle, ends[1].size],
-            leans: [ends[0].lean, ends[1].lean, [at.inner[1], at.inner[2]]],
+            shear_rotations: [
+                ends[0].shear_rotation,
+                ends[1].shear_rotation,
+                [at.inner[1], at.inner[2]],
+            ],
             bubble: at.inner[0],
             v,
             ends,
@@ -110,8 +114,8 @@ impl<N: Real> Kernel<N> {
     #[inline(always)]
     pub fn moving(&self, placed: &Placed<N>, rates: &Rates<N>) -> Moving<N> {
         let [first, last] = &placed.ends;
-        let (turn, lean) = first.rates(&rates.e[1], &rates.spin[0]);
-        let (other_turn, other_lean) = last.rates(&rates.e[3], &rates.spin[1]);
+        let (turn, shear_rotation) = first.rates(&rates.e[1], &rates.spin[0]);
+        let (other_turn, other_shear_rotation) = last.rates(&rates.e[3], &rates.spin[1]);
         let [bubble, p, q] = rates.inner;
         let dv = self.geometry.vectors(&rates.e);
         let rates = rod::Rates {
@@ -122,7 +126,7 @@ impl<N: Real> Kernel<N> {
         Moving {
             motion: self.geometry.motion(&placed.frame, &rates),
             stretches: self.geometry.lengths(&dv, &placed.frame),
-            leans: [lean, other_lean, [p, q]],
+            shear_rotations: [shear_rotation, other_shear_rotation, [p, q]],
         }
     }
 
@@ -132,31 +136,43 @@ impl<N: Real> Kernel<N> {
         &self,
         point: &Sample,
         turning: [N; 3],
-        (stretches, leans): (&[N; 3], &[[N; 2]; 3]),
+        (stretches, shear_rotations): (&[N; 3], &[[N; 2]; 3]),
     ) -> Local<N> {
         let (geometry, shapes) = (&self.geometry, Shapes::new(point.at));
         let zero = geometry.number(0.0);
-        let (mut stretch, mut lean, mut change) = (zero, [zero; 2], [zero; 2]);
+        let (mut stretch, mut shear_rotation, mut change) = (zero, [zero; 2], [zero; 2]);
         for k in 0..3 {
             stretch = stretches[k].times_plus(geometry.number(shapes.stretch[k]), stretch);
-            lean = plus(&leans[k], geometry.number(shapes.lean[k]), &lean);
-            change = plus(&leans[k], geometry.number(shapes.change[k]), &change);
+            shear_rotation = plus(
+                &shear_rotations[k],
+                geometry.number(shapes.shear_rotation[k]),
+                &shear_rotation,
+            );
+            change = plus(
+                &shear_rotations[k],
+                geometry.number(shapes.change[k]),
+                &change,
+            );
         }
         Local {
             stretch,
             turning,
-            lean,
+            shear_rotation,
             change: times(&change, geometry.inverse_length),
         }
     }
 
     #[inline(always)]
-    pub fn section(&self, point: &Sample, placed: &Placed<N>) -> (Section<N>, Leaning<N>) {
+    pub fn section(&self, point: &Sample, placed: &Placed<N>) -> (Section<N>, ShearedSection<N>) {
         let section = self
             .geometry
             .section(point, &placed.v, &placed.frame, placed.bubble);
-        let local = self.local(point, section.strains, (&placed.stretches, &placed.leans));
-        (section, Leaning::new(local))
+        let local = self.local(
+            point,
+            section.strains,
+            (&placed.stretches, &placed.shear_rotations),
+        );
+        (section, ShearedSection::new(local))
     }
 
     /// Strains at a point.
@@ -186,11 +202,11 @@ impl<N: Real> Kernel<N> {
         let moving = of_rate!(rates, rates => self.moving(&placed, rates));
         let zero = geometry.number(0.0);
         let (mut power, mut sum) = (zero, Sum::nothing(zero));
-        let (mut stretches, mut leans) = ([zero; 3], [[zero; 2]; 3]);
+        let (mut stretches, mut shear_rotations) = ([zero; 3], [[zero; 2]; 3]);
         for (index, point) in POINTS.iter().enumerate() {
-            let (section, leaning) = self.section(point, &placed);
-            let (rows, shapes) = (leaning.rows(), Shapes::new(point.at));
-            let strains = add(&leaning.strains(), &self.law.offset[index]);
+            let (section, sheared) = self.section(point, &placed);
+            let (rows, shapes) = (sheared.rows(), Shapes::new(point.at));
+            let strains = add(&sheared.strains(), &self.law.offset[index]);
             let mut stress = product(&self.law.stiffness[index], &strains);
             if let Some(moving) = &moving {
                 let rate = rows.rates(&self.local_rates(point, &section, &placed, moving));
@@ -205,11 +221,19 @@ impl<N: Real> Kernel<N> {
                 stretches[k] = factors
                     .stretch
                     .times_plus(geometry.number(shapes.stretch[k]), stretches[k]);
-                let of_lean = plus(&factors.lean, geometry.number(shapes.lean[k]), &leans[k]);
-                leans[k] = plus(&change, geometry.number(shapes.change[k]), &of_lean);
+                let of_shear_rotation = plus(
+                    &factors.shear_rotation,
+                    geometry.number(shapes.shear_rotation[k]),
+                    &shear_rotations[k],
+                );
+                shear_rotations[k] = plus(
+                    &change,
+                    geometry.number(shapes.change[k]),
+                    &of_shear_rotation,
+                );
             }
         }
-        let force = self.spread(&placed, sum, &stretches, &leans);
+        let force = self.spread(&placed, sum, &stretches, &shear_rotations);
         (force, power * geometry.length)
     }
 
@@ -224,7 +248,7 @@ impl<N: Real> Kernel<N> {
         let turning = self
             .geometry
             .strain_rates(point, section, &placed.frame, &moving.motion);
-        self.local(point, turning, (&moving.stretches, &moving.leans))
+        self.local(point, turning, (&moving.stretches, &moving.shear_rotations))
     }
 
     /// Force from the summed factors.
@@ -234,22 +258,22 @@ impl<N: Real> Kernel<N> {
         placed: &Placed<N>,
         mut sum: Sum<N>,
         stretches: &[N; 3],
-        leans: &[[N; 2]; 3],
+        shear_rotations: &[[N; 2]; 3],
     ) -> Force<N> {
         let (geometry, [first, last]) = (&self.geometry, &placed.ends);
         geometry.add_lengths(&placed.frame, stretches, &mut sum);
         let rod::Force { e, torque, bubble } = geometry.spread(&placed.frame, &sum);
-        let leans = [
-            times(&leans[0], -geometry.length),
-            times(&leans[1], -geometry.length),
-            times(&leans[2], -geometry.length),
+        let shear_rotations = [
+            times(&shear_rotations[0], -geometry.length),
+            times(&shear_rotations[1], -geometry.length),
+            times(&shear_rotations[2], -geometry.length),
         ];
-        let (by_first, moment) = first.load(torque[0], &leans[0]);
-        let (by_last, other) = last.load(torque[1], &leans[1]);
+        let (by_first, moment) = first.load(torque[0], &shear_rotations[0]);
+        let (by_last, other) = last.load(torque[1], &shear_rotations[1]);
         Force {
             e: [e[0], add(&e[1], &by_first), e[2], add(&e[3], &by_last)],
             moment: [moment, other],
-            inner: [bubble, leans[2][0], leans[2][1]],
+            inner: [bubble, shear_rotations[2][0], shear_rotations[2][1]],
         }
     }
 }

@@ -6,7 +6,7 @@
 //! correction of a shear-free line, which does not lock); the frames of [`rod`](super::rod), which this one is built on.
 //!
 //! At both ends there are position `r`, slope `u = dr/ds`, and the axes `e1`, `e2`, `e3` of the section; `e1` is its normal, which
-//! shear makes lean away from the unit tangent `t = u / |u|`. The tangent's frame is `t`, `d = carry(e1, t, e2)`, `t x d`; in it the
+//! shear makes shear rotation away from the unit tangent `t = u / |u|`. The tangent's frame is `t`, `d = carry(e1, t, e2)`, `t x d`; in it the
 //! section is turned by the rational vector
 //!
 //! ```text
@@ -14,7 +14,7 @@
 //! ```
 //!
 //! which has two components, about `d` and about `t x d`. On the tangent's frames stands the rod with its internal twist: its twist
-//! and curvatures `k`. The lean is interpolated between the ends in the carried and twisted frame, and an internal one of either
+//! and curvatures `k`. The shear rotation is interpolated between the ends in the carried and twisted frame, and an internal one of either
 //! component is added with `4 xi (1 - xi)`. With the stretch `n`, the parabola through `|u|` at both ends and in the middle, strains
 //! are, along the axes of the section and by the reference length,
 //!
@@ -25,16 +25,16 @@
 //!
 //! and the energy `1/2 l sum w (s - s0)^T C (s - s0)` over three Gauss points, with the strains `s0` of the unstressed shape. It is
 //! the same from all frames, and of order 4 in the length. Seen from the last end `e1` and `e3` are opposite, and so are the
-//! internal twist and the internal lean about the third axis: shear along the second axis and bending about it change their signs.
+//! internal twist and the internal shear rotation about the third axis: shear along the second axis and bending about it change their signs.
 //!
 //! Velocities are those of `e`, the angular velocities of the sections at the ends along their own axes, and the rates of what is
 //! inside; axes follow by `e_j' = omega x e_j`. Forces are the factors of these in the power.
 
 mod end;
 mod kernel;
-mod lean;
 mod loaded;
 pub mod planar;
+mod shear_rotation;
 #[cfg(test)]
 mod statics;
 mod tangent;
@@ -77,7 +77,7 @@ pub struct At<N> {
     pub e: [[N; 3]; 4],
     /// Axes of the section at both ends, orthonormal: its normal, then both across it.
     pub axes: [[[N; 3]; 3]; 2],
-    /// Internal twist (rad), internal leans about the second and the third axis.
+    /// Internal twist (rad), internal shear rotations about the second and the third axis.
     pub inner: [N; 3],
 }
 
@@ -88,7 +88,7 @@ pub struct Rates<N> {
     pub e: [[N; 3]; 4],
     /// Angular velocities of the sections at both ends along their own axes, rad/s.
     pub spin: [[N; 3]; 2],
-    /// Rates of internal twist and leans, 1/s.
+    /// Rates of internal twist and shear rotations, 1/s.
     pub inner: [N; 3],
 }
 
@@ -99,7 +99,7 @@ pub struct Force<N> {
     pub e: [[N; 3]; 4],
     /// Moments on the sections at both ends along their own axes, N m.
     pub moment: [[N; 3]; 2],
-    /// On internal twist and leans, N m.
+    /// On internal twist and shear rotations, N m.
     pub inner: [N; 3],
 }
 
@@ -129,7 +129,7 @@ pub struct Pack {
 }
 
 impl Beam {
-    /// A beam whose unstressed shape is this one; its internal twist and leans do not count. Strains that are roundoff are none.
+    /// A beam whose unstressed shape is this one; its internal twist and shear rotations do not count. Strains that are roundoff are none.
     pub fn new(parameters: Parameters, shape: &At<f64>) -> Self {
         let l = parameters.length;
         let mut kernel = Kernel {

@@ -1,13 +1,13 @@
 //! The tangent: second derivatives of the energy along a motion with constant rates of the line, angular velocities of the sections,
-//! internal twist and leans.
+//! internal twist and shear rotations.
 //!
 //! Source: twice the derivative by time of the equations of `beam/mod.rs`. At a point the energy changes by the squares of the rates
-//! of stretch, turning, lean and its change (`beam/lean.rs`), and by the second derivatives of the first two, those of turning the
-//! rod's; at the ends by those of lean and turn of the tangent's frame (`beam/end.rs`).
+//! of stretch, turning, shear rotation and its change (`beam/shear_rotation.rs`), and by the second derivatives of the first two, those of turning the
+//! rod's; at the ends by those of shear rotation and turn of the tangent's frame (`beam/end.rs`).
 
 use super::end::End;
 use super::kernel::{Kernel, Placed, Shapes};
-use super::lean::Eight;
+use super::shear_rotation::Eight;
 use super::{At, Matrix, Rates, Tangent, VELOCITIES};
 use crate::elements::line::{Sample, times};
 use crate::elements::rod;
@@ -23,10 +23,10 @@ const ROD: [usize; rod::VELOCITIES] = [0, 1, 2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 1
 /// Places of position and slope at the first end, and at the last.
 const SLOPES: [usize; 4] = [0, 3, 9, 12];
 
-/// Places of the leans at the first end, at the last and inside.
-const LEANS: [usize; 6] = [7, 8, 16, 17, 19, 20];
+/// Places of the shear rotations at the first end, at the last and inside.
+const SHEAR_ROTATIONS: [usize; 6] = [7, 8, 16, 17, 19, 20];
 
-/// Lengths of the slope at the first end, in the middle and at the last end, then the leans.
+/// Lengths of the slope at the first end, in the middle and at the last end, then the shear rotations.
 const MORE: usize = 9;
 
 /// Second derivatives of the energy, summed over sections.
@@ -54,12 +54,12 @@ impl<N: Real> Kernel<N> {
             factors: [zero; MORE],
         };
         for (index, point) in POINTS.iter().enumerate() {
-            let (section, leaning) = self.section(point, &placed);
-            let rows = leaning.rows();
+            let (section, sheared) = self.section(point, &placed);
+            let rows = sheared.rows();
             let (squares, turning) = match kind {
                 Tangent::Damping => (rows.squares(&self.law.damping[index]), None),
                 Tangent::Stiffness => {
-                    let strains = add(&leaning.strains(), &self.law.offset[index]);
+                    let strains = add(&sheared.strains(), &self.law.offset[index]);
                     let mut stress = product(&self.law.stiffness[index], &strains);
                     if let Some(moving) = &moving {
                         let local = self.local_rates(point, &section, &placed, moving);
@@ -67,10 +67,10 @@ impl<N: Real> Kernel<N> {
                         stress = add(&stress, &product(&self.law.damping[index], &rate));
                     }
                     let mut squares = rows.squares(&self.law.stiffness[index]);
-                    leaning.add_second(&stress, &mut squares);
+                    sheared.add_second(&stress, &mut squares);
                     let factors = rows.factors(&times(&stress, geometry.number(point.weight)));
-                    let leans = (factors.lean, factors.change);
-                    self.add_factors(point, factors.stretch, leans, &mut sum.factors);
+                    let shear_rotations = (factors.shear_rotation, factors.change);
+                    self.add_factors(point, factors.stretch, shear_rotations, &mut sum.factors);
                     (squares, Some(factors.turning))
                 }
             };
@@ -84,16 +84,16 @@ impl<N: Real> Kernel<N> {
         &self,
         point: &Sample,
         stretch: N,
-        (lean, change): ([N; 2], [N; 2]),
+        (shear_rotation, change): ([N; 2], [N; 2]),
         factors: &mut [N; MORE],
     ) {
         let (geometry, shapes) = (&self.geometry, Shapes::new(point.at));
         for k in 0..3 {
-            let value = geometry.number(shapes.lean[k]);
+            let value = geometry.number(shapes.shear_rotation[k]);
             let slope = geometry.inverse_length * geometry.number(shapes.change[k]);
             factors[k] = stretch.times_plus(geometry.number(shapes.stretch[k]), factors[k]);
             for part in 0..2 {
-                let both = lean[part].times_plus(value, change[part] * slope);
+                let both = shear_rotation[part].times_plus(value, change[part] * slope);
                 factors[3 + 2 * k + part] += both;
             }
         }
@@ -120,7 +120,7 @@ impl<N: Real> Kernel<N> {
             (&by, turning.as_ref()),
             &mut sum.rod,
         );
-        // Columns of stretch, lean and its change, weighted.
+        // Columns of stretch, shear rotation and its change, weighted.
         let weight = geometry.number(point.weight);
         let mut columns = [[zero; 8]; 5];
         for (column, c) in columns.iter_mut().zip([0, 4, 5, 6, 7]) {
@@ -130,18 +130,18 @@ impl<N: Real> Kernel<N> {
         let mut wide = [[zero; 8]; MORE];
         for k in 0..3 {
             wide[k] = times(&columns[0], geometry.number(shapes.stretch[k]));
-            let value = geometry.number(shapes.lean[k]);
+            let value = geometry.number(shapes.shear_rotation[k]);
             let slope = geometry.inverse_length * geometry.number(shapes.change[k]);
             for part in 0..2 {
-                let of_lean = times(&columns[1 + part], value);
-                wide[3 + 2 * k + part] = plus(&columns[3 + part], slope, &of_lean);
+                let of_shear_rotation = times(&columns[1 + part], value);
+                wide[3 + 2 * k + part] = plus(&columns[3 + part], slope, &of_shear_rotation);
             }
         }
         for (e, column) in wide.iter().enumerate() {
             let turning = [column[1], column[2], column[3]];
             geometry.add_section(point, section, frame, &turning, &mut sum.mixed[e]);
-            let (lean, change) = ([column[4], column[5]], [column[6], column[7]]);
-            self.add_factors(point, column[0], (lean, change), &mut sum.more[e]);
+            let (shear_rotation, change) = ([column[4], column[5]], [column[6], column[7]]);
+            self.add_factors(point, column[0], (shear_rotation, change), &mut sum.more[e]);
         }
     }
 
@@ -167,16 +167,16 @@ impl<N: Real> Kernel<N> {
                 if e < 3 {
                     lengths[e][ROD[k]] = value;
                 } else {
-                    let place = LEANS[e - 3];
+                    let place = SHEAR_ROTATIONS[e - 3];
                     (matrix[place][ROD[k]], matrix[ROD[k]][place]) = (value, value);
                 }
             }
             for k in 0..6 {
                 let value = sum.more[e][3 + k] * l;
                 if e < 3 {
-                    lengths[e][LEANS[k]] = value;
+                    lengths[e][SHEAR_ROTATIONS[k]] = value;
                 } else {
-                    matrix[LEANS[e - 3]][LEANS[k]] = value;
+                    matrix[SHEAR_ROTATIONS[e - 3]][SHEAR_ROTATIONS[k]] = value;
                 }
             }
         }
@@ -200,7 +200,7 @@ impl<N: Real> Kernel<N> {
     }
 }
 
-/// From turns of the tangents' frames and leans at the ends to angular velocities of the sections: rows with columns up to the
+/// From turns of the tangents' frames and shear rotations at the ends to angular velocities of the sections: rows with columns up to the
 /// diagonal.
 #[inline(always)]
 fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &mut Matrix<N>) {

@@ -421,10 +421,10 @@ fn packs_are_as_their_elements() {
 
 #[test]
 fn a_straight_beam_has_its_strains() {
-    // Stretched by 1.1, sections leaning by 0.2 rad about their second axis, which turns evenly by 0.5 rad along the beam.
+    // Stretched by 1.1, sections with a shear rotation of 0.2 rad about their second axis, which turns evenly by 0.5 rad along the beam.
     let (stretch, angle, twist) = (1.1, 0.2_f64, 0.5);
-    let lean = Rotation3::new(V::y() * angle);
-    let axes = [0.0, twist].map(|by| turned(&(Rotation3::new(V::x() * by) * lean)));
+    let shear_rotation = Rotation3::new(V::y() * angle);
+    let axes = [0.0, twist].map(|by| turned(&(Rotation3::new(V::x() * by) * shear_rotation)));
     let u: [f64; 3] = (V::x() * stretch).into();
     let at = At {
         e: [[0.0; 3], u, u.map(|x| x * 0.7), u],

@@ -158,8 +158,12 @@ impl<const D: usize> Builder<'_, D> {
         let (line, frame) = (self.on_line_of(cable, s), marker.nodes[0]);
         let before = self.parts.joints.iter().filter_map(|joint| joint.clamp());
         let is_held = before.map(|clamp| clamp.frame).any(|held| held == frame);
-        let leans = cable.body.is_beam();
-        let clamp = Clamp { line, frame, leans };
+        let has_shear = cable.body.is_beam();
+        let clamp = Clamp {
+            line,
+            frame,
+            has_shear,
+        };
         (marker.is_framed() && !is_held).then_some(Primitive::Clamp(clamp))
     }
 

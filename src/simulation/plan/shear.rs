@@ -93,11 +93,11 @@ impl Search<'_, '_> {
             let Beam { cable, fewest, .. } = self.beams[*beam];
             same.elements[cable] = same.elements[cable].max(fewest);
         }
-        let leaning = Choice {
+        let sheared = Choice {
             beams: beams.to_vec(),
             ..same.clone()
         };
-        let changes = self.compare(&same, &leaning, self.error).ok()?;
+        let changes = self.compare(&same, &sheared, self.error).ok()?;
         let named = changes.iter().enumerate();
         let named = named.map(|(index, change)| (self.name(index), change.largest));
         named.max_by(|a, b| a.1.total_cmp(&b.1))

@@ -16,8 +16,8 @@ pub struct Clamp {
     pub line: Marker,
     /// First node of its frame.
     pub frame: usize,
-    /// Whether it leans against the line, as a beam's does: its slope is not held then.
-    pub leans: bool,
+    /// Whether it has_shear against the line, as a beam's does: its slope is not held then.
+    pub has_shear: bool,
 }
 
 impl Clamp {
@@ -46,8 +46,8 @@ impl Clamp {
         };
         let places = (0..D).map(|k| row(on_line(axis(k), none), ground[k]));
         let mut rows: Vec<Linear<D>> = places.collect();
-        let turns = if self.leans { D } else { 1 };
-        if !self.leans {
+        let turns = if self.has_shear { D } else { 1 };
+        if !self.has_shear {
             let tangent = Vector::from(nodes[self.frame][1]);
             rows.extend(normals(&tangent).map(|normal| row(on_line(none, normal), 0.0)));
         }

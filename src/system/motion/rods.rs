@@ -56,7 +56,7 @@ impl<const D: usize> System<D> {
         work.tangent.stages.set(assembly, stage, &work.x);
         let kept = work.stages[1 + stage].iter_mut().zip(&work.carries);
         for ((kept, carry), frame) in kept.zip(self.frames.carried()) {
-            if frame.leans {
+            if frame.has_shear {
                 *kept = *carry;
             }
         }

@@ -31,7 +31,7 @@ pub(super) struct Place<N> {
     pub size: N,
     pub inverse_size: N,
     /// `c`, and its change by the angle of the section: `1 + c^2 / 4`.
-    pub lean: N,
+    pub shear_rotation: N,
     pub gain: N,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Local<N> {
     pub inverse: N,
     pub curvature: N,
     pub stretch: N,
-    pub lean: N,
+    pub shear_rotation: N,
     /// `c'`, 1/m.
     pub change: N,
     /// `D`, `cos(theta)`, `sin(theta)`.
@@ -60,11 +60,11 @@ pub(super) struct Motion<N> {
     spin: Three<N>,
 }
 
-/// Factors of the stretches and leans of the places and of the vectors of the line in a power.
+/// Factors of the stretches and shear rotations of the places and of the vectors of the line in a power.
 struct Sum<N> {
     vectors: [Two<N>; 3],
     stretches: Three<N>,
-    leans: Three<N>,
+    shear_rotations: Three<N>,
 }
 
 impl<N: Real> Motion<N> {
@@ -117,13 +117,13 @@ impl<N: Real> Place<N> {
         let one = slope[0].constant(1.0);
         let inverse_size = one / dot(slope, slope).root();
         let tangent = times(slope, inverse_size);
-        let lean = (one + one) * cross(&tangent, normal) / (one + dot(&tangent, normal));
+        let shear_rotation = (one + one) * cross(&tangent, normal) / (one + dot(&tangent, normal));
         Self {
             size: dot(slope, &tangent),
-            gain: (lean * lean).times_plus(one.constant(0.25), one),
+            gain: (shear_rotation * shear_rotation).times_plus(one.constant(0.25), one),
             tangent,
             inverse_size,
-            lean,
+            shear_rotation,
         }
     }
 
@@ -163,10 +163,10 @@ impl<N: Real> Local<N> {
     /// `dD / dc`.
     #[inline(always)]
     pub fn shrinking(&self) -> N {
-        -(self.shrink * self.sine * self.lean.constant(0.5))
+        -(self.shrink * self.sine * self.shear_rotation.constant(0.5))
     }
 
-    /// Factors of stretch, lean, its change and curvature from stresses.
+    /// Factors of stretch, shear rotation, its change and curvature from stresses.
     #[inline(always)]
     pub fn factors(&self, [axial, shear, moment]: &Three<N>) -> [N; 4] {
         let (n, d) = (self.stretch, self.shrink);
@@ -179,15 +179,15 @@ impl<N: Real> Local<N> {
         ]
     }
 
-    /// Rates of the strains from those of stretch, lean, its change and curvature.
+    /// Rates of the strains from those of stretch, shear rotation, its change and curvature.
     #[inline(always)]
-    pub fn rates(&self, [stretch, lean, change, curvature]: &[N; 4]) -> Three<N> {
-        let turn = self.shrink * *lean;
+    pub fn rates(&self, [stretch, shear_rotation, change, curvature]: &[N; 4]) -> Three<N> {
+        let turn = self.shrink * *shear_rotation;
         let n = self.stretch;
         [
             *stretch * self.cosine - n * self.sine * turn,
             *stretch * self.sine + n * self.cosine * turn,
-            *curvature + *change * self.shrink + self.change * self.shrinking() * *lean,
+            *curvature + *change * self.shrink + self.change * self.shrinking() * *shear_rotation,
         ]
     }
 }
@@ -235,18 +235,20 @@ impl<N: Real> Kernel<N> {
     pub fn local(&self, point: &Sample, v: &[Two<N>; 3], places: &[Place<N>; 3]) -> Local<N> {
         let shapes = parabola(point.at);
         let zero = self.number(0.0);
-        let (mut stretch, mut lean, mut change) = (zero, zero, zero);
+        let (mut stretch, mut shear_rotation, mut change) = (zero, zero, zero);
         for k in 0..3 {
             let shape = self.number(shapes[0][k]);
             stretch = places[k].size.times_plus(shape, stretch);
-            lean = places[k].lean.times_plus(shape, lean);
-            change = places[k].lean.times_plus(self.number(shapes[1][k]), change);
+            shear_rotation = places[k].shear_rotation.times_plus(shape, shear_rotation);
+            change = places[k]
+                .shear_rotation
+                .times_plus(self.number(shapes[1][k]), change);
         }
         let slope = combine(&point.slope, v);
         let second = combine(&point.curvature, v);
         let one = self.number(1.0);
         let inverse = one / dot(&slope, &slope);
-        let shrink = one / (lean * lean).times_plus(self.number(0.25), one);
+        let shrink = one / (shear_rotation * shear_rotation).times_plus(self.number(0.25), one);
         Local {
             curvature: cross(&slope, &second) * inverse * self.inverse_length,
             slope,
@@ -255,8 +257,8 @@ impl<N: Real> Kernel<N> {
             stretch,
             change: change * self.inverse_length,
             cosine: shrink + shrink - one,
-            sine: shrink * lean,
-            lean,
+            sine: shrink * shear_rotation,
+            shear_rotation,
             shrink,
         }
     }
@@ -283,7 +285,7 @@ impl<N: Real> Kernel<N> {
         sum * self.length
     }
 
-    /// Rates of stretch and lean of the places.
+    /// Rates of stretch and shear rotation of the places.
     #[inline(always)]
     pub fn moving(
         &self,
@@ -292,12 +294,12 @@ impl<N: Real> Kernel<N> {
         spin: &Three<N>,
     ) -> [Three<N>; 2] {
         let slopes = self.slopes(dv);
-        let (mut stretch, mut lean) = (*spin, *spin);
+        let (mut stretch, mut shear_rotation) = (*spin, *spin);
         for k in 0..3 {
             stretch[k] = dot(&places[k].tangent, &slopes[k]);
-            lean[k] = (spin[k] - dot(&places[k].turning(), &slopes[k])) * places[k].gain;
+            shear_rotation[k] = (spin[k] - dot(&places[k].turning(), &slopes[k])) * places[k].gain;
         }
-        [stretch, lean]
+        [stretch, shear_rotation]
     }
 
     /// Rates of the strains at a point.
@@ -306,24 +308,29 @@ impl<N: Real> Kernel<N> {
         &self,
         point: &Sample,
         local: &Local<N>,
-        (dv, [stretches, leans]): (&[Two<N>; 3], &[Three<N>; 2]),
+        (dv, [stretches, shear_rotations]): (&[Two<N>; 3], &[Three<N>; 2]),
     ) -> Three<N> {
         let shapes = parabola(point.at);
         let zero = self.number(0.0);
-        let (mut stretch, mut lean, mut change) = (zero, zero, zero);
+        let (mut stretch, mut shear_rotation, mut change) = (zero, zero, zero);
         for k in 0..3 {
             let shape = self.number(shapes[0][k]);
             stretch = stretches[k].times_plus(shape, stretch);
-            lean = leans[k].times_plus(shape, lean);
-            change = leans[k].times_plus(self.number(shapes[1][k]), change);
+            shear_rotation = shear_rotations[k].times_plus(shape, shear_rotation);
+            change = shear_rotations[k].times_plus(self.number(shapes[1][k]), change);
         }
         let [by_slope, by_second] = local.bending(self.inverse_length);
         let curvature = dot(&by_slope, &combine(&point.slope, dv))
             + dot(&by_second, &combine(&point.curvature, dv));
-        local.rates(&[stretch, lean, change * self.inverse_length, curvature])
+        local.rates(&[
+            stretch,
+            shear_rotation,
+            change * self.inverse_length,
+            curvature,
+        ])
     }
 
-    /// Velocities as vectors of the line, and rates of stretch and lean of the places.
+    /// Velocities as vectors of the line, and rates of stretch and shear rotation of the places.
     #[inline(always)]
     pub fn rates(
         &self,
@@ -358,17 +365,18 @@ impl<N: Real> Kernel<N> {
         (self.spread(&places, sum), power * self.length)
     }
 
-    /// Adds factors of stretch, lean, its change and curvature at a point.
+    /// Adds factors of stretch, shear rotation, its change and curvature at a point.
     #[inline(always)]
     fn add(&self, point: &Sample, local: &Local<N>, factors: &[N; 4], sum: &mut Sum<N>) {
-        let ([stretch, lean, change, curvature], shapes) = (factors, parabola(point.at));
+        let ([stretch, shear_rotation, change, curvature], shapes) = (factors, parabola(point.at));
         let change = *change * self.inverse_length;
         let [by_slope, by_second] = local.bending(self.inverse_length);
         for k in 0..3 {
             let shape = self.number(shapes[0][k]);
             sum.stretches[k] = stretch.times_plus(shape, sum.stretches[k]);
-            sum.leans[k] = lean.times_plus(shape, sum.leans[k]);
-            sum.leans[k] = change.times_plus(self.number(shapes[1][k]), sum.leans[k]);
+            sum.shear_rotations[k] = shear_rotation.times_plus(shape, sum.shear_rotations[k]);
+            sum.shear_rotations[k] =
+                change.times_plus(self.number(shapes[1][k]), sum.shear_rotations[k]);
             let (slope, second) = (point.slope[k], point.curvature[k]);
             let (slope, second) = (self.number(slope), self.number(second));
             let vector = plus(&by_slope, *curvature * slope, &sum.vectors[k]);
@@ -383,7 +391,7 @@ impl<N: Real> Kernel<N> {
         let (mut vectors, mut moments) = (sum.vectors, [zero; 3]);
         let mut on = [[zero; 2]; 3];
         for k in 0..3 {
-            let turn = sum.leans[k] * places[k].gain;
+            let turn = sum.shear_rotations[k] * places[k].gain;
             moments[k] = -(turn * self.length);
             let along = times(&places[k].tangent, sum.stretches[k]);
             on[k] = plus(&places[k].turning(), -turn, &along);
@@ -418,9 +426,10 @@ impl<N: Real> Kernel<N> {
             // What is summed is what resists.
             let against = moment[2] * self.number(-point.weight);
             let turning = times(&left(&local.slope), against * local.inverse);
-            let by_lean = against * local.shrink;
+            let by_shear_rotation = against * local.shrink;
             for (k, shape) in parabola(point.at)[0].into_iter().enumerate() {
-                sum.leans[k] = by_lean.times_plus(self.number(shape), sum.leans[k]);
+                sum.shear_rotations[k] =
+                    by_shear_rotation.times_plus(self.number(shape), sum.shear_rotations[k]);
                 sum.vectors[k] = plus(&turning, self.number(point.slope[k]), &sum.vectors[k]);
             }
         }
@@ -434,7 +443,7 @@ impl<N: Real> Sum<N> {
         Self {
             vectors: [[zero; 2]; 3],
             stretches: [zero; 3],
-            leans: [zero; 3],
+            shear_rotations: [zero; 3],
         }
     }
 }

@@ -5,8 +5,8 @@
 //! not lock).
 //!
 //! There are three places: the first end, the middle and the last end. At each the line has its slope `u` (in the middle that of the
-//! position field), of length `n`, and the section a direction `d`, its normal, which shear makes lean away from `u` by the angle `theta`,
-//! counter-clockwise. The lean `c = 2 tan(theta / 2)` and the stretch are the parabolas through their values at the three places. With
+//! position field), of length `n`, and the section a direction `d`, its normal, which shear makes shear rotation away from `u` by the angle `theta`,
+//! counter-clockwise. The shear rotation `c = 2 tan(theta / 2)` and the stretch are the parabolas through their values at the three places. With
 //! `D = 1 / (1 + c^2 / 4)` and the curvature `k = (u x u') / u.u` of the line strains are, by the reference length,
 //!
 //! ```text

@@ -71,15 +71,15 @@ impl<N: Real> Place<N> {
         [over_line(&WEIGHTS[k], &self.tangent), theta]
     }
 
-    /// Adds second derivatives of stretch and lean with these factors.
+    /// Adds second derivatives of stretch and shear rotation with these factors.
     #[inline(always)]
-    fn add_second(&self, k: usize, [stretch, lean]: [N; 2], to: &mut Square<N>) {
+    fn add_second(&self, k: usize, [stretch, shear_rotation]: [N; 2], to: &mut Square<N>) {
         let [along, theta] = self.gradients(k);
         let half = self.size.constant(0.5);
         let across = over_line(&WEIGHTS[k], &left(&self.tangent));
         add_square(&across, stretch * self.inverse_size, to);
-        let by_angle = lean * self.gain;
-        add_square(&theta, by_angle * self.lean * half, to);
+        let by_angle = shear_rotation * self.gain;
+        add_square(&theta, by_angle * self.shear_rotation * half, to);
         let square = self.inverse_size * self.inverse_size;
         add_pair(&along, &across, by_angle * square, to);
     }
@@ -151,13 +151,13 @@ impl<N: Real> Kernel<N> {
             }
             let stress = times(&stress, weight);
             self.add_stressed(&local, &rows, &stress, &mut sum);
-            let [stretch, lean, change, moment] = local.factors(&stress);
+            let [stretch, shear_rotation, change, moment] = local.factors(&stress);
             let change = change * self.inverse_length;
             let shapes = parabola(point.at);
             for k in 0..3 {
                 let shape = self.number(shapes[0][k]);
                 on_places[k][0] = stretch.times_plus(shape, on_places[k][0]);
-                on_places[k][1] = lean.times_plus(shape, on_places[k][1]);
+                on_places[k][1] = shear_rotation.times_plus(shape, on_places[k][1]);
                 on_places[k][1] = change.times_plus(self.number(shapes[1][k]), on_places[k][1]);
             }
             local.add_second(point, (&rows[3], self.inverse_length), moment, &mut sum);
@@ -170,7 +170,7 @@ impl<N: Real> Kernel<N> {
         self.over_nodes(&sum)
     }
 
-    /// Gradients of stretch, lean, its change and curvature at a point.
+    /// Gradients of stretch, shear rotation, its change and curvature at a point.
     #[inline(always)]
     fn rows(
         &self,
@@ -223,12 +223,12 @@ impl<N: Real> Kernel<N> {
         }
     }
 
-    /// Adds second derivatives of the strains by stretch, lean and its change, taken with stresses.
+    /// Adds second derivatives of the strains by stretch, shear rotation and its change, taken with stresses.
     #[inline(always)]
     fn add_stressed(
         &self,
         local: &Local<N>,
-        [stretch, lean, change, _]: &[Row<N>; 4],
+        [stretch, shear_rotation, change, _]: &[Row<N>; 4],
         [axial, shear, moment]: &[N; 3],
         to: &mut Square<N>,
     ) {
@@ -238,10 +238,11 @@ impl<N: Real> Kernel<N> {
         let along = *axial * cosine + *shear * sine;
         // `D'' = -D^2 / 2 + D sin(theta)^2 / 2`.
         let second = half * d * (sine * sine - d);
-        add_pair(stretch, lean, d * across, to);
-        let by_lean = n * (falls * across - d * d * along) + *moment * local.change * second;
-        add_square(lean, by_lean, to);
-        add_pair(lean, change, *moment * falls, to);
+        add_pair(stretch, shear_rotation, d * across, to);
+        let by_shear_rotation =
+            n * (falls * across - d * d * along) + *moment * local.change * second;
+        add_square(shear_rotation, by_shear_rotation, to);
+        add_pair(shear_rotation, change, *moment * falls, to);
     }
 
     /// From vectors of the line and angles to positions, slopes and spins.

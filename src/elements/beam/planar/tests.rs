@@ -150,7 +150,7 @@ fn it_is_the_beam_of_space_in_a_plane() {
                 stiffness[2 * r][2 * c] = *entry;
             }
         }
-        let lean = |slope: [f64; 2], normal: [f64; 2]| {
+        let shear_rotation = |slope: [f64; 2], normal: [f64; 2]| {
             let size = slope[0].hypot(slope[1]);
             let sine = slope[0] * normal[1] - slope[1] * normal[0];
             2.0 * sine / (size + slope[0] * normal[0] + slope[1] * normal[1])
@@ -161,8 +161,8 @@ fn it_is_the_beam_of_space_in_a_plane() {
             let chord = [0, 1].map(|k| (at.e[2][k] - at.e[0][k]) / LENGTH);
             let middle = [0, 1].map(|k| 1.5 * chord[k] - 0.25 * (a[k] + b[k]));
             let normals = at.axes.map(|axes| [axes[0][0], axes[0][1]]);
-            let mean = 0.5 * (lean(a, normals[0]) + lean(b, normals[1]));
-            let own = lean(middle, [at.inner[0], at.inner[1]]);
+            let mean = 0.5 * (shear_rotation(a, normals[0]) + shear_rotation(b, normals[1]));
+            let own = shear_rotation(middle, [at.inner[0], at.inner[1]]);
             at.inner = [0.0, own - mean, 0.0];
             at
         };
@@ -171,7 +171,7 @@ fn it_is_the_beam_of_space_in_a_plane() {
             stiffness: [stiffness; 3],
             damping_times: [0.0; 6],
         };
-        // The unstressed shape of the other has no internal lean.
+        // The unstressed shape of the other has no internal shear rotation.
         let mut still = spatial(&shape);
         still.inner = [0.0; 3];
         let whole = Beam::new(parameters, &still);
@@ -238,7 +238,7 @@ fn a_straight_beam_stretches_shears_and_bends_alone() {
     let mut stretched = straight;
     (stretched[2], stretched[5], stretched[7]) = (1.2, 1.2 * LENGTH, 1.2);
     assert!((beam.energy(&at(&stretched)) - 0.5 * LENGTH * 5.0 * 0.04).abs() < 1e-15);
-    // Sections that turn along it bend it without its line: to the rational lean's order.
+    // Sections that turn along it bend it without its line: to the rational shear rotation's order.
     let mut turned = straight;
     (turned[4], turned[9]) = (-1e-4, 1e-4);
     let bending = 2e-4 / LENGTH;

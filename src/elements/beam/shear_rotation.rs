@@ -1,6 +1,6 @@
-//! Strains of a section that leans away from the normal of the line, with their derivatives.
+//! Strains of a section that shear rotations away from the normal of the line, with their derivatives.
 //!
-//! Source: (1) and (2) of `beam/mod.rs`. With the lean `c = (0, p, q)`, `D = 1 / (1 + |c|^2 / 4)`, the stretch `n`, turning
+//! Source: (1) and (2) of `beam/mod.rs`. With the shear rotation `c = (0, p, q)`, `D = 1 / (1 + |c|^2 / 4)`, the stretch `n`, turning
 //! `k = (a, b, b')` of the tangent's frame, `g = q b - p b'`, `m = a + g / 2` they are
 //!
 //! ```text
@@ -8,7 +8,7 @@
 //! a (2 D - 1) + D (g + (q p' - p q') / 2),   b + D (p' - q m),   b' + D (q' + p m)
 //! ```
 //!
-//! linear in all but the lean: their product with stresses is a constant and `D` times a polynomial of degree 2 in `p`, `q`.
+//! linear in all but the shear rotation: their product with stresses is a constant and `D` times a polynomial of degree 2 in `p`, `q`.
 
 use crate::elements::line::{dot, times};
 use crate::elements::rod::vectors::plus;
@@ -24,21 +24,21 @@ pub(super) struct Local<N> {
     pub stretch: N,
     /// Twist and curvatures of the tangent's frame, 1/m.
     pub turning: [N; 3],
-    /// Lean about both axes of the tangent's frame across it.
-    pub lean: [N; 2],
-    /// Derivative of `lean` with respect to the reference length, 1/m.
+    /// shear rotation about both axes of the tangent's frame across it.
+    pub shear_rotation: [N; 2],
+    /// Derivative of `shear_rotation` with respect to the reference length, 1/m.
     pub change: [N; 2],
 }
 
-/// Derivatives of the strains by what they are made of: of the first three by stretch and lean, of the last by turning, lean and its
+/// Derivatives of the strains by what they are made of: of the first three by stretch and shear rotation, of the last by turning, shear rotation and its
 /// change.
 pub(super) struct Rows<N> {
     forces: [[N; 3]; 3],
     moments: [[N; 7]; 3],
 }
 
-/// A section that leans.
-pub(super) struct Leaning<N> {
+/// A section that shear rotations.
+pub(super) struct ShearedSection<N> {
     at: Local<N>,
     /// `D`.
     shrink: N,
@@ -52,9 +52,9 @@ pub(super) struct Leaning<N> {
     moved: [N; 3],
 }
 
-/// Components along the axes of a section of a vector with these along the tangent's frame; the other way with the opposite lean.
+/// Components along the axes of a section of a vector with these along the tangent's frame; the other way with the opposite shear rotation.
 #[inline(always)]
-pub(super) fn leaned<N: Real>([p, q]: [N; 2], v: &[N; 3]) -> [N; 3] {
+pub(super) fn turned_by_shear<N: Real>([p, q]: [N; 2], v: &[N; 3]) -> [N; 3] {
     let one = p.constant(1.0);
     let half = p.constant(0.5);
     let shrink = shrink(&[p, q]);
@@ -69,17 +69,17 @@ pub(super) fn leaned<N: Real>([p, q]: [N; 2], v: &[N; 3]) -> [N; 3] {
 
 /// `1 / (1 + |c|^2 / 4)`.
 #[inline(always)]
-fn shrink<N: Real>(lean: &[N; 2]) -> N {
-    let one = lean[0].constant(1.0);
-    one / dot(lean, lean).times_plus(one.constant(0.25), one)
+fn shrink<N: Real>(shear_rotation: &[N; 2]) -> N {
+    let one = shear_rotation[0].constant(1.0);
+    one / dot(shear_rotation, shear_rotation).times_plus(one.constant(0.25), one)
 }
 
-impl<N: Real> Leaning<N> {
+impl<N: Real> ShearedSection<N> {
     #[inline(always)]
     pub fn new(at: Local<N>) -> Self {
-        let ([p, q], [dp, dq], [a, b, other]) = (at.lean, at.change, at.turning);
+        let ([p, q], [dp, dq], [a, b, other]) = (at.shear_rotation, at.change, at.turning);
         let (one, half) = (p.constant(1.0), p.constant(0.5));
-        let shrink = shrink(&at.lean);
+        let shrink = shrink(&at.shear_rotation);
         let g = q * b - p * other;
         let m = half.times_plus(g, a);
         Self {
@@ -113,7 +113,8 @@ impl<N: Real> Leaning<N> {
     #[inline(always)]
     pub fn rows(&self) -> Rows<N> {
         let (d, cosine, [x, y], n) = (self.shrink, self.cosine, self.half, self.at.stretch);
-        let ([p, q], [dp, dq], [a, b, other]) = (self.at.lean, self.at.change, self.at.turning);
+        let ([p, q], [dp, dq], [a, b, other]) =
+            (self.at.shear_rotation, self.at.change, self.at.turning);
         let ([_, m], moved) = (self.inner, &self.moved);
         let (zero, one, half) = (d.constant(0.0), d.constant(1.0), d.constant(0.5));
         let [xh, yh, nh] = [x * half, y * half, n * half];
@@ -157,9 +158,17 @@ impl<N: Real> Rows<N> {
     /// Rates of the strains.
     #[inline(always)]
     pub fn rates(&self, of: &Local<N>) -> Six<N> {
-        let force = [of.stretch, of.lean[0], of.lean[1]];
+        let force = [of.stretch, of.shear_rotation[0], of.shear_rotation[1]];
         let [a, b, c] = of.turning;
-        let moment = [a, b, c, of.lean[0], of.lean[1], of.change[0], of.change[1]];
+        let moment = [
+            a,
+            b,
+            c,
+            of.shear_rotation[0],
+            of.shear_rotation[1],
+            of.change[0],
+            of.change[1],
+        ];
         let ([n, v, w], [t, x, y]) = (&self.forces, &self.moments);
         [
             dot(n, &force),
@@ -180,13 +189,13 @@ impl<N: Real> Rows<N> {
         Local {
             stretch: force[0],
             turning: [moment[0], moment[1], moment[2]],
-            lean: [force[1] + moment[3], force[2] + moment[4]],
+            shear_rotation: [force[1] + moment[3], force[2] + moment[4]],
             change: [moment[5], moment[6]],
         }
     }
 }
 
-/// A symmetric matrix over stretch, turning, lean and its change.
+/// A symmetric matrix over stretch, turning, shear rotation and its change.
 pub(super) type Eight<N> = [[N; 8]; 8];
 
 impl<N: Real> Rows<N> {
@@ -222,14 +231,18 @@ impl<N: Real> Rows<N> {
     }
 }
 
-impl<N: Real> Leaning<N> {
+impl<N: Real> ShearedSection<N> {
     /// Adds second derivatives of the strains, taken with stresses.
     #[inline(always)]
     pub fn add_second(&self, stress: &Six<N>, to: &mut Eight<N>) {
-        let (d, half, [p, q]) = (self.shrink, self.shrink.constant(0.5), self.at.lean);
+        let (d, half, [p, q]) = (
+            self.shrink,
+            self.shrink.constant(0.5),
+            self.at.shear_rotation,
+        );
         let [axial, second, third, torque, first, other] = *stress;
         let [x, y] = [self.half[0] * half, self.half[1] * half];
-        // Derivatives of `D` by both leans.
+        // Derivatives of `D` by both shear rotations.
         let [dx, dy] = [-(d * x), -(d * y)];
         let shear = [d * third, -(d * second)];
         let moment = [d * other, -(d * first)];
@@ -253,8 +266,8 @@ impl<N: Real> Leaning<N> {
             (6, [dx * bends[0], dy.times_plus(bends[0], twist)]),
             (7, [dx.times_plus(bends[1], -twist), dy * bends[1]]),
         ];
-        for (k, by_lean) in mixed {
-            for (c, value) in by_lean.into_iter().enumerate() {
+        for (k, by_shear_rotation) in mixed {
+            for (c, value) in by_shear_rotation.into_iter().enumerate() {
                 to[k][4 + c] += value;
                 to[4 + c][k] += value;
             }
@@ -269,7 +282,11 @@ impl<N: Real> Leaning<N> {
         [axial, second, third, torque, first, other]: &Six<N>,
         to: &mut Eight<N>,
     ) {
-        let (d, half, [p, q]) = (self.shrink, self.shrink.constant(0.5), self.at.lean);
+        let (d, half, [p, q]) = (
+            self.shrink,
+            self.shrink.constant(0.5),
+            self.at.shear_rotation,
+        );
         let ([a, b, c], n, [dp, dq]) = (self.at.turning, self.at.stretch, self.at.change);
         let [first, other, torque] = [*first, *other, *torque];
         let squares = [-(c * other), half * (b * other + c * first), -(b * first)];

@@ -1,4 +1,4 @@
-//! Frames of sections that lean against the tangent of their line, those of beams: how they follow from the slope and three coordinates.
+//! Frames of sections with a shear rotation against the tangent of their line, those of beams: how they follow from the slope and three coordinates.
 //!
 //! With `R0` the frame that the state holds, `tau = R0^T u / |u|` the tangent along its axes, `cay(x)` the rotation by the vector of
 //! Rodrigues `x` (twice the tangent of half the angle along the axis) and `roll(p_1)` that by the angle `p_1` about the first axis, the
@@ -10,7 +10,7 @@
 //!
 //! The first rotation is the smallest that takes the first axis of `R0` to the tangent, so that where `e` stays, the section follows
 //! the tangent and its shear does not change, however far the tangent turns: a shear stiffness of any size leaves increments of `u` and
-//! `p` that are found from linearized equations what they are. At `p = 0` the frame is `R0` whatever the lean. A section that spins about
+//! `p` that are found from linearized equations what they are. At `p = 0` the frame is `R0` whatever the shear rotation. A section that spins about
 //! its normal moves by an angle, at a constant rate: what methods integrate without error.
 //!
 //! With the angular velocity `w(x, x') = (x' - x x x' / 2) / (1 + x.x / 4)` of `cay(x)` along its own axes, that of the section is
@@ -29,9 +29,9 @@ use crate::math::jet::{Jet, Number, part};
 use crate::math::lanes::Real;
 use crate::math::rotation::{Quaternion, axes, product};
 
-/// How the frame of a leaning section has turned from the one that the state holds.
+/// Rotation of the frame of a sheared section from the one that the state holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Lean {
+pub(super) struct ShearRotation {
     /// The frame of the state: its axes are the columns.
     from: Matrix3<f64>,
     /// Slope and its rate, 1/s.
@@ -87,7 +87,7 @@ fn rotation_rate<N: Number>(
     turning
 }
 
-impl Lean {
+impl ShearRotation {
     /// Computes the section axes for a rotation and a slope relative to the frame of the state. Returns the
     /// intermediate values together with the axes.
     pub fn placed(
@@ -95,17 +95,20 @@ impl Lean {
         slope: Vector3<f64>,
         rotation: Vector3<f64>,
     ) -> (Self, [Vector3<f64>; 3]) {
-        let lean = Self {
+        let shear_rotation = Self {
             from: Matrix3::from_columns(&axes(from)),
             slope: [slope, Vector3::zeros()],
             rotation,
             ..Self::default()
         };
-        let [s, _] = smallest(&lean.tangent()[0], &Vector3::zeros());
+        let [s, _] = smallest(&shear_rotation.tangent()[0], &Vector3::zeros());
         let half = |x: Vector3<f64>| [1.0, 0.5 * x.x, 0.5 * x.y, 0.5 * x.z];
-        let leaned = product(&product(from, &half(s)), &half(across(&rotation) - s));
+        let sheared = product(&product(from, &half(s)), &half(across(&rotation) - s));
         let (sine, cosine) = (0.5 * rotation[0]).sin_cos();
-        (lean, axes(&product(&leaned, &[cosine, sine, 0.0, 0.0])))
+        (
+            shear_rotation,
+            axes(&product(&sheared, &[cosine, sine, 0.0, 0.0])),
+        )
     }
 
     /// The tangent along the axes of the state's frame, and its rate, 1/s.
@@ -131,10 +134,10 @@ impl Lean {
         let [tau, change] = self.tangent_and(slope);
         let [s, s_rate] = smallest(&tau, &change);
         let e = across(&self.rotation) - s;
-        let leaning =
+        let sheared =
             spin_of(&e, &(across(rate) - s_rate)) + turned_back(&e, &spin_of(&s, &s_rate));
         let (sine, cosine) = self.rotation[0].sin_cos();
-        let spin = unrolled(&leaning, (-sine, cosine));
+        let spin = unrolled(&sheared, (-sine, cosine));
         Vector3::new(spin[0] + rate[0], spin[1], spin[2])
     }
 
@@ -209,11 +212,11 @@ mod tests {
         [[u(0), u(1), u(2)], [p(0), p(1), p(2)]]
     }
 
-    fn at(t: f64) -> (Lean, Axes) {
+    fn at(t: f64) -> (ShearRotation, Axes) {
         let [[u, rate, _], [p, p_rate, _]] = path(t);
-        let (mut lean, axes) = Lean::placed(&normalized(FROM), u, p);
-        lean.set_rates(rate, p_rate);
-        (lean, axes)
+        let (mut shear_rotation, axes) = ShearRotation::placed(&normalized(FROM), u, p);
+        shear_rotation.set_rates(rate, p_rate);
+        (shear_rotation, axes)
     }
 
     fn near(a: Vector3<f64>, b: Vector3<f64>, bound: f64) {
@@ -223,7 +226,7 @@ mod tests {
     #[test]
     fn rates_and_second_derivatives_are_those_of_the_motion() {
         let (h, t) = (1e-4, 0.3);
-        let (lean, frame) = at(t);
+        let (shear_rotation, frame) = at(t);
         let [(before, back), (after, forth)] = [t - h, t + h].map(at);
         let rate: Axes = std::array::from_fn(|k| (forth[k] - back[k]) / (2.0 * h));
         let spin = Vector3::new(
@@ -231,25 +234,33 @@ mod tests {
             frame[0].dot(&rate[2]),
             frame[1].dot(&rate[0]),
         );
-        near(spin, lean.spin, 1e-8);
+        near(spin, shear_rotation.spin, 1e-8);
         let spin_rate = (after.spin - before.spin) / (2.0 * h);
         let [[_, slope, second], [_, rate, wanted]] = path(t);
-        near(lean.second_of(&spin_rate, &second), wanted, 1e-7);
-        near(lean.change_of(&lean.spin, &slope), rate, 1e-14);
-        near(lean.spin_of(&rate, &slope), lean.spin, 1e-14);
+        near(shear_rotation.second_of(&spin_rate, &second), wanted, 1e-7);
+        near(
+            shear_rotation.change_of(&shear_rotation.spin, &slope),
+            rate,
+            1e-14,
+        );
+        near(
+            shear_rotation.spin_of(&rate, &slope),
+            shear_rotation.spin,
+            1e-14,
+        );
     }
 
     #[test]
     fn frames_that_begin_anew_go_on() {
-        let (lean, frame) = at(0.3);
+        let (shear_rotation, frame) = at(0.3);
         let quaternion = crate::math::rotation::quaternion(&frame);
         let [[u, rate, _], _] = path(0.3);
-        let (mut anew, same) = Lean::placed(&quaternion, u, Vector3::zeros());
+        let (mut anew, same) = ShearRotation::placed(&quaternion, u, Vector3::zeros());
         for (a, b) in frame.iter().zip(&same) {
             near(*a, *b, 1e-14);
         }
-        anew.set_rates(rate, lean.rate_anew(&frame));
-        near(anew.spin, lean.spin, 1e-14);
+        anew.set_rates(rate, shear_rotation.rate_anew(&frame));
+        near(anew.spin, shear_rotation.spin, 1e-14);
     }
 
     #[test]
@@ -257,11 +268,12 @@ mod tests {
         let from = normalized(FROM);
         let [normal, ..] = axes(&from);
         let still = Vector3::zeros();
-        let (mut lean, _) = Lean::placed(&from, normal * 1.2, Vector3::new(2.5, 0.0, 0.0));
+        let (mut shear_rotation, _) =
+            ShearRotation::placed(&from, normal * 1.2, Vector3::new(2.5, 0.0, 0.0));
         let rate = Vector3::new(300.0, 0.0, 0.0);
-        lean.set_rates(still, rate);
-        near(lean.spin, rate, 1e-13);
-        near(lean.second_of(&still, &still), still, 1e-10);
+        shear_rotation.set_rates(still, rate);
+        near(shear_rotation.spin, rate, 1e-13);
+        near(shear_rotation.second_of(&still, &still), still, 1e-10);
     }
 
     #[test]
@@ -269,9 +281,9 @@ mod tests {
         let from = normalized(FROM);
         let axes_of = |u| axes(&from).map(|axis: Vector3<f64>| axis.dot(&u));
         let u = Vector3::new(0.4, 0.9, -0.3);
-        let (lean, _) = Lean::placed(&from, u, Vector3::zeros());
-        let [s, _] = smallest(&lean.tangent()[0], &Vector3::zeros());
-        let (_, [normal, ..]) = Lean::placed(&from, u, s);
+        let (shear_rotation, _) = ShearRotation::placed(&from, u, Vector3::zeros());
+        let [s, _] = smallest(&shear_rotation.tangent()[0], &Vector3::zeros());
+        let (_, [normal, ..]) = ShearRotation::placed(&from, u, s);
         near(normal, u.normalize(), 1e-14);
         assert!(axes_of(u)[0].abs() > 0.1);
     }
