@@ -34,16 +34,23 @@ impl Item {
 
     /// Tells whether the item is a function that returns a `Result`.
     fn can_fail(&self) -> bool {
-        let is_function = words(&self.signature, "fn").next().is_some();
         let bounded = words(&self.signature, "where").next();
         let signature = &self.signature[..bounded.unwrap_or(self.signature.len())];
-        let returned = arrows(signature).last().map(|at| &signature[*at..]);
-        is_function && returned.is_some_and(|code| words(code, "Result").next().is_some())
+        let returned = arrows(signature).pop().map(|at| &signature[at..]);
+        is_function(signature)
+            && returned.is_some_and(|code| words(code, "Result").next().is_some())
     }
 
     fn has_errors(&self) -> bool {
         self.doc.iter().any(|line| line == "# Errors")
     }
+}
+
+/// Tells whether an item that begins here is a function with a name, by its first line.
+fn is_function(code: &str) -> bool {
+    let line = code.lines().next().unwrap_or_default();
+    let mut names = words(line, "fn").map(|at| line[at + 2..].trim_start());
+    names.any(|name| name.starts_with(|c: char| c.is_alphabetic() || c == '_'))
 }
 
 /// Places of arrows outside of parentheses.
@@ -63,7 +70,7 @@ fn arrows(signature: &str) -> Vec<usize> {
 /// Code of an item that begins here, up to its body or its semicolon.
 fn signature(code: &str) -> &str {
     let mut depth = 0;
-    let end = code.find(|c| {
+    let end = code.find(|c: char| {
         match c {
             '(' | '[' => depth += 1,
             ')' | ']' => depth -= 1,
@@ -120,7 +127,7 @@ fn items(source: &Source) -> Vec<Item> {
         let inside = blocks.last().copied();
         let is_member = matches!(inside, Some(Block::Enum | Block::Trait));
         let signature = signature(&source.code[begin..]);
-        if !doc.is_empty() || words(here, "fn").next().is_some() {
+        if !doc.is_empty() || is_function(here) {
             found.push(Item {
                 line: number + 1,
                 doc: std::mem::take(&mut doc),
@@ -220,11 +227,11 @@ impl K {
         (5, "Its"),
         (7, "What"),
         (9, "Of"),
-        (20, "The same"),
-        (20, "# Errors"),
+        (21, "The same"),
         (21, "# Errors"),
-        (41, "Such"),
-        (41, "# Errors"),
+        (22, "# Errors"),
+        (40, "Such"),
+        (40, "# Errors"),
     ];
     assert_eq!(found.len(), expected.len(), "{found:#?}");
     for (complaint, (line, part)) in found.iter().zip(expected) {

@@ -86,8 +86,11 @@ pub fn swing(arguments: &Swing) -> Result<(), String> {
     Ok(())
 }
 
-/// Lets elements in a row fall under gravity, in steps of a part of the largest that is stable; `every` so much
-/// time, to the last, it is looked at.
+/// Lets elements in a row fall under gravity, in steps of a part of the largest stable one. The motion is recorded
+/// every `every` until `stop`, s.
+///
+/// # Errors
+/// A system that cannot be built, in words.
 pub fn fall(
     formulation: Formulation,
     (elements, gravity): (Vec<Element>, [f64; 2]),

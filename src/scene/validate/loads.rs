@@ -155,7 +155,11 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// A force or a moment, which may turn along, with its components, on the marker, joint or body that it names.
+    /// Resolves a force or a moment with its components, on the marker, joint or body that it names. A follower rotates
+    /// with its marker.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, or a moment in the plane that follows.
     pub(super) fn resolve_action(
         &self,
         path: &str,

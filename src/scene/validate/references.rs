@@ -207,8 +207,10 @@ impl<'a> Resolved<'a> {
         Ok((cable, chain(path, "the name of a cable that bends", cable)?))
     }
 
-    /// Two markers of different bodies, the first of which may be the ground, and a point that is
-    /// given with the ground only.
+    /// Resolves the two ends of a joint or a load: markers, or the ground at `point`.
+    ///
+    /// # Errors
+    /// A marker that does not exist, both ends on one body, or a point where there is no ground.
     pub(super) fn require_pair(
         &self,
         path: &str,

@@ -289,8 +289,8 @@ impl Search<'_, '_> {
         Ok(Some(found))
     }
 
-    /// What the tolerance of a choice leaves, where it could not be verified: what the coarsest mesh has shown, but nothing known where
-    /// the mesh moves otherwise than that, or so little that the tolerance hides it.
+    /// Returns the differences in time of a choice whose tolerance could not be verified. They are those of the coarsest
+    /// mesh. They are unknown if the mesh moves differently, or so little that the tolerance hides it.
     pub(super) fn unverified(
         &mut self,
         choice: &Choice,
@@ -305,9 +305,10 @@ impl Search<'_, '_> {
             None => false,
         };
         let is_alike = self.end_alike([&coarsest, choice]) && !self.are_far([&coarsest, choice]);
-        match is_resolved && is_alike {
-            true => in_time,
-            false => self.unknown(),
+        if is_resolved && is_alike {
+            in_time
+        } else {
+            self.unknown()
         }
     }
 

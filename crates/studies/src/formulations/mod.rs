@@ -87,7 +87,10 @@ pub struct System {
 }
 
 impl System {
-    /// Elements in a row along the first axis.
+    /// Builds elements in a row along the first axis.
+    ///
+    /// # Errors
+    /// A transformation that cannot be built, in words.
     pub fn new(
         formulation: Formulation,
         elements: Vec<Element>,

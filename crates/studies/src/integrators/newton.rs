@@ -71,7 +71,10 @@ impl Newton {
         }
     }
 
-    /// Solves with these weights of inertia and damping; `Err` is the fraction of the step to try instead.
+    /// Solves with these weights of inertia and damping.
+    ///
+    /// # Errors
+    /// The fraction of the step to try instead.
     pub fn solve(
         &mut self,
         dynamics: &mut dyn Dynamics,
