@@ -418,6 +418,69 @@ fn a_force_beyond_the_plan_is_told() {
     assert_eq!(told(5e5), Some("beam".to_owned()));
 }
 
+/// A chain without bending stiffness that is drawn along the bed may be found folded in an equilibrium under a current: elements of which
+/// slopes point backwards carry tension. Either the tension at the top is the one of shooting (9595.4 N), or the mesh is told of.
+#[test]
+fn a_folded_equilibrium_is_told() {
+    for elements in [30, 40, 48, 60] {
+        let scene = json!({"name": "mooring", "dimension": 2, "gravity": [0, -9.81],
+            "bodies": [{"name": "chain", "element": "cable", "elements": elements,
+                "material": {"youngs_modulus": 6e10, "density": 7800, "damping_time": 0.01},
+                "section": {"area": 0.002, "second_moment": 0},
+                "shape": {"line": {"from": [0, 0], "to": [120, 0]}},
+                "markers": {"anchor": 0, "top": 1}}],
+            "joints": [{"name": "anchor", "kind": "revolute", "markers": ["ground", "chain.anchor"]}],
+            "motions": [{"name": "vessel", "kind": "position", "marker": "chain.top", "value": [100, 40]}],
+            "loads": [
+                {"name": "bed", "kind": "contact", "body": "chain", "stiffness": 30000, "damping": 1,
+                    "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}},
+                {"name": "sea", "kind": "fluid", "body": "chain", "density": 1025, "drag": 2, "added_mass": 1,
+                    "current": [1.0, 0]}],
+            "outputs": [{"kind": "axial_force", "marker": "chain.top"}],
+            "initial": "static_equilibrium",
+            "accuracy": {"error": 1e-3, "relative_tolerance": 1e-6},
+            "experiment": {"stop_time": 1, "step": 0.5}});
+        let mut simulation = started(&scene);
+        let tension = read(&mut simulation, "chain.top.axial_force");
+        simulation.step(0.5).expect("a step");
+        let is_told = simulation.next_unresolved().is_some();
+        let off = (tension / 9595.4 - 1.0).abs();
+        assert!(is_told || off < 1e-2, "{elements} elements: {tension} N");
+    }
+}
+
+/// A blade on a hub that a motion rotates has no natural frequencies at rest: the terms of the rotation are not in them.
+#[test]
+fn frequencies_of_what_a_motion_rotates_are_refused() {
+    for element in ["cable", "beam"] {
+        let mut scene = json!({"name": "rotor", "dimension": 3,
+            "bodies": [
+                {"name": "hub", "element": "rigid", "mass": 1.0, "inertia": [0.1, 0.1, 0.1], "position": [0, 0, 0],
+                    "motion": {"spin": [0, 0, 20]}, "markers": {"centre": [0, 0, 0]}},
+                {"name": "blade", "element": element, "elements": 4,
+                    "material": {"youngs_modulus": 7e10, "density": 2700},
+                    "section": {"area": 1e-3, "second_moment": 0},
+                    "shape": {"line": {"from": [0, 0, 0], "to": [2, 0, 0]}}, "motion": {"spin": [0, 0, 20]},
+                    "markers": {"root": 0, "tip": 1}}],
+            "joints": [
+                {"name": "bearing", "kind": "revolute", "markers": ["ground", "hub.centre"], "direction": [0, 0, 1]},
+                {"name": "root", "kind": "spherical", "markers": ["hub.centre", "blade.root"]}],
+            "motions": [{"name": "drive", "kind": "angle", "joint": "bearing", "value": "20*t"}],
+            "outputs": [{"kind": "natural_frequency", "count": 2}],
+            "accuracy": {"relative_tolerance": 1e-5}});
+        if element == "beam" {
+            scene["bodies"][1]["material"]["shear_modulus"] = json!(2.6e10);
+            scene["bodies"][1]["section"] =
+                json!({"shape": {"rectangle": {"width": 0.1, "height": 0.01}}});
+            scene["joints"][1]["kind"] = json!("weld");
+        }
+        let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+        let started = Simulation::new(scene).initialize(0.0);
+        let refused = started.expect_err(element).to_string();
+        assert!(refused.contains("(\"rotation\")"), "{refused}");
+    }
+}
+
 /// Moments of inertia in space bound each other: a master sets them one after another, and they are checked together.
 #[test]
 fn moments_of_inertia_are_checked_when_all_are_set() {

@@ -13,6 +13,8 @@
 //! A Practical Guide to Splines (1978), chapter IV: a cubic between nodes is off by its curvature's error times the square
 //! of their distance.
 
+use std::f64::consts::PI;
+
 use nalgebra::Vector3;
 
 use crate::body::Node;
@@ -111,7 +113,8 @@ fn bent_too_far<const D: usize, N: Number>(
     now * ((fourth(now.norm_squared()) - fourth(rest)) * N::of(STIFFENING))
 }
 
-/// Rotation vector by which the tangent of an element turns from its first end to its last, rad.
+/// Rotation vector by which the tangent of an element turns from its first end to its last, rad. Of an element that folds back on itself it
+/// is as long as all rotations on the way together, which have opposite directions there.
 fn bend<const D: usize, N: Number>(chain: &LineChain<D>, j: usize, x: &[Node<D, N>]) -> Vector3<N> {
     let (e, length) = (chain.element(j, x), chain.element_length(j));
     let tangent = |k: u32| {
@@ -120,7 +123,7 @@ fn bend<const D: usize, N: Number>(chain: &LineChain<D>, j: usize, x: &[Node<D, 
             e * shape::slopes(xi, length),
         )))
     };
-    let mut sum = Vector3::zeros();
+    let (mut sum, mut way, mut folds) = (Vector3::zeros(), N::of(0.0), false);
     let mut before = tangent(0);
     for k in 1..=PARTS {
         let next = tangent(k);
@@ -128,11 +131,21 @@ fn bend<const D: usize, N: Number>(chain: &LineChain<D>, j: usize, x: &[Node<D, 
         let (cosine, sine) = (before.dot(&next), before.cross(&next));
         // The quaternion of the smallest rotation; none where tangents are opposite or there is none.
         let whole = (size * N::of(2.0) * (size + cosine)).root();
-        if whole.plain() > 0.0 {
+        let turn = if whole.plain() > 0.0 {
             let [a, b, c] = (sine / whole).into();
-            sum += rotation_vector(&[(size + cosine) / whole, a, b, c]);
+            rotation_vector(&[(size + cosine) / whole, a, b, c])
+        } else {
+            Vector3::zeros()
+        };
+        sum += turn;
+        if cosine.plain() < 0.0 {
+            folds = true;
+            way += N::of(PI);
+        } else if turn.norm_squared().plain() > 0.0 {
+            way += turn.norm_squared().root();
         }
         before = next;
     }
-    sum
+    // Which way it folds nobody can tell: across the plane.
+    if folds { Vector3::z() * way } else { sum }
 }

@@ -1,6 +1,8 @@
 //! Eigenvalues of small motions about a state: natural frequencies of what is conservative, decay rates and
 //! frequencies of anything.
 
+use std::ops::Range;
+
 use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
 
 use super::dense::{general, noise, quadratic, roots, sort, symmetric};
@@ -176,6 +178,7 @@ pub fn eigenvalues<const D: usize>(
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
     refuse_paid_out(system, work, false)?;
+    refuse_driven(system, work)?;
     // How a thin rod turns about itself nobody knows.
     let thin = system.frames.list().iter().filter(|frame| frame.is_thin());
     let spins = thin.map(|frame| frame.spin(&work.x, &work.v).norm());
@@ -272,18 +275,12 @@ fn refuse_turning<const D: usize>(
         add_node(x, 1.0, reference);
     }
     elimination.expand(&state.rates, &mut y, &mut v);
-    let slope = |x: &Node<D>| Vector3::from(components(&Vector::from(x[1])));
     for chain in &system.chains {
         let first = chain.nodes(0)[0];
-        let nodes = first..first + chain.node_count();
-        let turn = spin(nodes.clone().map(|node| [&x, &v].map(|x| slope(&x[node]))));
-        let alike = |node: usize| {
-            let [u, rate] = [&x, &v].map(|x| slope(&x[node]));
-            (rate - turn.cross(&u)).norm() <= 1e-9 * turn.norm() * u.norm()
-        };
-        if turn.norm() == 0.0 || !nodes.clone().all(alike) {
+        let shared = rotation(&x, &v, first..first + chain.node_count());
+        let Some(turn) = shared.filter(|turn| turn.norm() > 0.0) else {
             continue;
-        }
+        };
         let [stiffness, _] = linear.project(std::slice::from_ref(&state.rates));
         if stiffness[(0, 0)].abs() <= 1e-9 * linear.size(&state.rates) {
             return Err(SpectrumError::Turns(match D {
@@ -293,6 +290,45 @@ fn refuse_turning<const D: usize>(
         }
     }
     Ok(())
+}
+
+/// Refuses cables, rods and beams that rotate as a whole while a prescribed motion moves: centrifugal and gyroscopic terms of small motions
+/// beside that rotation are not in the linearization. The nodes are those of the state with its rates.
+fn refuse_driven<const D: usize>(
+    system: &System<D>,
+    work: &Workspace<D>,
+) -> Result<(), SpectrumError> {
+    if work.drives.iter().all(|[_, rate, _]| *rate == 0.0) {
+        return Ok(());
+    }
+    let turns = system.chains.iter().map(|chain| {
+        let first = chain.nodes(0)[0];
+        rotation(&work.x, &work.v, first..first + chain.node_count())
+    });
+    if let Some(turn) = turns.flatten().find(|turn| turn.norm() > 0.0) {
+        return Err(SpectrumError::Turns(turn.norm()));
+    }
+    let carried = system.frames.carried().iter();
+    let rates = carried.map(|frame| frame.velocity(&work.x, &work.v).norm());
+    let spin = rates.fold(0.0, f64::max);
+    if spin > 0.0 {
+        return Err(SpectrumError::Spins(spin));
+    }
+    Ok(())
+}
+
+/// Returns the angular velocity (rad/s) with which all slopes of some nodes rotate, if there is one that they share.
+fn rotation<const D: usize>(
+    x: &[Node<D>],
+    v: &[Node<D>],
+    nodes: Range<usize>,
+) -> Option<Vector3<f64>> {
+    let slope = |x: &Node<D>| Vector3::from(components(&Vector::from(x[1])));
+    let turn = spin(nodes.clone().map(|node| [x, v].map(|x| slope(&x[node]))));
+    let mut pairs = nodes.map(|node| [x, v].map(|x| slope(&x[node])));
+    let is_shared =
+        pairs.all(|[u, rate]| (rate - turn.cross(&u)).norm() <= 1e-9 * turn.norm() * u.norm());
+    is_shared.then_some(turn)
 }
 
 /// The spin that comes closest to the rates of vectors: vectors and rates.
@@ -319,8 +355,11 @@ pub(super) fn at_rest<'a, const D: usize>(
     work: &mut Workspace<D>,
     state: &State,
 ) -> Result<Linearization<'a, D>, SpectrumError> {
-    let rest = vec![0.0; state.rates.len()];
-    DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
+    let (q, v) = (&state.coordinates, &state.rates);
+    DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, v);
+    refuse_driven(system, work)?;
+    let rest = vec![0.0; v.len()];
+    DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, &rest);
     refuse_paid_out(system, work, true)?;
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
