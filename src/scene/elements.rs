@@ -4,7 +4,7 @@
 //! sections of a rod. So there are no rules here but those of validation, and two that it does not know: sections that
 //! are given by what a cable has no key for, and joints that hold how a line stands about its tangent.
 
-use super::description::{Body, LineBody, SectionNumbers, Sections};
+use super::description::{Body, Input, LineBody, SectionNumbers, Sections};
 use super::resolved::{First, Hold, Place, Resolved};
 use super::{Error, Scene};
 
@@ -277,7 +277,7 @@ impl Scene {
         let (list, rest) = path.split_once('[').unwrap_or((path, ""));
         let index = rest.split(']').next().and_then(|text| text.parse().ok());
         let index: usize = index.unwrap_or(usize::MAX);
-        let at = |marker: &Option<String>| marker.clone().unwrap_or_default();
+        let at = |marker: Option<&str>| marker.unwrap_or_default().to_owned();
         let loads = [
             ("loads", &self.loads[..]),
             ("initial.loads", self.initial.loads()),
@@ -287,9 +287,14 @@ impl Scene {
         let words = match list {
             "joints" => self.joints.get(index).map(|of| hold([&of.name])),
             "inputs" => (self.inputs.get(index))
-                .map(|of| format!("an input at {} turns its sections", at(&of.marker))),
-            "outputs" => (self.outputs.get(index))
-                .map(|of| format!("an output at {} reads its sections", at(&of.marker))),
+                .and_then(Input::action)
+                .map(|of| format!("an input at {} turns its sections", of.on)),
+            "outputs" => (self.outputs.get(index)).map(|of| {
+                format!(
+                    "an output at {} reads its sections",
+                    at(of.marker.as_deref())
+                )
+            }),
             "ports" => (self.ports.get(index)).map(|of| format!("port {} turns with it", of.name)),
             _ => load.map(|of| format!("load {} turns its sections", of.name)),
         };

@@ -11,6 +11,7 @@ mod description;
 mod elements;
 mod marker;
 mod mesh;
+mod numbers;
 mod owners;
 mod ports;
 mod remarks;

@@ -1,6 +1,10 @@
 //! Which bodies an output belongs to.
 
 use super::Scene;
+use super::description::{
+    Bushing, Contact, DistributedForce, DistributedMoment, Fluid, Force, JointLimit, JointSpring,
+    LoadKind, Moment, SpringDamper, Torque,
+};
 
 impl Scene {
     /// Places of the bodies that an output is read at, by its name without an index: of a joint, motion, load or port those that it joins,
@@ -22,9 +26,25 @@ impl Scene {
             names.extend(motion.joint.iter().flat_map(|joint| of_joint(joint)));
         }
         for load in self.loads.iter().filter(|load| load.name == first) {
-            let markers = load.markers.iter().flatten().chain(&load.marker);
-            names.extend(markers.map(|marker| owner(marker)).chain(load.body.clone()));
-            names.extend(load.joint.iter().flat_map(|joint| of_joint(joint)));
+            match &load.kind {
+                LoadKind::Force(Force { marker, .. }) | LoadKind::Moment(Moment { marker, .. }) => {
+                    names.push(owner(marker));
+                }
+                LoadKind::SpringDamper(SpringDamper { markers, .. })
+                | LoadKind::Bushing(Bushing { markers, .. }) => {
+                    names.extend(markers.iter().map(|marker| owner(marker)));
+                }
+                LoadKind::Torque(Torque { joint, .. })
+                | LoadKind::JointSpring(JointSpring { joint, .. })
+                | LoadKind::JointLimit(JointLimit { joint, .. }) => names.extend(of_joint(joint)),
+                LoadKind::DistributedForce(DistributedForce { body, .. })
+                | LoadKind::DistributedMoment(DistributedMoment { body, .. })
+                | LoadKind::Fluid(Fluid { body, .. }) => names.push(body.clone()),
+                LoadKind::Contact(Contact { marker, body, .. }) => {
+                    names.extend(marker.iter().map(|marker| owner(marker)));
+                    names.extend(body.clone());
+                }
+            }
         }
         let ports = self.ports.iter().filter(|port| port.name == first);
         names.extend(ports.map(|port| owner(&port.marker)));

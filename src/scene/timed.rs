@@ -1,5 +1,6 @@
 //! Functions of time of a scene, and where they have no value.
 
+use super::description::LoadKind;
 use super::{Error, InitialState, Scene, Value};
 use crate::math::function::Function;
 use crate::math::quadrature::GAUSS_5;
@@ -54,18 +55,26 @@ impl Scene {
             }
         }
         for (i, load) in self.loads.iter().enumerate() {
-            let values = load.value.as_ref().map_or(&[][..], |v| v.components());
+            let action = load.kind.action();
+            let values = action.map_or(&[][..], |(_, value)| value.components());
             for (k, value) in values.iter().enumerate() {
                 let path = place(format!("loads[{i}].value"), values.len(), k);
                 add(path, &load.name, value, 0);
             }
-            for (k, value) in load.current.iter().flatten().enumerate() {
-                // The fluid pushes as it is accelerated.
-                add(format!("loads[{i}].current[{k}]"), &load.name, value, 1);
-            }
-            if let Some(length) = &load.length {
-                // The rate at which a rest length changes does work.
-                add(format!("loads[{i}].length"), &load.name, length, 1);
+            match &load.kind {
+                LoadKind::Fluid(fluid) => {
+                    for (k, value) in fluid.current.iter().flatten().enumerate() {
+                        // The fluid pushes as it is accelerated.
+                        add(format!("loads[{i}].current[{k}]"), &load.name, value, 1);
+                    }
+                }
+                LoadKind::SpringDamper(spring) => {
+                    if let Some(length) = &spring.length {
+                        // The rate at which a rest length changes does work.
+                        add(format!("loads[{i}].length"), &load.name, length, 1);
+                    }
+                }
+                _ => {}
             }
         }
         timed

@@ -6,7 +6,8 @@ use schemars::Schema;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
-use super::{InputKind, JointKind, LoadKind, MotionKind, OutputKind, PortKind};
+use super::tagged::Kinds;
+use super::{Input, JointKind, LoadKind, MotionKind, OutputKind, PortKind};
 
 /// Keys that must be there, and such that may.
 pub type Keys = (&'static [&'static str], &'static [&'static str]);
@@ -33,8 +34,8 @@ pub fn listed<K: Kind>(definition: &Value) -> impl Iterator<Item = (K, &Value)> 
 pub fn tell_apart(schema: &mut Schema) {
     tell::<JointKind>(schema);
     tell::<MotionKind>(schema);
-    tell::<LoadKind>(schema);
-    tell::<InputKind>(schema);
+    spread::<LoadKind>(schema);
+    spread::<Input>(schema);
     tell::<OutputKind>(schema);
     tell::<PortKind>(schema);
 }
@@ -91,6 +92,73 @@ fn tell<K: Kind>(schema: &mut Schema) {
     if let Some(definitions) = schema.pointer_mut("/$defs").and_then(Value::as_object_mut) {
         definitions.remove(&format!("{}Kind", K::PART));
     }
+}
+
+/// Gives every variant of a part the keys that all of them share.
+fn spread<K: Kinds>(schema: &mut Schema) {
+    let definitions = schema.pointer_mut("/$defs").and_then(Value::as_object_mut);
+    let Some(definitions) = definitions else {
+        return;
+    };
+    let names: Vec<String> = definitions.keys().cloned().collect();
+    let Some(part) = definitions.get_mut(K::PART) else {
+        return;
+    };
+    // Unlike any other name in the schema: models made of it are named so.
+    let title = |kind: &Value| {
+        let name = camel_case(kind.as_str().unwrap_or_default());
+        match K::SPEAKS && !names.contains(&name) {
+            true => name,
+            false => name + K::PART,
+        }
+    };
+    let variants = part["oneOf"].as_array().into_iter().flatten();
+    let variants = variants.flat_map(|variant| {
+        let title = title(constant(variant, "kind"));
+        let mut properties = properties_of(variant);
+        properties.append(&mut properties_of(part));
+        let required = [required_of(part), required_of(variant)].concat();
+        let either = variant["x-either"].as_array().cloned();
+        let either = either.unwrap_or_else(|| vec![json!([])]);
+        let all: Vec<Value> = flat(&either);
+        let one = either.into_iter().map(move |own| {
+            let own = flat(std::slice::from_ref(&own));
+            let mut properties = properties.clone();
+            properties.retain(|key, _| {
+                let is = |of: &[Value]| of.iter().any(|of| of == key);
+                !is(&all) || is(&own)
+            });
+            let demanded = own.first().cloned();
+            json!({
+                "title": title,
+                "description": variant["description"],
+                "type": "object",
+                "properties": properties,
+                "additionalProperties": false,
+                "required": required.iter().cloned().chain(demanded).collect::<Vec<_>>(),
+            })
+        });
+        one.collect::<Vec<_>>()
+    });
+    let variants: Vec<Value> = variants.collect();
+    *part = json!({ "description": part["description"], "oneOf": variants });
+}
+
+fn properties_of(variant: &Value) -> Map<String, Value> {
+    variant["properties"]
+        .as_object()
+        .cloned()
+        .unwrap_or_default()
+}
+
+fn required_of(variant: &Value) -> Vec<Value> {
+    variant["required"].as_array().cloned().unwrap_or_default()
+}
+
+/// The values in lists of values.
+fn flat(lists: &[Value]) -> Vec<Value> {
+    let lists = lists.iter().filter_map(Value::as_array);
+    lists.flatten().cloned().collect()
 }
 
 /// Keys that say which variant an object is.

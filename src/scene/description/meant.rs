@@ -2,11 +2,10 @@
 
 use std::cell::LazyCell;
 
-use schemars::JsonSchema;
 use serde_json::Value;
 
-use super::kinds::listed;
-use super::{InputKind, JointKind, Kind, LoadKind, MotionKind, OutputKind, PortKind};
+use super::tagged::{Kinds, OneKind, is_said, known};
+use super::{Input, JointKind, Kind, LoadKind, MotionKind, OutputKind, PortKind};
 use crate::scene::Error;
 
 /// What else takes keys of a joint: a load between its ends.
@@ -17,77 +16,84 @@ const OF_LOADS: [&str; 2] = ["stiffness", "damping"];
 /// # Errors
 /// The first key that other kinds take.
 pub fn check_keys(scene: &Value) -> Result<(), Error> {
-    check::<JointKind>(&scene["joints"], "joints")?;
-    check::<MotionKind>(&scene["motions"], "motions")?;
-    check::<LoadKind>(&scene["loads"], "loads")?;
-    check::<LoadKind>(&scene["initial"]["loads"], "initial.loads")?;
-    check::<InputKind>(&scene["inputs"], "inputs")?;
-    check::<OutputKind>(&scene["outputs"], "outputs")?;
-    check::<PortKind>(&scene["ports"], "ports")
+    check(&scene["joints"], "joints", takers::<JointKind>)?;
+    check(&scene["motions"], "motions", takers::<MotionKind>)?;
+    check(&scene["loads"], "loads", all::<LoadKind>)?;
+    check(&scene["initial"]["loads"], "initial.loads", all::<LoadKind>)?;
+    check(&scene["inputs"], "inputs", all::<Input>)?;
+    check(&scene["outputs"], "outputs", takers::<OutputKind>)?;
+    check(&scene["ports"], "ports", takers::<PortKind>)
 }
 
-fn check<K: Kind + JsonSchema>(list: &Value, place: &str) -> Result<(), Error> {
+/// A kind by its name, and the keys that it takes beside those that all of them have.
+struct Taker {
+    name: &'static str,
+    keys: Vec<&'static str>,
+}
+
+/// All kinds of a part of a scene.
+fn all<K: Kinds>() -> Vec<Taker> {
+    let all = K::all();
+    let is_shared = |key: &&str| all.iter().all(|kind| kind.keys.contains(key));
+    let taker = |kind: &OneKind<K>| Taker {
+        name: kind.name,
+        keys: (kind.keys.iter().copied())
+            .filter(|key| !is_shared(key))
+            .collect(),
+    };
+    all.iter().map(taker).collect()
+}
+
+/// All kinds of a part of a scene, from its table of keys.
+fn takers<K: Kind>() -> Vec<Taker> {
+    let names = known::<K>().iter();
+    let taker = |name: &&'static str| {
+        let kind: Option<K> = serde_json::from_value((*name).into()).ok();
+        let keys = kind.iter().flat_map(|kind| kind.keys());
+        let mut own: Vec<&'static str> = Vec::new();
+        for key in keys.flat_map(|(must, may)| must.iter().chain(*may)) {
+            if !own.contains(key) {
+                own.push(key);
+            }
+        }
+        Taker { name, keys: own }
+    };
+    names.map(taker).collect()
+}
+
+fn check(list: &Value, place: &str, all: fn() -> Vec<Taker>) -> Result<(), Error> {
     let parts = list.as_array().into_iter().flatten();
-    let others = LazyCell::new(takers::<K>);
+    let all = LazyCell::new(all);
     for (index, part) in parts.enumerate() {
-        let Ok(kind) = serde_json::from_value::<K>(part["kind"].clone()) else {
+        let Some(kind) = all.iter().find(|kind| part["kind"] == kind.name) else {
             continue;
         };
-        // What is null or false is not said.
-        let keys = part.as_object().into_iter().flatten();
-        let said = keys.filter(|(_, value)| !value.is_null() && **value != Value::Bool(false));
-        let mut said = said.filter(|(key, _)| !own(&kind).any(|own| own == key.as_str()));
-        let strange =
-            said.find_map(|(key, _)| Some((key, strange(&kind, key, &part["kind"], &others)?)));
-        if let Some((key, message)) = strange {
+        let said = part.as_object().into_iter().flatten();
+        let said = said.filter(|(_, value)| is_said(value));
+        let mut strange = said.filter_map(|(key, _)| Some((key, strange(kind, key, &all, place)?)));
+        if let Some((key, message)) = strange.next() {
             return Err(Error::new(format!("{place}[{index}].{key}"), message));
         }
     }
     Ok(())
 }
 
-/// Keys that a kind takes beside those that all of them have.
-fn own<K: Kind>(kind: &K) -> impl Iterator<Item = &'static str> {
-    let keys = kind.keys().iter();
-    keys.flat_map(|(must, may)| must.iter().chain(*may))
-        .copied()
-}
-
-/// A kind by its name, and the keys that it takes beside those that all of them have.
-type Taker = (String, Vec<&'static str>);
-
-/// All kinds of a part of a scene, from its schema.
-fn takers<K: Kind + JsonSchema>() -> Vec<Taker> {
-    let schema = schemars::schema_for!(K);
-    let takers = listed::<K>(schema.as_value()).filter_map(|(kind, told)| {
-        Some((told["const"].as_str()?.to_owned(), own(&kind).collect()))
-    });
-    takers.collect()
-}
-
-/// What is said of a key that `others` take and this kind does not; nothing of one that none takes.
-fn strange<K: Kind>(kind: &K, key: &str, name: &Value, others: &[Taker]) -> Option<String> {
-    let takers = others.iter().filter(|(_, keys)| keys.contains(&key));
-    let takers: Vec<&str> = takers.map(|(name, _)| name.as_str()).collect();
-    if takers.is_empty() {
+/// What is said of a key that other kinds take and this kind does not; nothing of one that none takes.
+fn strange(kind: &Taker, key: &str, all: &[Taker], place: &str) -> Option<String> {
+    let takers = all.iter().filter(|kind| kind.keys.contains(&key));
+    let takers: Vec<&str> = takers.map(|kind| kind.name).collect();
+    if takers.is_empty() || kind.keys.contains(&key) {
         return None;
     }
-    let mut keys: Vec<&str> = Vec::new();
-    own(kind).for_each(|key| {
-        if !keys.contains(&key) {
-            keys.push(key);
-        }
-    });
-    let has = match keys.is_empty() {
+    let has = match kind.keys.is_empty() {
         true => "none beside those of all".into(),
-        false => keys.join(", "),
+        false => kind.keys.join(", "),
     };
-    let load = match K::PART == "Joint" && OF_LOADS.contains(&key) {
+    let load = match place == "joints" && OF_LOADS.contains(&key) {
         true => " and of a load of kind joint_spring",
         false => "",
     };
-    let name = name.as_str().unwrap_or_default();
-    let takers = takers.join(", ");
+    let (name, takers) = (kind.name, takers.join(", "));
     Some(format!(
         "expected a key of the kind {name} ({has}), found `{key}`, which is one of {takers}{load}"
     ))

@@ -2,9 +2,11 @@
 
 mod about;
 mod accuracy;
+mod action;
 mod body;
 mod element;
 mod initial;
+mod input;
 mod joint;
 mod kinds;
 mod load;
@@ -18,6 +20,7 @@ mod section;
 mod solid;
 mod strict;
 mod surface;
+mod tagged;
 mod torsion;
 mod value;
 mod vector;
@@ -28,15 +31,20 @@ use serde::{Deserialize, Serialize};
 
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
+pub use action::{Acting, ActionKind, ActsOn};
 pub use body::{
     Axial, Body, InitialMotion, LineBody, Mass, Material, Model, RigidBody, Sections, Shape, Strain,
 };
 pub use initial::{Initial, InitialState};
+pub use input::Input;
 pub use joint::{
     Condition, CoordinateKind, Gear, Joint, JointKind, JointSpec, Motion, MotionKind, Symbol,
 };
 pub use kinds::{Keys, Kind, tell_apart, tell_by_tag};
-pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};
+pub use load::{
+    Bushing, Contact, DistributedForce, DistributedMoment, Fluid, Force, JointLimit, JointSpring,
+    Load, LoadKind, Moment, SpringDamper, Torque,
+};
 pub use meant::check_keys;
 pub use output::{Along, Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};

@@ -33,8 +33,43 @@ impl Wrong {
         Self { path, message }
     }
 
+    /// What is told of a value that is no object.
+    pub(super) fn no_object(value: &Value) -> Self {
+        Self::here("an object { ... }", found(value))
+    }
+
+    /// What is told of a key that an object lacks.
+    pub(super) fn missing(key: &'static str) -> Self {
+        let wanted = match key {
+            "marker" | "joint" | "body" | "load" | "gear" | "motion" => "a name",
+            "markers" => "two names",
+            "surface" => "a surface",
+            "stiffness" => "a stiffness",
+            "density" => "a density",
+            _ => "a value",
+        };
+        Self::here(wanted, "nothing").under(key)
+    }
+
+    /// What is told of a key that an object does not have.
+    pub(super) fn no_key(key: &str, known: &[&str]) -> Self {
+        let wanted = format!("one of the keys {}", known.join(", "));
+        let meant = did_you_mean(key, known.iter().copied());
+        Self::here(wanted, format!("\"{key}\"{meant}"))
+    }
+
+    /// What is told of a value that is none of these names.
+    pub(super) fn no_variant(value: &Value, names: &[&str]) -> Self {
+        let known: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+        let meant = value
+            .as_str()
+            .map(|of| did_you_mean(of, names.iter().copied()));
+        let found = found(value) + &meant.unwrap_or_default();
+        Self::here(known.join(" or "), found)
+    }
+
     /// The same, seen from the object that the value stands in.
-    fn under(mut self, key: &str) -> Self {
+    pub(super) fn under(mut self, key: &str) -> Self {
         let joint = if self.path.is_empty() || self.path.starts_with('[') {
             ""
         } else {
@@ -81,19 +116,15 @@ impl serde::de::Error for Wrong {
     }
 
     fn unknown_variant(found: &str, names: &'static [&'static str]) -> Self {
-        let known: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-        let meant = did_you_mean(found, names.iter().copied());
-        Self::here(known.join(" or "), format!("\"{found}\"{meant}"))
+        Self::no_variant(&found.into(), names)
     }
 
     fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
-        let wanted = format!("one of the keys {}", known.join(", "));
-        let meant = did_you_mean(found, known.iter().copied());
-        Self::here(wanted, format!("\"{found}\"{meant}"))
+        Self::no_key(found, known)
     }
 
     fn missing_field(key: &'static str) -> Self {
-        Self::here("a value", "nothing").under(key)
+        Self::missing(key)
     }
 }
 
@@ -198,7 +229,7 @@ impl<'de> Deserializer<'de> for Reader {
     ) -> Result<V::Value, Wrong> {
         match &self.0 {
             Value::Object(_) => self.deserialize_any(visitor),
-            other => Err(Wrong::here("an object { ... }", found(other))),
+            other => Err(Wrong::no_object(other)),
         }
     }
 

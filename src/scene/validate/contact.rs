@@ -2,7 +2,7 @@
 
 use super::checks::{direction, expected, needed, not_negative, positive, vector};
 use crate::scene::Error;
-use crate::scene::description::{Load, Surface};
+use crate::scene::description::{self, Surface};
 use crate::scene::resolved::{By, Contact, Resolved};
 
 impl Surface {
@@ -48,23 +48,28 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A missing key, a reference that does not exist, or a coefficient or size out of range.
-    pub(super) fn contact(&self, path: &str, load: &'a Load) -> Result<Contact<'a>, Error> {
+    pub(super) fn contact(
+        &self,
+        path: &str,
+        load: &'a description::Contact,
+    ) -> Result<Contact<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
         let by = match (&load.marker, &load.body) {
-            (Some(marker), _) => By::Marker(self.require_marker(&at("marker"), marker)?),
+            (Some(_), Some(_)) => {
+                return Err(expected(&at("body"), "nothing beside `marker`", "a name"));
+            }
+            (Some(marker), None) => By::Marker(self.require_marker(&at("marker"), marker)?),
             (None, body) => {
                 let body = needed(path, "body", "a name", body.as_deref())?;
                 By::Cable(self.require_cable(&at("body"), body)?)
             }
         };
-        let surface = needed(path, "surface", "a surface", load.surface)?;
-        surface.validate(&at("surface"), self.scene.dimension)?;
+        (load.surface).validate(&at("surface"), self.scene.dimension)?;
         let unit = match by {
             By::Marker(_) => "N/m",
             By::Cable(_) => "N/m^2",
         };
-        let stiffness = needed(path, "stiffness", "a stiffness", load.stiffness)?;
-        positive(&at("stiffness"), unit, stiffness)?;
+        positive(&at("stiffness"), unit, load.stiffness)?;
         let damping = load.damping.unwrap_or(0.0);
         not_negative(&at("damping"), "s/m", damping)?;
         let friction = load.friction.unwrap_or(0.0);
@@ -78,8 +83,8 @@ impl<'a> Resolved<'a> {
         }
         Ok(Contact {
             by,
-            surface,
-            sizes: [stiffness, damping],
+            surface: load.surface,
+            sizes: [load.stiffness, damping],
             friction,
             slip_velocity: load.slip_velocity,
         })

@@ -1,11 +1,9 @@
 //! Checks of fluids along bodies.
 
-use super::checks::{
-    components, expected, finite, needed, not_negative, positive, quoted, unknown,
-};
+use super::checks::{components, expected, finite, not_negative, positive, quoted, unknown};
 use super::loads::component;
 use crate::scene::Error;
-use crate::scene::description::{Load, Value};
+use crate::scene::description::{self, Value};
 use crate::scene::resolved::{self, Fluid, LoadKind, Resolved};
 use crate::system::Signal;
 
@@ -14,13 +12,15 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A missing key, a body that does not exist, or a coefficient out of range.
-    pub(super) fn fluid(&self, path: &str, load: &'a Load) -> Result<Fluid<'a>, Error> {
+    pub(super) fn fluid(
+        &self,
+        path: &str,
+        load: &'a description::Fluid,
+    ) -> Result<Fluid<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
-        let name = needed(path, "body", "a name", load.body.as_deref())?;
-        let on = self.require_cable(&at("body"), name)?;
-        let density = needed(path, "density", "a density", load.density)?;
+        let on = self.require_cable(&at("body"), &load.body)?;
         for (key, unit, value) in [
-            ("density", "kg/m^3", load.density),
+            ("density", "kg/m^3", Some(load.density)),
             ("diameter", "m", load.diameter),
             ("area", "m^2", load.area),
         ] {
@@ -61,7 +61,7 @@ impl<'a> Resolved<'a> {
         let along = given.iter().enumerate();
         Ok(Fluid {
             on,
-            density,
+            density: load.density,
             current,
             along: along.filter_map(|(k, of)| Some((k, of.along()?))).collect(),
             given,

@@ -1,36 +1,27 @@
 //! Checks of inputs.
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
+use std::mem::discriminant;
 
-use super::checks::{Key, expected, finite, keys, needed, not_negative, quoted, unknown};
+use super::checks::{expected, finite, not_negative, quoted, unknown};
 use crate::scene::Error;
-use crate::scene::description::{Input, InputKind, Kind as _, Value};
+use crate::scene::description::{Input, Value};
 use crate::scene::resolved::{self, LoadKind, Resolved};
 use crate::system::Signal;
 
 impl Input {
-    fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 5] = [
-            ("marker", self.marker.is_some(), "a name"),
-            ("joint", self.joint.is_some(), "a name"),
-            ("body", self.body.is_some(), "a name"),
-            ("load", self.load.is_some(), "a name"),
-            ("follower", self.follower, "true"),
-        ];
-        keys(path, "input", &all, self.kind.keys())
-    }
-
     fn validate_start(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let components = self.components(dimension);
-        if !self.start.is_empty() && self.start.len() != components {
+        let start = self.start();
+        if !start.is_empty() && start.len() != components {
             let wanted = format!("{components} component(s)");
             let place = format!("{path}.start");
-            return Err(expected(&place, &wanted, self.start.len()));
+            return Err(expected(&place, &wanted, start.len()));
         }
-        for (axis, value) in self.start.iter().enumerate() {
+        for (axis, value) in start.iter().enumerate() {
             let place = format!("{path}.start[{axis}]");
-            match self.kind {
-                InputKind::RestLength => not_negative(&place, "m", *value)?,
+            match self {
+                Self::RestLength(_) => not_negative(&place, "m", *value)?,
                 _ => finite(&place, *value)?,
             }
         }
@@ -44,10 +35,9 @@ impl<'a> Resolved<'a> {
     /// # Errors
     /// A missing key, a reference that does not exist, a name that is used twice, or start values out of range.
     pub(super) fn resolve_inputs(&mut self) -> Result<(), Error> {
-        let (mut seen, mut first) = (BTreeSet::new(), 0);
+        let (mut seen, mut first) = (HashSet::new(), 0);
         for (index, input) in self.scene.inputs.iter().enumerate() {
             let path = format!("inputs[{index}]");
-            input.validate_keys(&path)?;
             let (kind, start) = self.resolve_input(&path, input, first)?;
             let of = match &kind {
                 resolved::InputKind::Action(action) => action.on(),
@@ -55,15 +45,15 @@ impl<'a> Resolved<'a> {
                 | resolved::InputKind::Release(name)
                 | resolved::InputKind::Current(name) => name,
             };
-            if !seen.insert((input.kind as u8, of, input.follower)) {
+            let follower = input.action().is_some_and(|acting| acting.follower);
+            if !seen.insert((discriminant(input), of, follower)) {
                 let wanted = "an input not declared before";
                 return Err(expected(&path, wanted, quoted(of)));
             }
             input.validate_start(&path, self.scene.dimension)?;
-            let start = if input.start.is_empty() {
-                start
-            } else {
-                input.start.clone()
+            let start = match input.start() {
+                [] => start,
+                given => given.to_vec(),
             };
             self.inputs.push(resolved::Input { kind, first, start });
             first += input.components(self.scene.dimension);
@@ -78,26 +68,32 @@ impl<'a> Resolved<'a> {
         input: &'a Input,
         first: usize,
     ) -> Result<(resolved::InputKind<'a>, Vec<f64>), Error> {
-        if input.kind == InputKind::Release {
-            let name = needed(path, "joint", "a name", input.joint.as_deref())?;
-            self.set_release(&format!("{path}.joint"), name, first)?;
-            return Ok((resolved::InputKind::Release(name), vec![0.0]));
+        if let Some(acting) = input.action() {
+            let count = input.components(self.scene.dimension);
+            let components = (0..count).map(|k| Signal::Input(first + k)).collect();
+            let action = self.resolve_action(path, acting, components)?;
+            return Ok((resolved::InputKind::Action(action), vec![0.0; count]));
         }
-        let Some(kind) = input.kind.action() else {
-            let name = needed(path, "load", "a name", input.load.as_deref())?;
-            let place = format!("{path}.load");
-            if input.kind == InputKind::Current {
-                let start = self.set_current(&place, name, first)?;
-                return Ok((resolved::InputKind::Current(name), start));
+        let at = |key: &str| format!("{path}.{key}");
+        Ok(match input {
+            Input::RestLength(of) => {
+                let start = self.set_rest_length(&at("load"), &of.load, first)?;
+                (resolved::InputKind::RestLength(&of.load), vec![start])
             }
-            let start = self.set_rest_length(&place, name, first)?;
-            return Ok((resolved::InputKind::RestLength(name), vec![start]));
-        };
-        let count = input.components(self.scene.dimension);
-        let components = (0..count).map(|k| Signal::Input(first + k)).collect();
-        let of = [&input.marker, &input.joint, &input.body];
-        let action = self.resolve_action(path, (kind, input.follower), of, components)?;
-        Ok((resolved::InputKind::Action(action), vec![0.0; count]))
+            Input::Release(of) => {
+                self.set_release(&at("joint"), &of.joint, first)?;
+                (resolved::InputKind::Release(&of.joint), vec![0.0])
+            }
+            Input::Current(of) => {
+                let start = self.set_current(&at("load"), &of.load, first)?;
+                (resolved::InputKind::Current(&of.load), start)
+            }
+            Input::Force(_)
+            | Input::Moment(_)
+            | Input::Torque(_)
+            | Input::DistributedForce(_)
+            | Input::DistributedMoment(_) => unreachable!("a force or a moment"),
+        })
     }
 
     /// Makes the rest length of a spring-damper, which nothing else changes, an input; what it was, m.

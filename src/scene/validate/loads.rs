@@ -1,73 +1,14 @@
 //! Checks of loads.
 
-use super::checks::{Key, components, expected, keys, needed, not_negative, spring_damper, value};
+use super::checks::{components, expected, not_negative, spring_damper, value};
 use crate::math::expression::Expression;
 use crate::math::function::Function;
 use crate::scene::Error;
-use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadKind, LoadValue, Value};
+use crate::scene::description::{
+    Acting, ActionKind, ActsOn, Load, LoadKind, LoadValue, SpringDamper, Value,
+};
 use crate::scene::resolved::{self, Action, On, Resolved, Spring};
 use crate::system::Signal;
-
-impl Load {
-    fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 29] = [
-            ("marker", self.marker.is_some(), "a name"),
-            ("joint", self.joint.is_some(), "a name"),
-            ("body", self.body.is_some(), "a name"),
-            ("markers", self.markers.is_some(), "two names"),
-            ("point", self.point.is_some(), "a point [x, y]"),
-            ("follower", self.follower, "true"),
-            ("value", self.value.is_some(), "a value"),
-            ("stiffness", self.stiffness.is_some(), "a stiffness"),
-            ("damping", self.damping.is_some(), "a damping"),
-            ("length", self.length.is_some(), "a length"),
-            (
-                "coordinate",
-                self.coordinate.is_some(),
-                "displacement or angle",
-            ),
-            ("rest", self.rest.is_some(), "a coordinate"),
-            ("lower", self.lower.is_some(), "a limit"),
-            ("upper", self.upper.is_some(), "a limit"),
-            ("density", self.density.is_some(), "a density"),
-            ("current", self.current.is_some(), "a velocity"),
-            ("drag", self.drag.is_some(), "a coefficient"),
-            (
-                "tangential_drag",
-                self.tangential_drag.is_some(),
-                "a coefficient",
-            ),
-            ("added_mass", self.added_mass.is_some(), "a coefficient"),
-            ("diameter", self.diameter.is_some(), "a diameter"),
-            ("area", self.area.is_some(), "an area"),
-            ("buoyancy", self.buoyancy.is_some(), "true or false"),
-            (
-                "translational_stiffness",
-                self.translational_stiffness.is_some(),
-                "three stiffnesses",
-            ),
-            (
-                "translational_damping",
-                self.translational_damping.is_some(),
-                "three dampings",
-            ),
-            (
-                "rotational_stiffness",
-                self.rotational_stiffness.is_some(),
-                "three stiffnesses",
-            ),
-            (
-                "rotational_damping",
-                self.rotational_damping.is_some(),
-                "three dampings",
-            ),
-            ("surface", self.surface.is_some(), "a surface"),
-            ("friction", self.friction.is_some(), "a coefficient"),
-            ("slip_velocity", self.slip_velocity.is_some(), "a speed"),
-        ];
-        keys(path, "load", &all, self.kind.keys())
-    }
-}
 
 /// Builds a component of a load as a function of time. Components that vary along a body are built by
 /// [`function_along`].
@@ -103,7 +44,6 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_loads(&mut self) -> Result<(), Error> {
         for (index, load) in self.scene.loads.iter().enumerate() {
             let path = format!("loads[{index}]");
-            load.validate_keys(&path)?;
             let kind = self.resolve_load(&path, load)?;
             let name = &load.name;
             self.loads.push(resolved::Load { name, kind });
@@ -118,12 +58,11 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_initial_loads(&mut self) -> Result<(), Error> {
         for (index, load) in self.scene.initial.loads().iter().enumerate() {
             let path = format!("initial.loads[{index}]");
-            load.validate_keys(&path)?;
             if load.kind.action().is_none() {
                 let wanted = "a force, a moment, a torque or a distributed one";
                 let place = format!("{path}.kind");
                 let found = match load.kind {
-                    LoadKind::Fluid => "a fluid",
+                    LoadKind::Fluid(_) => "a fluid",
                     _ => "springs and dampers",
                 };
                 return Err(expected(&place, wanted, found));
@@ -136,14 +75,12 @@ impl<'a> Resolved<'a> {
     }
 
     fn resolve_load(&self, path: &str, load: &'a Load) -> Result<resolved::LoadKind<'a>, Error> {
-        let Some(kind) = load.kind.action() else {
-            return self.resolve_springs(path, load);
+        let Some((acting, given)) = load.kind.action() else {
+            return self.resolve_springs(path, &load.kind);
         };
-        let given = needed(path, "value", "a value", load.value.as_ref())?;
-        let components = self.signals(&format!("{path}.value"), kind, given)?;
-        let of = [&load.marker, &load.joint, &load.body];
-        let mut action = self.resolve_action(path, (kind, load.follower), of, components)?;
-        if kind.is_distributed() {
+        let components = self.signals(&format!("{path}.value"), acting.kind, given)?;
+        let mut action = self.resolve_action(path, acting, components)?;
+        if acting.kind.is_distributed() {
             let values = given.components().iter().enumerate();
             action.along = values
                 .filter_map(|(k, of)| Some((k, of.along()?)))
@@ -163,40 +100,23 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_action(
         &self,
         path: &str,
-        (kind, follower): (ActionKind, bool),
-        [marker, joint, body]: [&'a Option<String>; 3],
+        Acting { kind, on, follower }: Acting<'a>,
         components: Vec<Signal>,
     ) -> Result<Action<'a>, Error> {
-        let named = |key: &str, name: &'a Option<String>| {
-            let name = needed(path, key, "a name", name.as_deref())?;
-            Ok::<_, Error>((format!("{path}.{key}"), name))
-        };
         if follower && !kind.is_force() && self.scene.dimension == 2 {
             let wanted = "nothing for a moment in the plane";
             return Err(expected(&format!("{path}.follower"), wanted, "true"));
         }
+        let at = |key: &str| format!("{path}.{key}");
         let on = match kind.acts_on() {
-            ActsOn::Marker => {
-                let (at, name) = named("marker", marker)?;
-                // A direction is what a moment turns and what a follower turns with.
-                On::Marker(if follower || !kind.is_force() {
-                    self.require_spinning(&at, name)?
-                } else {
-                    self.require_marker(&at, name)?
-                })
-            }
-            ActsOn::Joint => {
-                let (at, name) = named("joint", joint)?;
-                On::Joint(self.require_pivot(&at, name)?)
-            }
-            ActsOn::Cable => {
-                let (at, name) = named("body", body)?;
-                On::Cable(self.require_cable(&at, name)?)
-            }
-            ActsOn::Sections => {
-                let (at, name) = named("body", body)?;
-                On::Cable(self.require_sections(&at, name)?)
-            }
+            // A direction is what a moment turns and what a follower turns with.
+            ActsOn::Marker => On::Marker(match follower || !kind.is_force() {
+                true => self.require_spinning(&at("marker"), on)?,
+                false => self.require_marker(&at("marker"), on)?,
+            }),
+            ActsOn::Joint => On::Joint(self.require_pivot(&at("joint"), on)?),
+            ActsOn::Cable => On::Cable(self.require_cable(&at("body"), on)?),
+            ActsOn::Sections => On::Cable(self.require_sections(&at("body"), on)?),
         };
         Ok(Action {
             kind,
@@ -229,9 +149,8 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A missing key, a marker that does not exist, or a stiffness, damping or length out of range.
-    pub(super) fn spring(&self, path: &str, load: &'a Load) -> Result<Spring<'a>, Error> {
-        let markers = needed(path, "markers", "two names", load.markers.as_ref())?;
-        let ends = self.require_pair(path, markers, load.point)?;
+    pub(super) fn spring(&self, path: &str, load: &'a SpringDamper) -> Result<Spring<'a>, Error> {
+        let ends = self.require_pair(path, &load.markers, load.point)?;
         let stiffness = (load.stiffness, "N/m");
         let [stiffness, damping] = spring_damper(path, stiffness, (load.damping, "N s/m"))?;
         let place = format!("{path}.length");

@@ -1,8 +1,8 @@
 //! Checks of springs, dampers and stops.
 
-use super::checks::{expected, finite, needed, not_negative, positive, spring_damper};
+use super::checks::{expected, finite, not_negative, positive, spring_damper};
 use crate::scene::Error;
-use crate::scene::description::{CoordinateKind, Load, LoadKind as Given};
+use crate::scene::description::{self, CoordinateKind, JointLimit, JointSpring, LoadKind as Given};
 use crate::scene::resolved::{Bushing, First, JointCoordinate, LoadKind, Resolved};
 
 impl<'a> Resolved<'a> {
@@ -13,30 +13,38 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_springs(
         &self,
         path: &str,
-        load: &'a Load,
+        load: &'a Given,
     ) -> Result<LoadKind<'a>, Error> {
-        match load.kind {
-            Given::JointSpring => self.joint_spring(path, load),
-            Given::JointLimit => self.stop(path, load),
-            Given::Fluid => self.fluid(path, load).map(LoadKind::Fluid),
-            Given::Contact => self.contact(path, load).map(LoadKind::Contact),
-            Given::Bushing => self.bushing(path, load).map(LoadKind::Bushing),
-            _ => self.spring(path, load).map(LoadKind::Spring),
+        match load {
+            Given::JointSpring(load) => self.joint_spring(path, load),
+            Given::JointLimit(load) => self.stop(path, load),
+            Given::Fluid(load) => self.fluid(path, load).map(LoadKind::Fluid),
+            Given::Contact(load) => self.contact(path, load).map(LoadKind::Contact),
+            Given::Bushing(load) => self.bushing(path, load).map(LoadKind::Bushing),
+            Given::SpringDamper(load) => self.spring(path, load).map(LoadKind::Spring),
+            Given::Force(_)
+            | Given::Moment(_)
+            | Given::Torque(_)
+            | Given::DistributedForce(_)
+            | Given::DistributedMoment(_) => unreachable!("a force or a moment"),
         }
     }
 
-    fn coordinate(&self, path: &str, load: &'a Load) -> Result<JointCoordinate<'a>, Error> {
-        let joint = needed(path, "joint", "a name", load.joint.as_deref())?;
-        let which = (load.coordinate, CoordinateKind::Displacement);
+    fn coordinate(
+        &self,
+        path: &str,
+        joint: &'a str,
+        asked: Option<CoordinateKind>,
+    ) -> Result<JointCoordinate<'a>, Error> {
+        let which = (asked, CoordinateKind::Displacement);
         self.require_coordinate(&format!("{path}.joint"), joint, which)
     }
 
-    fn joint_spring(&self, path: &str, load: &'a Load) -> Result<LoadKind<'a>, Error> {
-        let on = self.coordinate(path, load)?;
-        let units = if on.is_angle() {
-            ["N m/rad", "N m s/rad"]
-        } else {
-            ["N/m", "N s/m"]
+    fn joint_spring(&self, path: &str, load: &'a JointSpring) -> Result<LoadKind<'a>, Error> {
+        let on = self.coordinate(path, &load.joint, load.coordinate)?;
+        let units = match on.is_angle() {
+            true => ["N m/rad", "N m s/rad"],
+            false => ["N/m", "N s/m"],
         };
         if let Some(rest) = load.rest {
             finite(&format!("{path}.rest"), rest)?;
@@ -49,15 +57,13 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    fn stop(&self, path: &str, load: &'a Load) -> Result<LoadKind<'a>, Error> {
-        let on = self.coordinate(path, load)?;
-        let units = if on.is_angle() {
-            ["N m/rad", "s/rad"]
-        } else {
-            ["N/m", "s/m"]
+    fn stop(&self, path: &str, load: &'a JointLimit) -> Result<LoadKind<'a>, Error> {
+        let on = self.coordinate(path, &load.joint, load.coordinate)?;
+        let units = match on.is_angle() {
+            true => ["N m/rad", "s/rad"],
+            false => ["N/m", "s/m"],
         };
-        let stiffness = needed(path, "stiffness", "a stiffness", load.stiffness)?;
-        positive(&format!("{path}.stiffness"), units[0], stiffness)?;
+        positive(&format!("{path}.stiffness"), units[0], load.stiffness)?;
         let damping = load.damping.unwrap_or(0.0);
         not_negative(&format!("{path}.damping"), units[1], damping)?;
         let limits = [load.lower, load.upper];
@@ -74,19 +80,19 @@ impl<'a> Resolved<'a> {
             }
             _ => Ok(LoadKind::JointLimit {
                 on,
-                sizes: [stiffness, damping],
+                sizes: [load.stiffness, damping],
                 limits,
             }),
         }
     }
 
-    fn bushing(&self, path: &str, load: &'a Load) -> Result<Bushing<'a>, Error> {
+    fn bushing(&self, path: &str, load: &'a description::Bushing) -> Result<Bushing<'a>, Error> {
         if self.scene.dimension == 2 {
             let wanted = "spring_damper, or revolute with a stiffness in the plane";
             return Err(expected(&format!("{path}.kind"), wanted, "bushing"));
         }
-        let markers = needed(path, "markers", "two names", load.markers.as_ref())?;
-        let ends = self.require_pair(path, markers, load.point)?;
+        let markers = &load.markers;
+        let ends = self.require_pair(path, markers, None)?;
         if let First::Marker(_) = ends.first {
             self.require_standing(&format!("{path}.markers[0]"), &markers[0])?;
         }

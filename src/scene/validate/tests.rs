@@ -332,6 +332,12 @@ fn loads_take_what_is_theirs_and_no_more() {
         /loads/1/value | "1 +" | loads[1].value: expected a number, t, a function
         /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint
         /loads/2/stiffness | 1 | loads[2].stiffness: expected a key of the kind
+        /loads/2/stiffness | null | accepted
+        /loads/2/moment | 1 | loads[2].moment: expected one of the keys name, kind, joint, value, found "moment"
+        /loads/2/kind | "torqe" | loads[2].kind: expected "force" or "moment" or "torque" or
+        /loads/2/kind | null | loads[2].kind: expected "force" or
+        /loads/2 | [] | loads[2]: expected an object { ... }, found a list
+        /loads/2 | {"name": "motor"} | loads[2].kind: expected a value, found nothing
         /loads/3/body | "crank" | loads[3].body: expected the name of a cable of this scene
         /loads/4/value | 1 | loads[4].value: expected a key of the kind
         /loads/4/markers | null | loads[4].markers: expected two names, found nothing
@@ -357,6 +363,8 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /inputs/2/marker | "load.eye" | inputs[2].marker: expected a marker that can turn
         /inputs/3/joint | "link" | inputs[3].joint: expected a revolute joint
         /inputs/4/body | "load" | inputs[4].body: expected the name of a cable
+        /inputs/5/loads | "tie" | inputs[5].loads: expected one of the keys kind, load, start, found "loads"; did you mean `load`
+        /inputs/5/load | null | inputs[5].load: expected a name, found nothing
         /inputs/5/load | "wind" | inputs[5].load: expected a spring-damper of this scene
         /inputs/5/start | [-1] | inputs[5].start[0]: expected zero or a positive number (m)
         /loads/5/length | "1+t" | inputs[5].load: expected a spring-damper whose length is a number

@@ -399,29 +399,32 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),
         SpringStiffness(i) | TorsionStiffness(i) | SpreadStiffness(i) => {
-            scene.loads[i].stiffness = Some(value);
+            scene.set_load_stiffness(i, value);
         }
         SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
-            scene.loads[i].damping = Some(value);
+            scene.set_load_damping(i, value);
         }
-        Friction(i) => scene.loads[i].friction = Some(value),
+        Friction(i) => scene.contact_mut(i).friction = Some(value),
         BushingStiffness(i, axis) => {
-            let Scene { loads, .. } = scene;
-            loads[i].translational_stiffness.get_or_insert_default()[axis] = value;
+            let bushing = scene.bushing_mut(i);
+            bushing.translational_stiffness.get_or_insert_default()[axis] = value;
         }
         BushingDamping(i, axis) => {
-            scene.loads[i].translational_damping.get_or_insert_default()[axis] = value;
+            let bushing = scene.bushing_mut(i);
+            bushing.translational_damping.get_or_insert_default()[axis] = value;
         }
         BushingTurningStiffness(i, axis) => {
-            scene.loads[i].rotational_stiffness.get_or_insert_default()[axis] = value;
+            let bushing = scene.bushing_mut(i);
+            bushing.rotational_stiffness.get_or_insert_default()[axis] = value;
         }
         BushingTurningDamping(i, axis) => {
-            scene.loads[i].rotational_damping.get_or_insert_default()[axis] = value;
+            let bushing = scene.bushing_mut(i);
+            bushing.rotational_damping.get_or_insert_default()[axis] = value;
         }
-        FluidDensity(i) => scene.loads[i].density = Some(value),
-        Drag(i) => scene.loads[i].drag = Some(value),
-        TangentialDrag(i) => scene.loads[i].tangential_drag = Some(value),
-        AddedMass(i) => scene.loads[i].added_mass = Some(value),
+        FluidDensity(i) => scene.fluid_mut(i).density = value,
+        Drag(i) => scene.fluid_mut(i).drag = Some(value),
+        TangentialDrag(i) => scene.fluid_mut(i).tangential_drag = Some(value),
+        AddedMass(i) => scene.fluid_mut(i).added_mass = Some(value),
         CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
         CouplingDamping(i) => scene.ports[i].damping = Some(value),
         TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),

@@ -91,7 +91,35 @@ fn the_schema_has_a_variant_for_every_kind() {
     assert!(schema["$defs"].get("JointKind").is_none());
 }
 
-/// Messages of a validator concern the kind that is meant. No choice in which none fits is above it.
+/// Every kind has its own words: no key of it is explained by what it means in another kind.
+#[test]
+fn keys_are_described_for_their_kind_alone() {
+    let schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");
+    let mut complaints = Vec::new();
+    for part in ["Load", "Input"] {
+        let variants = variants(&schema, part);
+        let kind = |of: &Value| {
+            of["properties"]["kind"]["const"]
+                .as_str()
+                .map(str::to_owned)
+        };
+        let kinds: Vec<String> = variants.iter().filter_map(kind).collect();
+        for variant in &variants {
+            let own = kind(variant);
+            let keys = variant["properties"].as_object().expect("keys");
+            for (key, told) in keys.iter().filter(|(key, _)| *key != "kind") {
+                let words = told["description"].as_str().unwrap_or_default();
+                let names = |of: &&String| words.contains(&format!("`{of}`"));
+                if words.is_empty() || kinds.iter().any(|of| names(&of)) {
+                    complaints.push(format!("{part} {own:?} {key}: {words}"));
+                }
+            }
+        }
+    }
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+/// What a validator says is of the kind that is meant: no choice stands above it in which none fits.
 #[test]
 fn the_schema_checks_by_kind() {
     let schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");

@@ -1,0 +1,158 @@
+//! Inputs: loads, lengths, releases and currents that the master sets.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::action::{Acting, ActionKind, is_false};
+use super::tagged::{kinds, part};
+
+kinds! {
+    /// A load that the master sets.
+    Input of "Input" {
+        /// Force at a marker, N.
+        Force(ForceInput),
+        /// Moment at a marker, counter-clockwise, N m.
+        Moment(MomentInput),
+        /// Moment on the second marker of a joint, opposite on its first, N m.
+        Torque(TorqueInput),
+        /// Force in global axes per reference length of a cable, rod or beam, N/m.
+        DistributedForce(DistributedForceInput),
+        /// Moment per reference length of a rod or beam, N m/m.
+        DistributedMoment(DistributedMomentInput),
+        /// Length at rest of a spring-damper, m.
+        RestLength(RestLengthInput),
+        /// Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
+        Release(ReleaseInput),
+        /// Velocity of a fluid in global axes, m/s.
+        Current(CurrentInput),
+    }
+}
+part!(Input);
+
+/// A force at a marker that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ForceInput {
+    /// Marker that the force acts at, `body.marker`.
+    pub marker: String,
+    /// Whether the components rotate with the marker. They are then along and to the left of its direction in the plane, and along the
+    /// axes of the body's frame in space.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// Components of the force before the master sets it, N; zeros by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A moment at a marker that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MomentInput {
+    /// Marker that the moment acts at, `body.marker`.
+    pub marker: String,
+    /// Whether the components rotate with the marker, along the axes of the body's frame; in space only.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// Moment before the master sets it, N m: one value in the plane, three in space; zeros by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A moment between the two bodies of a joint that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TorqueInput {
+    /// Name of the joint with an axis that the torque acts about.
+    pub joint: String,
+    /// Torque before the master sets it, N m: one value; 0 by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A force along a line that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DistributedForceInput {
+    /// Name of the cable, rod or beam that the force acts along.
+    pub body: String,
+    /// Components of the force per reference length before the master sets it, N/m; zeros by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A moment along the sections of a line that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DistributedMomentInput {
+    /// Name of the rod or beam that the moment acts along.
+    pub body: String,
+    /// Whether the components rotate with the sections, along their axes; in space only.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// Moment per reference length before the master sets it, N m/m: one value in the plane, three in space; zeros by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A length at rest that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RestLengthInput {
+    /// Name of the spring-damper whose length is set.
+    pub load: String,
+    /// Length before the master sets it, m: one value; by default the length of the spring-damper.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A release of a joint that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ReleaseInput {
+    /// Name of the joint that is released.
+    pub joint: String,
+    /// Value before the master sets it: one value; 0 by default, which holds the joint.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A velocity of a fluid that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CurrentInput {
+    /// Name of the fluid whose velocity is set.
+    pub load: String,
+    /// Components of the velocity before the master sets it, m/s; by default those of the fluid.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+impl Input {
+    /// Force or moment, of an input that is one.
+    pub fn action(&self) -> Option<Acting<'_>> {
+        let (kind, on, follower) = match self {
+            Self::Force(of) => (ActionKind::Force, &of.marker, of.follower),
+            Self::Moment(of) => (ActionKind::Moment, &of.marker, of.follower),
+            Self::Torque(of) => (ActionKind::Torque, &of.joint, false),
+            Self::DistributedForce(of) => (ActionKind::DistributedForce, &of.body, false),
+            Self::DistributedMoment(of) => (ActionKind::DistributedMoment, &of.body, of.follower),
+            Self::RestLength(_) | Self::Release(_) | Self::Current(_) => return None,
+        };
+        Some(Acting { kind, on, follower })
+    }
+
+    /// Values before the master sets some; none where they are left out.
+    pub fn start(&self) -> &[f64] {
+        match self {
+            Self::Force(of) => &of.start,
+            Self::Moment(of) => &of.start,
+            Self::Torque(of) => &of.start,
+            Self::DistributedForce(of) => &of.start,
+            Self::DistributedMoment(of) => &of.start,
+            Self::RestLength(of) => &of.start,
+            Self::Release(of) => &of.start,
+            Self::Current(of) => &of.start,
+        }
+    }
+
+    /// Number of components.
+    pub fn components(&self, dimension: usize) -> usize {
+        match (self.action(), self) {
+            (Some(acting), _) => acting.kind.components(dimension),
+            (None, Self::Current(_)) => dimension,
+            (None, _) => 1,
+        }
+    }
+}

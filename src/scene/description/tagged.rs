@@ -1,0 +1,179 @@
+//! Parts of a scene whose `kind` says which other keys they have: one type for each kind.
+
+use serde::de::{DeserializeOwned, Deserializer, Error, Visitor};
+use serde::{Deserialize as _, forward_to_deserialize_any};
+use serde_json::{Map, Value};
+
+use super::reader::Wrong;
+use super::strict::{Strict, at, typed};
+
+/// Kinds of a part of a scene.
+pub trait Kinds: Sized {
+    /// Name of the part in the schema.
+    const PART: &'static str;
+
+    /// Whether the name of a kind alone tells the part: a revolute is a joint, but a force is a load or an input.
+    const SPEAKS: bool = false;
+
+    /// Lists all kinds.
+    fn all() -> Vec<OneKind<Self>>;
+}
+
+/// A kind of a part of a scene.
+pub struct OneKind<K> {
+    /// Value of the key `kind`.
+    pub name: &'static str,
+    /// Keys of this kind, without those of the part itself.
+    pub keys: &'static [&'static str],
+    /// Reads an object with these keys.
+    pub read: fn(Value) -> Result<K, Wrong>,
+}
+
+/// Declares an enum with one type for each kind of a part, told apart by the key `kind`.
+macro_rules! kinds {
+    ($(#[$about:meta])* $kinds:ident of $part:literal { $($(#[$told:meta])* $kind:ident($own:ty),)* }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
+        #[serde(tag = "kind", rename_all = "snake_case")]
+        pub enum $kinds {
+            $($(#[$told])* $kind($own),)*
+        }
+
+        impl $crate::scene::description::tagged::Kinds for $kinds {
+            const PART: &'static str = $part;
+
+            fn all() -> Vec<$crate::scene::description::tagged::OneKind<Self>> {
+                use $crate::scene::description::strict::typed;
+                use $crate::scene::description::tagged::{OneKind, known};
+                #[derive(serde::Deserialize)]
+                #[serde(rename_all = "snake_case")]
+                enum Name {
+                    $($kind,)*
+                }
+                let names = known::<Name>();
+                vec![$(OneKind {
+                    name: names[Name::$kind as usize],
+                    keys: known::<$own>(),
+                    read: |keys| typed(keys).map(Self::$kind),
+                },)*]
+            }
+        }
+    };
+}
+pub(super) use kinds;
+
+/// Reads a part with the keys that all kinds share and the keys of its kind.
+macro_rules! part {
+    ($part:ident) => {
+        impl<'de> serde::Deserialize<'de> for $part {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                #[derive(serde::Deserialize)]
+                struct Shared {}
+                let part = $crate::scene::description::tagged::read(deserializer)?;
+                let (Shared {}, kind) = part;
+                Ok(kind)
+            }
+        }
+    };
+    ($part:ident { $($key:ident: $type:ty),* }) => {
+        impl<'de> serde::Deserialize<'de> for $part {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                #[derive(serde::Deserialize)]
+                struct Shared {
+                    $($key: $type,)*
+                }
+                let (shared, kind) = $crate::scene::description::tagged::read(deserializer)?;
+                let Shared { $($key,)* } = shared;
+                Ok(Self { $($key,)* kind })
+            }
+        }
+    };
+}
+pub(super) use part;
+
+/// Reads the shared keys of a part and the keys of its kind.
+pub(super) fn read<'de, D, S, K>(deserializer: D) -> Result<(S, K), D::Error>
+where
+    D: Deserializer<'de>,
+    S: DeserializeOwned,
+    K: Kinds,
+{
+    let value = Strict::deserialize(deserializer)?.0;
+    parted(value).map_err(|wrong| D::Error::custom(at(&wrong.path, &wrong.message)))
+}
+
+fn parted<S: DeserializeOwned, K: Kinds>(value: Value) -> Result<(S, K), Wrong> {
+    let Value::Object(mut keys) = value else {
+        return Err(Wrong::no_object(&value));
+    };
+    let name = keys.remove("kind").ok_or_else(|| Wrong::missing("kind"))?;
+    let all = K::all();
+    let names: Vec<&str> = all.iter().map(|kind| kind.name).collect();
+    let kind = all.iter().find(|kind| name == kind.name);
+    let kind = kind.ok_or_else(|| Wrong::no_variant(&name, &names).under("kind"))?;
+    let shared = known::<S>();
+    // Null in place of a key of any kind says nothing; neither does false in place of one of another kind.
+    let is_of_a_kind = |key: &str| all.iter().any(|kind| kind.keys.contains(&key));
+    keys.retain(|key, value| match kind.keys.contains(&&**key) {
+        true => !value.is_null(),
+        false => !is_of_a_kind(key) || is_said(value),
+    });
+    let mut strange = keys.keys();
+    let is_known = |key: &str| shared.contains(&key) || kind.keys.contains(&key);
+    if let Some(key) = strange.find(|key| !is_known(key)) {
+        let known = [shared, &["kind"], kind.keys].concat();
+        return Err(Wrong::no_key(key, &known).under(key));
+    }
+    let is_shared = |(key, _): &(String, Value)| shared.contains(&&**key);
+    let (of_all, own): (Map<_, _>, Map<_, _>) = keys.into_iter().partition(is_shared);
+    Ok((typed(of_all.into())?, (kind.read)(own.into())?))
+}
+
+/// Whether a value of a key that a kind does not have is more than a way to leave it out.
+pub(super) fn is_said(value: &Value) -> bool {
+    !value.is_null() && *value != Value::Bool(false)
+}
+
+/// Names of the fields of a struct, or of the variants of an enum, as its derived `Deserialize` knows them.
+pub(super) fn known<T: DeserializeOwned>() -> &'static [&'static str] {
+    let mut names: &'static [&'static str] = &[];
+    // Nothing is read, so that this always fails.
+    let _ = T::deserialize(Asked(&mut names));
+    names
+}
+
+/// A deserializer that takes down which names a type asks for.
+struct Asked<'a>(&'a mut &'static [&'static str]);
+
+impl<'de> Deserializer<'de> for Asked<'_> {
+    type Error = Wrong;
+
+    fn deserialize_any<V: Visitor<'de>>(self, _visitor: V) -> Result<V::Value, Wrong> {
+        Err(Wrong::missing(""))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        keys: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Wrong> {
+        *self.0 = keys;
+        self.deserialize_any(visitor)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Wrong> {
+        *self.0 = variants;
+        self.deserialize_any(visitor)
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit
+        unit_struct newtype_struct seq tuple tuple_struct map identifier ignored_any
+    }
+}
