@@ -142,7 +142,7 @@ fn given(before: &str, value: Option<f64>, unit: &str) -> String {
 
 /// The row of a joint.
 fn joint_in_words(dimension: usize, joint: &Joint<'_>) -> String {
-    let kind = joint.declaration().name;
+    let kind = joint.kind_name();
     let holds = joint.holds.iter();
     let holds = holds.map(|hold| hold_in_words(dimension, joint, hold));
     let until = joint.release.and_then(|release| release.time);

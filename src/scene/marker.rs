@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::description::{JointSpec, Symbol};
+use super::description::{Kinds as _, Symbol};
 use super::resolved::{
     Action, BodyReference, Cable, Ends, First, Form, Hold, Joint, JointCoordinate, LineId, Marker,
     MarkerId, MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
@@ -294,16 +294,13 @@ impl<'a> Ends<'a> {
 
 impl<'a> Joint<'a> {
     /// Returns the specification of the joint's kind.
-    pub fn declaration(&self) -> JointSpec {
-        self.kind.declaration()
+    pub fn kind_name(&self) -> &'static str {
+        self.kind.name()
     }
 
     /// How it is drawn.
     pub fn symbol(&self) -> Symbol {
-        match self.spring() {
-            Some(_) => Symbol::Spiral,
-            None => self.declaration().symbol,
-        }
+        self.kind.symbol()
     }
 
     /// Stiffness (N m/rad) and damping (N m s/rad) of its spring.

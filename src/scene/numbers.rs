@@ -1,7 +1,7 @@
 //! Numbers of a scene that are parameters of its unit. What has none of the kind asked for is an error of the caller.
 
 use super::Scene;
-use super::description::{Bushing, Contact, Fluid, LoadKind};
+use super::description::{Bushing, Contact, Fluid, JointKind, LoadKind, Revolute};
 
 impl Scene {
     /// Sets the stiffness of the load at this place in the list.
@@ -25,6 +25,14 @@ impl Scene {
             other => unreachable!("a load with a damping, not {other:?}"),
         };
         *damping = Some(value);
+    }
+
+    /// Mutable access to the revolute joint at this place in the list of joints.
+    pub fn revolute_mut(&mut self, joint: usize) -> &mut Revolute {
+        match &mut self.joints[joint].kind {
+            JointKind::Revolute(revolute) => revolute,
+            other => unreachable!("a revolute joint, not {other:?}"),
+        }
     }
 
     /// Mutable access to the bushing at this place in the list of loads.

@@ -16,7 +16,8 @@ impl Scene {
         let owner = |marker: &str| marker.split('.').next().unwrap_or_default().to_owned();
         let joint = |name: &str| self.joints.iter().find(|joint| joint.name == name);
         let of_joint = |name: &str| -> Vec<String> {
-            let markers = joint(name).map(|joint| joint.markers.iter().map(|marker| owner(marker)));
+            let markers =
+                joint(name).map(|joint| joint.kind.markers().iter().map(|marker| owner(marker)));
             markers.into_iter().flatten().collect()
         };
         let mut names = vec![first.to_owned()];

@@ -235,8 +235,9 @@ pub struct Joint<'a> {
     /// Which holder it is.
     pub holder: ConstraintOwnerId,
     /// As described.
-    pub(super) kind: JointKind,
     /// Whether the scene is planar.
+    pub(super) kind: &'a JointKind,
+    /// Whether the scene is one of the plane.
     pub(super) is_planar: bool,
     /// Ends of the joint.
     pub ends: Ends<'a>,

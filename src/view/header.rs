@@ -303,7 +303,7 @@ fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {
     format!(
         "{{\"name\":{},\"kind\":\"{}\",\"symbol\":\"{symbol}\",\"ends\":{},\"direction\":{direction},\"is_local\":{}}}",
         quoted(joint.name),
-        joint.declaration().name,
+        joint.kind_name(),
         of_ends(recording, &joint.ends),
         recording.scene.dimension == 2
     )

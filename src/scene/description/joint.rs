@@ -1,98 +1,244 @@
-//! Joints and driven motions.
+//! Joints.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Keys, Kind, MotionValue, Vector};
+use super::Vector;
+use super::tagged::{kinds, part};
 
 /// A joint between two markers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Joint {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// What the joint holds.
+    #[serde(flatten)]
     pub kind: JointKind,
-    /// What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    /// then `body.marker`.
-    pub markers: [String; 2],
-    /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
-    /// In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    /// its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    /// of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    /// first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    /// (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direction: Option<Vector>,
-    /// `universal` only: the axis that is fixed in the second body, across `direction` and in the same axes as that.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub second_direction: Option<Vector>,
-    /// `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    /// rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
-    /// unloaded, rad, by default that at the start.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub angle: Option<f64>,
-    /// `distance` only: length of the link, m; the distance at the start by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub length: Option<f64>,
-    /// `screw` only: way along the axis a full turn, m; negative of a left-handed thread.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pitch: Option<f64>,
-    /// `generic` only: what is let go along and about the axes of the body of the first marker (of ground: the global
-    /// ones); everything else is held. Of two rotations the first turns about the axis of the first body.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub free: Option<Vec<Freedom>>,
-    /// `revolute` only: stiffness of a spring against rotation, N m/rad.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
-    pub stiffness: Option<f64>,
-    /// `revolute` only: damping of rotation, N m s/rad.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
-    pub damping: Option<f64>,
     /// Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
     /// does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub release_time: Option<f64>,
 }
+part!(Joint { name: String, release_time: Option<f64> });
 
-/// Joints by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum JointKind {
-    /// Holds the position, in space also an axis of rotation. A spring and a damper may act against the rotation.
-    Revolute,
-    /// Holds the position, in space: a ball in its socket.
-    Spherical,
-    /// Holds the position and a right angle between an axis of each body, in space: a cross between two forks.
-    Universal,
-    /// Holds the position and the direction, in space how bodies stand to each other.
-    Weld,
-    /// Holds the marker on a line of the first one, which may move. The marker rotates freely.
-    PointOnLine,
-    /// Holds the marker on a line of the first one, in space, and lets it turn about that line only.
-    Cylindrical,
-    /// Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
-    Screw,
-    /// Holds the marker on a line of the first one, and the direction, in space how bodies stand to each other.
-    Prismatic,
-    /// Holds the marker in a plane of the first one, in space, and lets it turn in that plane only.
-    Planar,
-    /// Holds the direction, in space how bodies stand to each other.
-    Orientation,
-    /// Holds the distance.
-    Distance,
-    /// Holds the marker on the line of a cable.
-    PointOnCable,
-    /// Holds, in space, what `free` does not name.
-    Generic,
+kinds! {
+    /// Joints by kind.
+    JointKind of "Joint", speaks: true {
+        /// Holds the position, in space also an axis of rotation. A spring and a damper may act against the rotation.
+        Revolute(Revolute),
+        /// Holds the position, in space: a ball in its socket.
+        Spherical(Spherical),
+        /// Holds the position and a right angle between an axis of each body, in space: a cross between two forks.
+        Universal(Universal),
+        /// Holds the position and the direction, in space how bodies stand to each other.
+        Weld(Weld),
+        /// Holds the marker on a line of the first one, which may move. The marker rotates freely.
+        PointOnLine(PointOnLine),
+        /// Holds the marker on a line of the first one, in space, and lets it turn about that line only.
+        Cylindrical(Cylindrical),
+        /// Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
+        Screw(Screw),
+        /// Holds the marker on a line of the first one, and the direction, in space how bodies stand to each other.
+        Prismatic(Prismatic),
+        /// Holds the marker in a plane of the first one, in space, and lets it turn in that plane only.
+        Planar(Planar),
+        /// Holds the direction, in space how bodies stand to each other.
+        Orientation(OrientationJoint),
+        /// Holds the distance.
+        Distance(Distance),
+        /// Holds the marker on the line of a cable.
+        PointOnCable(PointOnCable),
+        /// Holds, in space, what `free` does not name.
+        Generic(Generic),
+    }
 }
 
-/// A translation or a rotation that a joint lets go.
+/// A revolute joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Revolute {
+    /// Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Axis of rotation, required in space and absent in the plane. It is given in the axes of the first marker's body at the start:
+    /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Vector>,
+    /// With `stiffness` or `damping` only: angle at which the spring is unloaded, rad; by default the angle at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+    /// Stiffness of a spring against rotation, N m/rad; by default there is no spring.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub stiffness: Option<f64>,
+    /// Damping of rotation, N m s/rad; by default there is no damper.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub damping: Option<f64>,
+}
+
+/// A spherical joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Spherical {
+    /// Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+}
+
+/// A universal joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Universal {
+    /// Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Axis of the cross that is fixed in the first body. It is given in the axes of the first marker's body at the start:
+    /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
+    pub direction: Vector,
+    /// Axis of the cross that is fixed in the second body, perpendicular to `direction` and in the same axes.
+    pub second_direction: Vector,
+}
+
+/// A weld.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Weld {
+    /// Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
+    /// The direction of `ground` is 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+}
+
+/// A point on a line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PointOnLine {
+    /// Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
+    pub markers: [String; 2],
+    /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Direction of the line. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
+    /// or beam the tangent and both axes of its section.
+    // What is missing is told once the dimension is known.
+    #[serde(default)]
+    #[schemars(!default)]
+    pub direction: Vector,
+}
+
+/// A cylindrical joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Cylindrical {
+    /// Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
+    pub markers: [String; 2],
+    /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Direction of the line, which is the axis of rotation too. It is given in the axes of the first marker's body at the start:
+    /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
+    pub direction: Vector,
+}
+
+/// A screw.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Screw {
+    /// Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
+    pub markers: [String; 2],
+    /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Axis of the screw. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
+    /// or beam the tangent and both axes of its section.
+    pub direction: Vector,
+    /// Displacement along the axis for each full turn, m; negative for a left-handed thread.
+    pub pitch: f64,
+}
+
+/// A prismatic joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Prismatic {
+    /// Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
+    pub markers: [String; 2],
+    /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Direction of the line, required in space; in the plane by default the direction of the first marker. It is given in the axes of
+    /// the first marker's body at the start: of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Vector>,
+    /// In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
+    /// The direction of `ground` is 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+}
+
+/// A planar joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Planar {
+    /// Markers that the joint connects: `ground` or the `body.marker` that carries the plane, then the `body.marker` in the plane.
+    pub markers: [String; 2],
+    /// With `ground` only: a point of the plane on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Normal of the plane, which is the axis of rotation too. It is given in the axes of the first marker's body at the start:
+    /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
+    pub direction: Vector,
+}
+
+/// A joint that holds an orientation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OrientationJoint {
+    /// Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
+    /// The direction of `ground` is 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+}
+
+/// A link of constant length.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Distance {
+    /// Markers at the ends of the link: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: end of the link on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Length of the link, m; by default the distance of its ends at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub length: Option<f64>,
+}
+
+/// A point on the line of a cable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PointOnCable {
+    /// Name of the cable, then the `body.marker` on its line.
+    pub markers: [String; 2],
+}
+
+/// A joint by what it leaves free.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Generic {
+    /// Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<Vector>,
+    /// Translations along and rotations about the axes of the first marker's body that are free. The joint holds all others. With
+    /// `ground` these are the global axes. Of two free rotations the first is about the axis of the first body.
+    pub free: Vec<Freedom>,
+}
+
+/// A translation or a rotation that a joint leaves free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Freedom {
@@ -124,66 +270,31 @@ impl Freedom {
     }
 }
 
-/// A gear between two joints: `c2 = ratio c1`, of their coordinates from the start on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Gear {
-    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
-    pub name: String,
-    /// The joints: the angle of those with an axis, else the displacement.
-    pub joints: [String; 2],
-    /// How much the coordinate of the second changes with that of the first: 1, m/rad, rad/m; negative where they turn opposite ways.
-    pub ratio: f64,
-}
-
-/// A coordinate of a joint by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum CoordinateKind {
-    /// The way along its line from the first marker or its point, m.
-    Displacement,
-    /// The angle about its axis, rad.
-    Angle,
-}
-
-/// What keys, checks, equations, outputs, words and the symbol of a kind of joint derive from.
-#[derive(Clone, Copy, Debug)]
-pub struct JointSpec {
-    /// Its name in scenes.
-    pub name: &'static str,
-    /// Its keys.
-    pub keys: &'static [Keys],
-    /// What it holds.
-    pub holds: &'static [Condition],
-    /// How it is drawn.
-    pub symbol: Symbol,
-}
-
 /// What a joint holds of its second marker, as the first one sees it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Condition {
+#[derive(Clone, Copy, Debug)]
+pub enum Condition<'a> {
     /// The position, at that of the first marker.
     Position,
-    /// The position, on a line through the first marker.
-    Line,
-    /// The direction; in space how bodies stand to each other.
-    Direction,
+    /// The position, on a line through the first marker of this direction; by default that of the marker itself.
+    Line(Option<Vector>),
+    /// The direction; in space how bodies stand to each other. The angle between both, rad; by default that at the start.
+    Direction(Option<f64>),
     /// In space an axis, which stays along that of the first body.
-    Axis,
-    /// In space an axis, which stays across one of the first body.
-    Across,
-    /// In space the position, in a plane through the first marker.
-    Plane,
-    /// The distance.
-    Distance,
+    Axis(Vector),
+    /// In space an axis, the second, which stays across one of the first body, the first.
+    Across(Vector, Vector),
+    /// In space the position, in a plane through the first marker of this normal.
+    Plane(Vector),
+    /// The distance, m; by default that at the start.
+    Distance(Option<f64>),
     /// The position, on the curve of a cable, which stands in place of the first marker.
     Curve,
     /// Nothing: a spring and a damper act against the rotation.
-    Spring,
-    /// In space the way along a line, in proportion to the angle about it.
-    Screw,
+    Spring(&'a Revolute),
+    /// In space the way along a line, in proportion to the angle about it: so much a full turn, m.
+    Screw(f64),
     /// In space whatever is not let go.
-    Rest,
+    Rest(&'a [Freedom]),
 }
 
 /// How a joint is drawn.
@@ -209,115 +320,130 @@ pub enum Symbol {
 
 impl JointKind {
     /// Whether there is one in space alone.
-    pub fn is_spatial(self) -> bool {
+    pub fn is_spatial(&self) -> bool {
         matches!(
             self,
-            Self::Spherical
-                | Self::Universal
-                | Self::Cylindrical
-                | Self::Planar
-                | Self::Screw
-                | Self::Generic
+            Self::Spherical(_)
+                | Self::Universal(_)
+                | Self::Cylindrical(_)
+                | Self::Planar(_)
+                | Self::Screw(_)
+                | Self::Generic(_)
         )
     }
 
-    /// The one declaration of the kind.
-    #[rustfmt::skip] // a table
-    pub fn declaration(self) -> JointSpec {
-        use Condition::{Across, Axis, Curve, Direction, Distance, Line, Plane, Position, Rest, Screw};
-        let (name, keys, holds, symbol): (_, &[Keys], &[Condition], _) = match self {
-            Self::Revolute => {
-                ("revolute", &[(&[], &["point", "direction", "angle", "stiffness", "damping"])], &[Position, Axis], Symbol::Pin)
+    /// Conditions that it is made of, with their values.
+    pub fn holds(&self) -> Vec<Condition<'_>> {
+        use Condition::{Across, Axis, Curve, Direction, Line, Plane, Position, Rest};
+        match self {
+            Self::Revolute(of) => {
+                let axis = of.direction.map(Axis);
+                let spring = of.is_sprung().then_some(Condition::Spring(of));
+                [Position].into_iter().chain(axis).chain(spring).collect()
             }
-            Self::Spherical => ("spherical", &[(&[], &["point"])], &[Position], Symbol::Pin),
-            Self::Universal => {
-                ("universal", &[(&["direction", "second_direction"], &["point"])], &[Position, Across], Symbol::Pin)
+            Self::Spherical(_) => vec![Position],
+            Self::Universal(of) => vec![Position, Across(of.direction, of.second_direction)],
+            Self::Weld(of) => vec![Position, Direction(of.angle)],
+            Self::PointOnLine(of) => vec![Line(Some(of.direction))],
+            Self::Cylindrical(of) => vec![Line(Some(of.direction)), Axis(of.direction)],
+            Self::Screw(of) => {
+                let (line, axis) = (Line(Some(of.direction)), Axis(of.direction));
+                vec![line, axis, Condition::Screw(of.pitch)]
             }
-            Self::Weld => ("weld", &[(&[], &["point", "angle"])], &[Position, Direction], Symbol::Weld),
-            Self::PointOnLine => ("point_on_line", &[(&["direction"], &["point"])], &[Line], Symbol::Slider),
-            Self::Cylindrical => ("cylindrical", &[(&["direction"], &["point"])], &[Line, Axis], Symbol::Prismatic),
-            Self::Screw => ("screw", &[(&["direction", "pitch"], &["point"])], &[Line, Axis, Screw], Symbol::Prismatic),
-            Self::Planar => ("planar", &[(&["direction"], &["point"])], &[Plane, Axis], Symbol::Slider),
-            Self::Prismatic => ("prismatic", &[(&[], &["point", "direction", "angle"])], &[Line, Direction], Symbol::Prismatic),
-            Self::Orientation => ("orientation", &[(&[], &["angle"])], &[Direction], Symbol::Orientation),
-            Self::Distance => ("distance", &[(&[], &["point", "length"])], &[Distance], Symbol::Link),
-            Self::PointOnCable => ("point_on_cable", &[(&[], &[])], &[Curve], Symbol::Ring),
-            Self::Generic => ("generic", &[(&["free"], &["point"])], &[Rest], Symbol::Orientation),
-        };
-        JointSpec { name, keys, holds, symbol }
+            Self::Prismatic(of) => vec![Line(of.direction), Direction(of.angle)],
+            Self::Planar(of) => vec![Plane(of.direction), Axis(of.direction)],
+            Self::Orientation(of) => vec![Direction(of.angle)],
+            Self::Distance(of) => vec![Condition::Distance(of.length)],
+            Self::PointOnCable(_) => vec![Curve],
+            Self::Generic(of) => vec![Rest(&of.free)],
+        }
+    }
+
+    /// How it is drawn.
+    pub fn symbol(&self) -> Symbol {
+        match self {
+            Self::Revolute(of) if of.is_sprung() => Symbol::Spiral,
+            Self::Revolute(_) | Self::Spherical(_) | Self::Universal(_) => Symbol::Pin,
+            Self::Weld(_) => Symbol::Weld,
+            Self::PointOnLine(_) | Self::Planar(_) => Symbol::Slider,
+            Self::Cylindrical(_) | Self::Screw(_) | Self::Prismatic(_) => Symbol::Prismatic,
+            Self::Orientation(_) | Self::Generic(_) => Symbol::Orientation,
+            Self::Distance(_) => Symbol::Link,
+            Self::PointOnCable(_) => Symbol::Ring,
+        }
+    }
+
+    /// Names of what it joins: `ground`, a marker or a cable, then a marker.
+    pub fn markers(&self) -> &[String; 2] {
+        match self {
+            Self::Revolute(of) => &of.markers,
+            Self::Spherical(of) => &of.markers,
+            Self::Universal(of) => &of.markers,
+            Self::Weld(of) => &of.markers,
+            Self::PointOnLine(of) => &of.markers,
+            Self::Cylindrical(of) => &of.markers,
+            Self::Screw(of) => &of.markers,
+            Self::Prismatic(of) => &of.markers,
+            Self::Planar(of) => &of.markers,
+            Self::Orientation(of) => &of.markers,
+            Self::Distance(of) => &of.markers,
+            Self::PointOnCable(of) => &of.markers,
+            Self::Generic(of) => &of.markers,
+        }
+    }
+
+    /// Point on the ground, m, of a joint that is given one.
+    pub fn point(&self) -> Option<Vector> {
+        match self {
+            Self::Revolute(of) => of.point,
+            Self::Spherical(of) => of.point,
+            Self::Universal(of) => of.point,
+            Self::Weld(of) => of.point,
+            Self::PointOnLine(of) => of.point,
+            Self::Cylindrical(of) => of.point,
+            Self::Screw(of) => of.point,
+            Self::Prismatic(of) => of.point,
+            Self::Planar(of) => of.point,
+            Self::Distance(of) => of.point,
+            Self::Generic(of) => of.point,
+            Self::Orientation(_) | Self::PointOnCable(_) => None,
+        }
+    }
+
+    /// Values of `direction` and `second_direction`, of a joint that has them.
+    pub fn directions(&self) -> [Option<Vector>; 2] {
+        match self {
+            Self::Revolute(of) => [of.direction, None],
+            Self::Universal(of) => [Some(of.direction), Some(of.second_direction)],
+            Self::PointOnLine(of) => [Some(of.direction), None],
+            Self::Cylindrical(of) => [Some(of.direction), None],
+            Self::Screw(of) => [Some(of.direction), None],
+            Self::Prismatic(of) => [of.direction, None],
+            Self::Planar(of) => [Some(of.direction), None],
+            Self::Spherical(_)
+            | Self::Weld(_)
+            | Self::Orientation(_)
+            | Self::Distance(_)
+            | Self::PointOnCable(_)
+            | Self::Generic(_) => [None; 2],
+        }
+    }
+
+    /// Value of `angle`, rad, of a joint that is given one.
+    pub fn angle(&self) -> Option<f64> {
+        match self {
+            Self::Revolute(Revolute { angle, .. })
+            | Self::Weld(Weld { angle, .. })
+            | Self::Prismatic(Prismatic { angle, .. })
+            | Self::Orientation(OrientationJoint { angle, .. }) => *angle,
+            _ => None,
+        }
     }
 }
 
-impl Joint {
+impl Revolute {
     /// Whether a spring or a damper acts against its rotation.
     pub fn is_sprung(&self) -> bool {
         self.stiffness.is_some() || self.damping.is_some()
-    }
-
-    /// Conditions that it is made of: those of its kind, and its spring.
-    pub fn holds(&self) -> Vec<Condition> {
-        let spring = self.is_sprung().then_some(Condition::Spring);
-        let own = self.kind.declaration().holds.iter().copied();
-        own.chain(spring).collect()
-    }
-}
-
-impl Kind for JointKind {
-    const PART: &'static str = "Joint";
-    const SPEAKS: bool = true;
-
-    fn keys(&self) -> &'static [Keys] {
-        self.declaration().keys
-    }
-}
-
-/// A driven motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Motion {
-    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
-    pub name: String,
-    /// What is driven.
-    pub kind: MotionKind,
-    /// `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub marker: Option<String>,
-    /// `angle`: name of the driven revolute joint; `displacement`: of the joint along a line.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub joint: Option<String>,
-    /// Its course in time: m or rad; of `orientation` the four parts of a quaternion.
-    pub value: MotionValue,
-}
-
-/// Driven motions by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MotionKind {
-    /// Direction of a marker, or direction of the second marker of a joint less that of its first,
-    /// rad.
-    Angle,
-    /// Position of a marker, m.
-    Position,
-    /// In space how a rigid body stands: the quaternion, scalar first, of the frame of a marker's body in global axes, of any
-    /// length and either sign. As an input with rates: the angular velocity and the angular acceleration, in global axes.
-    Orientation,
-    /// Displacement along the line of a point on a line, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
-    /// that line belongs to a cable.
-    Displacement,
-    /// Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
-    /// cable changes with it. What is on the winch has no part in the scene; what acts between its ends acts all along it: `distributed_force`
-    /// (where `s` is the share of the length now), `contact`, `fluid` without added mass.
-    Winch,
-}
-
-impl Kind for MotionKind {
-    const PART: &'static str = "Motion";
-
-    fn keys(&self) -> &'static [Keys] {
-        match self {
-            Self::Position | Self::Orientation | Self::Winch => &[(&["marker"], &[])],
-            Self::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
-            Self::Displacement => &[(&["joint"], &[])],
-        }
     }
 }

@@ -32,7 +32,7 @@ pub fn listed<K: Kind>(definition: &Value) -> impl Iterator<Item = (K, &Value)> 
 
 /// Makes one titled variant for every kind of all parts, each with the keys that it takes.
 pub fn tell_apart(schema: &mut Schema) {
-    tell::<JointKind>(schema);
+    spread::<JointKind>(schema);
     tell::<MotionKind>(schema);
     spread::<LoadKind>(schema);
     spread::<Input>(schema);

@@ -16,7 +16,7 @@ const OF_LOADS: [&str; 2] = ["stiffness", "damping"];
 /// # Errors
 /// The first key that other kinds take.
 pub fn check_keys(scene: &Value) -> Result<(), Error> {
-    check(&scene["joints"], "joints", takers::<JointKind>)?;
+    check(&scene["joints"], "joints", all::<JointKind>)?;
     check(&scene["motions"], "motions", takers::<MotionKind>)?;
     check(&scene["loads"], "loads", all::<LoadKind>)?;
     check(&scene["initial"]["loads"], "initial.loads", all::<LoadKind>)?;

@@ -5,12 +5,14 @@ mod accuracy;
 mod action;
 mod body;
 mod element;
+mod gear;
 mod initial;
 mod input;
 mod joint;
 mod kinds;
 mod load;
 mod meant;
+mod motion;
 mod output;
 mod port;
 mod reader;
@@ -35,17 +37,17 @@ pub use action::{Acting, ActionKind, ActsOn};
 pub use body::{
     Axial, Body, InitialMotion, LineBody, Mass, Material, Model, RigidBody, Sections, Shape, Strain,
 };
+pub use gear::{CoordinateKind, Gear};
 pub use initial::{Initial, InitialState};
 pub use input::Input;
-pub use joint::{
-    Condition, CoordinateKind, Gear, Joint, JointKind, JointSpec, Motion, MotionKind, Symbol,
-};
+pub use joint::{Condition, Freedom, Generic, Joint, JointKind, Revolute, Symbol};
 pub use kinds::{Keys, Kind, tell_apart, tell_by_tag};
 pub use load::{
     Bushing, Contact, DistributedForce, DistributedMoment, Fluid, Force, JointLimit, JointSpring,
     Load, LoadKind, Moment, SpringDamper, Torque,
 };
 pub use meant::check_keys;
+pub use motion::{Motion, MotionKind};
 pub use output::{Along, Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
@@ -55,6 +57,7 @@ pub use section::{Profile, Section, SectionNumbers, Station};
 pub use solid::Solid;
 pub use strict::Strict;
 pub use surface::Surface;
+pub use tagged::Kinds;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
 pub use vector::{Spin, Vector};
 

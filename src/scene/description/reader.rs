@@ -46,6 +46,9 @@ impl Wrong {
             "surface" => "a surface",
             "stiffness" => "a stiffness",
             "density" => "a density",
+            "direction" | "second_direction" => "a direction [x, y, z]",
+            "pitch" => "a pitch",
+            "free" => "a list of freedoms",
             _ => "a value",
         };
         Self::here(wanted, "nothing").under(key)

@@ -17,6 +17,9 @@ pub trait Kinds: Sized {
 
     /// Lists all kinds.
     fn all() -> Vec<OneKind<Self>>;
+
+    /// Value of the key `kind`.
+    fn name(&self) -> &'static str;
 }
 
 /// A kind of a part of a scene.
@@ -31,7 +34,7 @@ pub struct OneKind<K> {
 
 /// Declares an enum with one type for each kind of a part, told apart by the key `kind`.
 macro_rules! kinds {
-    ($(#[$about:meta])* $kinds:ident of $part:literal { $($(#[$told:meta])* $kind:ident($own:ty),)* }) => {
+    ($(#[$about:meta])* $kinds:ident of $part:literal $(, speaks: $speaks:literal)? { $($(#[$told:meta])* $kind:ident($own:ty),)* }) => {
         $(#[$about])*
         #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
         #[serde(tag = "kind", rename_all = "snake_case")]
@@ -39,25 +42,37 @@ macro_rules! kinds {
             $($(#[$told])* $kind($own),)*
         }
 
-        impl $crate::scene::description::tagged::Kinds for $kinds {
-            const PART: &'static str = $part;
+        const _: () = {
+            use $crate::scene::description::strict::typed;
+            use $crate::scene::description::tagged::{Kinds, OneKind, known};
 
-            fn all() -> Vec<$crate::scene::description::tagged::OneKind<Self>> {
-                use $crate::scene::description::strict::typed;
-                use $crate::scene::description::tagged::{OneKind, known};
-                #[derive(serde::Deserialize)]
-                #[serde(rename_all = "snake_case")]
-                enum Name {
-                    $($kind,)*
-                }
-                let names = known::<Name>();
-                vec![$(OneKind {
-                    name: names[Name::$kind as usize],
-                    keys: known::<$own>(),
-                    read: |keys| typed(keys).map(Self::$kind),
-                },)*]
+            #[derive(serde::Deserialize)]
+            #[serde(rename_all = "snake_case")]
+            enum Name {
+                $($kind,)*
             }
-        }
+
+            impl Kinds for $kinds {
+                const PART: &'static str = $part;
+                $(const SPEAKS: bool = $speaks;)?
+
+                fn all() -> Vec<OneKind<Self>> {
+                    let names = known::<Name>();
+                    vec![$(OneKind {
+                        name: names[Name::$kind as usize],
+                        keys: known::<$own>(),
+                        read: |keys| typed(keys).map(Self::$kind),
+                    },)*]
+                }
+
+                fn name(&self) -> &'static str {
+                    let kind = match self {
+                        $(Self::$kind(_) => Name::$kind,)*
+                    };
+                    known::<Name>()[kind as usize]
+                }
+            }
+        };
     };
 }
 pub(super) use kinds;

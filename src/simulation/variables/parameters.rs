@@ -396,8 +396,8 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         Inertia(id, axis) => set_inertia(&mut scene.rigid_mut(id).inertia, axis, value),
         LumpedMass(i) => scene.masses[i].mass = value,
         ReleaseTime(i) => scene.joints[i].release_time = Some(value),
-        HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
-        HingeDamping(i) => scene.joints[i].damping = Some(value),
+        HingeStiffness(i) => scene.revolute_mut(i).stiffness = Some(value),
+        HingeDamping(i) => scene.revolute_mut(i).damping = Some(value),
         SpringStiffness(i) | TorsionStiffness(i) | SpreadStiffness(i) => {
             scene.set_load_stiffness(i, value);
         }
