@@ -97,13 +97,9 @@ fn crosses(port: &Port<'_>, dimension: usize) -> String {
             format!("position, velocity, acceleration{turns} in; force{turn} on the outside out")
         }
         PortKind::Coupling { .. } => {
-            let springs = [
-                (given.stiffness, "N/m"),
-                (given.damping, "N s/m"),
-                (given.rotational_stiffness, "N m/rad"),
-                (given.rotational_damping, "N m s/rad"),
-            ];
-            let sizes = springs.into_iter().filter_map(|(size, unit)| {
+            let units = ["N/m", "N s/m", "N m/rad", "N m s/rad"];
+            let springs = given.springs().into_iter().zip(units);
+            let sizes = springs.filter_map(|(size, unit)| {
                 let size = size?;
                 Some(format!("{} {unit}", number(size)))
             });

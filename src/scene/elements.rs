@@ -289,12 +289,8 @@ impl Scene {
             "inputs" => (self.inputs.get(index))
                 .and_then(Input::action)
                 .map(|of| format!("an input at {} turns its sections", of.on)),
-            "outputs" => (self.outputs.get(index)).map(|of| {
-                format!(
-                    "an output at {} reads its sections",
-                    at(of.marker.as_deref())
-                )
-            }),
+            "outputs" => (self.outputs.get(index))
+                .map(|of| format!("an output at {} reads its sections", at(of.names()[0]))),
             "ports" => (self.ports.get(index)).map(|of| format!("port {} turns with it", of.name)),
             _ => load.map(|of| format!("load {} turns its sections", of.name)),
         };

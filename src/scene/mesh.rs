@@ -1,7 +1,7 @@
 //! Meshes: nodes where something acts on a cable or is joined to it, the rest spread evenly.
 
 use super::Error;
-use super::description::ReadAt;
+use super::description::OutputKind;
 use super::resolved::{
     Cable, InputKind, LoadKind, Marker, MotionKind, Of, On, Place, Resolved, Turning,
 };
@@ -63,7 +63,7 @@ impl<'a> Resolved<'a> {
     fn loaded_markers(&self) -> Vec<Marker<'a>> {
         let mut found = self.acted_on();
         found.extend(self.outputs.iter().filter_map(|output| match output.of {
-            Of::Marker(marker) if output.kind.read_at() == ReadAt::Node => Some(marker),
+            Of::Marker(marker) if output.kind == OutputKind::ConnectivityForce => Some(marker),
             _ => None,
         }));
         found

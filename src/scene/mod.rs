@@ -20,7 +20,7 @@ mod shape;
 mod timed;
 mod validate;
 
-use description::{Reader, Strict, check_keys, check_names};
+use description::{Reader, Strict, check_names};
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
@@ -128,7 +128,6 @@ impl Scene {
             .map_err(|error| Error::new("scene", broken(error)))?;
         let value = without_schema(value.0)?;
         check_names(&value)?;
-        check_keys(&value)?;
         let mut scene = Self::deserialize(Reader(value)).map_err(|wrong| {
             let path = match wrong.path.as_str() {
                 "" => "scene",

@@ -1,7 +1,9 @@
 //! Numbers of a scene that are parameters of its unit. What has none of the kind asked for is an error of the caller.
 
 use super::Scene;
-use super::description::{Bushing, Contact, Fluid, JointKind, LoadKind, Revolute};
+use super::description::{
+    Bushing, Contact, Fluid, JointKind, LoadKind, MotionPort, PortKind, Revolute,
+};
 
 impl Scene {
     /// Sets the stiffness of the load at this place in the list.
@@ -32,6 +34,14 @@ impl Scene {
         match &mut self.joints[joint].kind {
             JointKind::Revolute(revolute) => revolute,
             other => unreachable!("a revolute joint, not {other:?}"),
+        }
+    }
+
+    /// Mutable access to the port that takes a motion at this place in the list of ports.
+    pub fn motion_port_mut(&mut self, port: usize) -> &mut MotionPort {
+        match &mut self.ports[port].kind {
+            PortKind::Motion(motion) => motion,
+            other => unreachable!("a port that takes a motion, not {other:?}"),
         }
     }
 

@@ -23,8 +23,8 @@ impl Scene {
         let mut names = vec![first.to_owned()];
         names.extend(of_joint(first));
         for motion in self.motions.iter().filter(|motion| motion.name == first) {
-            names.extend(motion.marker.iter().map(|marker| owner(marker)));
-            names.extend(motion.joint.iter().flat_map(|joint| of_joint(joint)));
+            names.extend(motion.kind.marker().map(owner));
+            names.extend(motion.kind.joint().map(of_joint).into_iter().flatten());
         }
         for load in self.loads.iter().filter(|load| load.name == first) {
             match &load.kind {

@@ -48,7 +48,7 @@ impl Scene {
             _ => format!("{path}[{k}]"),
         };
         for (i, motion) in self.motions.iter().enumerate() {
-            let values = motion.value.components();
+            let values = motion.kind.value().components();
             for (k, value) in values.iter().enumerate() {
                 let path = place(format!("motions[{i}].value"), values.len(), k);
                 add(path, &motion.name, value, 2);

@@ -1,97 +1,19 @@
-//! Which keys the kinds of joints, motions, loads, inputs, outputs and ports take, beside those that all of them have:
-//! one table, which scenes are checked by and the published schema is made of. Keys of outputs follow from what they
-//! are read at and stand with their kinds.
+//! Kinds of parts in the published schema: one variant for each kind, told apart by its tag.
 
 use schemars::Schema;
-use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
 use super::tagged::Kinds;
-use super::{Input, JointKind, LoadKind, MotionKind, OutputKind, PortKind};
+use super::{Input, JointKind, LoadKind, MotionKind, Output, PortKind};
 
-/// Keys that must be there, and such that may.
-pub type Keys = (&'static [&'static str], &'static [&'static str]);
-
-/// A kind of a part.
-pub trait Kind: DeserializeOwned {
-    /// The part, as the schema names it.
-    const PART: &'static str;
-
-    /// Whether the name of a kind alone says what it is: a revolute is a joint, but a force may be a load or an input.
-    const SPEAKS: bool = false;
-
-    /// Its keys; where there are several, one or the other.
-    fn keys(&self) -> &'static [Keys];
-}
-
-/// The kinds that a definition in a schema lists, each with what it says of it.
-pub fn listed<K: Kind>(definition: &Value) -> impl Iterator<Item = (K, &Value)> {
-    let kinds = definition["oneOf"].as_array().into_iter().flatten();
-    kinds.filter_map(|told| Some((serde_json::from_value(told["const"].clone()).ok()?, told)))
-}
-
-/// Makes one titled variant for every kind of all parts, each with the keys that it takes.
+/// Makes one titled variant for every kind of all parts, with all keys that it takes.
 pub fn tell_apart(schema: &mut Schema) {
     spread::<JointKind>(schema);
-    tell::<MotionKind>(schema);
+    spread::<MotionKind>(schema);
     spread::<LoadKind>(schema);
     spread::<Input>(schema);
-    tell::<OutputKind>(schema);
-    tell::<PortKind>(schema);
-}
-
-fn tell<K: Kind>(schema: &mut Schema) {
-    let pointer = |name: &str| format!("/$defs/{name}");
-    let kinds = schema.pointer(&pointer(&format!("{}Kind", K::PART)));
-    let kinds = kinds.cloned().unwrap_or_default();
-    // Unlike anything else in the schema: models made of it are named so.
-    let title = |kind: &Value| {
-        let name = camel_case(kind["const"].as_str().unwrap_or_default());
-        match K::SPEAKS && schema.pointer(&pointer(&name)).is_none() {
-            true => name,
-            false => name + K::PART,
-        }
-    };
-    // Names, what they mean and which keys they take.
-    let kinds: Vec<(&Value, String, &[Keys])> = listed::<K>(&kinds)
-        .map(|(kind, told)| (told, title(told), kind.keys()))
-        .collect();
-    let Some(part) = schema.pointer_mut(&pointer(K::PART)) else {
-        return;
-    };
-    let all = kinds.iter().flat_map(|(_, _, keys)| keys.iter());
-    let own: Vec<&str> = all.flat_map(|(must, may)| [*must, *may].concat()).collect();
-    let properties = part["properties"].as_object().cloned().unwrap_or_default();
-    let required = part["required"].as_array().cloned().unwrap_or_default();
-    let variants = kinds.iter().flat_map(|(kind, title, keys)| {
-        keys.iter().map(|(must, may)| {
-            let takes =
-                |key: &str| !own.contains(&key) || must.contains(&key) || may.contains(&key);
-            let taken = properties.iter().filter(|(key, _)| takes(key));
-            let mut taken: Map<String, Value> = taken
-                .map(|(key, value)| (key.clone(), value.clone()))
-                .collect();
-            taken.insert(
-                "kind".into(),
-                json!({ "type": "string", "const": kind["const"] }),
-            );
-            let demanded = required.iter().cloned();
-            let demanded = demanded.chain(must.iter().map(|key| json!(key)));
-            json!({
-                "title": title.as_str(),
-                "description": kind["description"],
-                "type": "object",
-                "properties": taken,
-                "additionalProperties": false,
-                "required": demanded.collect::<Vec<_>>(),
-            })
-        })
-    });
-    let variants: Vec<Value> = variants.collect();
-    *part = json!({ "description": part["description"], "oneOf": variants });
-    if let Some(definitions) = schema.pointer_mut("/$defs").and_then(Value::as_object_mut) {
-        definitions.remove(&format!("{}Kind", K::PART));
-    }
+    spread::<Output>(schema);
+    spread::<PortKind>(schema);
 }
 
 /// Gives every variant of a part the keys that all of them share.

@@ -11,7 +11,6 @@ mod input;
 mod joint;
 mod kinds;
 mod load;
-mod meant;
 mod motion;
 mod output;
 mod port;
@@ -41,15 +40,14 @@ pub use gear::{CoordinateKind, Gear};
 pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use joint::{Condition, Freedom, Generic, Joint, JointKind, Revolute, Symbol};
-pub use kinds::{Keys, Kind, tell_apart, tell_by_tag};
+pub use kinds::{tell_apart, tell_by_tag};
 pub use load::{
     Bushing, Contact, DistributedForce, DistributedMoment, Fluid, Force, JointLimit, JointSpring,
     Load, LoadKind, Moment, SpringDamper, Torque,
 };
-pub use meant::check_keys;
 pub use motion::{Motion, MotionKind};
-pub use output::{Along, Output, OutputKind, ReadAt};
-pub use port::{Port, PortKind};
+pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
+pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;
 pub use renamed::check_names;
 pub use rotation::{Inertia, Orientation};

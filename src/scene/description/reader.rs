@@ -27,7 +27,7 @@ pub struct Wrong {
 pub struct Reader(pub Value);
 
 impl Wrong {
-    fn here(wanted: impl Display, found: impl Display) -> Self {
+    pub(super) fn here(wanted: impl Display, found: impl Display) -> Self {
         let message = format!("expected {wanted}, found {found}");
         let path = String::new();
         Self { path, message }
@@ -49,6 +49,8 @@ impl Wrong {
             "direction" | "second_direction" => "a direction [x, y, z]",
             "pitch" => "a pitch",
             "free" => "a list of freedoms",
+            "points" => "points",
+            "count" => "an integer from 1 to 100",
             _ => "a value",
         };
         Self::here(wanted, "nothing").under(key)

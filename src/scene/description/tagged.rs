@@ -7,6 +7,9 @@ use serde_json::{Map, Value};
 use super::reader::Wrong;
 use super::strict::{Strict, at, typed};
 
+/// Keys of a joint that a load between its markers takes too.
+const OF_LOADS: [&str; 2] = ["stiffness", "damping"];
+
 /// Kinds of a part of a scene.
 pub trait Kinds: Sized {
     /// Name of the part in the schema.
@@ -34,6 +37,27 @@ pub struct OneKind<K> {
 
 /// Declares an enum with one type for each kind of a part, told apart by the key `kind`.
 macro_rules! kinds {
+    ($(#[$about:meta])* $kinds:ident named $names:ident of $part:literal { $($(#[$told:meta])* $kind:ident($own:ty),)* }) => {
+        kinds! {
+            $(#[$about])*
+            $kinds of $part { $($(#[$told])* $kind($own),)* }
+        }
+
+        /// Kinds by name.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $names {
+            $($(#[$told])* $kind,)*
+        }
+
+        impl $kinds {
+            /// Name of its kind.
+            pub fn kind(&self) -> $names {
+                match self {
+                    $(Self::$kind(_) => $names::$kind,)*
+                }
+            }
+        }
+    };
     ($(#[$about:meta])* $kinds:ident of $part:literal $(, speaks: $speaks:literal)? { $($(#[$told:meta])* $kind:ident($own:ty),)* }) => {
         $(#[$about])*
         #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema)]
@@ -127,15 +151,18 @@ fn parted<S: DeserializeOwned, K: Kinds>(value: Value) -> Result<(S, K), Wrong> 
     let kind = all.iter().find(|kind| name == kind.name);
     let kind = kind.ok_or_else(|| Wrong::no_variant(&name, &names).under("kind"))?;
     let shared = known::<S>();
-    // Null in place of a key of any kind says nothing; neither does false in place of one of another kind.
     let is_of_a_kind = |key: &str| all.iter().any(|kind| kind.keys.contains(&key));
+    // Null in place of a key of any kind says nothing; neither does false in place of one of another kind.
     keys.retain(|key, value| match kind.keys.contains(&&**key) {
         true => !value.is_null(),
-        false => !is_of_a_kind(key) || is_said(value),
+        false => !(is_of_a_kind(key) && (value.is_null() || *value == Value::Bool(false))),
     });
-    let mut strange = keys.keys();
-    let is_known = |key: &str| shared.contains(&key) || kind.keys.contains(&key);
-    if let Some(key) = strange.find(|key| !is_known(key)) {
+    let is_known = |key: &&String| shared.contains(&&***key) || kind.keys.contains(&&***key);
+    let mut strange = keys.keys().filter(|key| !is_known(key));
+    if let Some(key) = strange.clone().find(|key| is_of_a_kind(key)) {
+        return Err(of_another_kind(kind, key, &all).under(key));
+    }
+    if let Some(key) = strange.next() {
         let known = [shared, &["kind"], kind.keys].concat();
         return Err(Wrong::no_key(key, &known).under(key));
     }
@@ -144,9 +171,27 @@ fn parted<S: DeserializeOwned, K: Kinds>(value: Value) -> Result<(S, K), Wrong> 
     Ok((typed(of_all.into())?, (kind.read)(own.into())?))
 }
 
-/// Whether a value of a key that a kind does not have is more than a way to leave it out.
-pub(super) fn is_said(value: &Value) -> bool {
-    !value.is_null() && *value != Value::Bool(false)
+/// What is told of a key that other kinds take and this one does not.
+fn of_another_kind<K: Kinds>(kind: &OneKind<K>, key: &str, all: &[OneKind<K>]) -> Wrong {
+    let is_of_all = |key: &&str| all.iter().all(|kind| kind.keys.contains(key));
+    let own: Vec<&str> = (kind.keys.iter().copied())
+        .filter(|key| !is_of_all(key))
+        .collect();
+    let has = match own.is_empty() {
+        true => "none beside those of all".into(),
+        false => own.join(", "),
+    };
+    let takers = all.iter().filter(|kind| kind.keys.contains(&key));
+    let takers: Vec<&str> = takers.map(|kind| kind.name).collect();
+    let load = match K::PART == "Joint" && OF_LOADS.contains(&key) {
+        true => " and of a load of kind joint_spring",
+        false => "",
+    };
+    let takers = takers.join(", ");
+    Wrong::here(
+        format!("a key of the kind {} ({has})", kind.name),
+        format!("`{key}`, which is one of {takers}{load}"),
+    )
 }
 
 /// Names of the fields of a struct, or of the variants of an enum, as its derived `Deserialize` knows them.

@@ -6,7 +6,6 @@ use std::fmt::Display;
 use crate::math::function::Function;
 use crate::scene::Error;
 use crate::scene::alike::{did_you_mean, listed};
-use crate::scene::description::Keys;
 use crate::scene::description::{Spin, Value, Vector};
 use crate::scene::marker::GROUND;
 
@@ -56,42 +55,6 @@ pub fn unknown<'a>(
     let wanted = format!("{what}{}", listed(&known));
     let meant = did_you_mean(name, known);
     expected(path, &wanted, quoted(name) + &meant)
-}
-
-/// An optional key: its name, whether it is there, and what would stand there.
-pub type Key = (&'static str, bool, &'static str);
-
-/// Checks that the keys of a kind are there, and no others; of several alternatives the first of which anything is
-/// there that not all of them have, or the last.
-///
-/// # Errors
-/// A key that the kind lacks, or one that it does not have.
-pub fn keys(path: &str, of: &str, all: &[Key], alternatives: &[Keys]) -> Result<(), Error> {
-    let is_meant = |(must, _): &&Keys| {
-        let mut given = all.iter().filter(|(_, is_given, _)| *is_given);
-        let is_own = |key: &str| alternatives.iter().any(|(must, _)| !must.contains(&key));
-        given.any(|(key, ..)| must.contains(key) && is_own(key))
-    };
-    let meant = alternatives.iter().find(is_meant).or(alternatives.last());
-    let (must, may) = meant.copied().unwrap_or_default();
-    for (key, is_given, what) in all {
-        // Only what is wrong is put in words.
-        let place = || format!("{path}.{key}");
-        if must.contains(key) && !is_given {
-            return Err(expected(&place(), what, "nothing"));
-        }
-        if *is_given && !must.contains(key) && !may.contains(key) {
-            let is_own = alternatives
-                .iter()
-                .any(|(must, may)| must.contains(key) || may.contains(key));
-            let wanted = match must {
-                [first, ..] if is_own => format!("nothing beside `{first}`"),
-                _ => format!("nothing for this kind of {of}"),
-            };
-            return Err(expected(&place(), &wanted, what));
-        }
-    }
-    Ok(())
 }
 
 /// Returns the value of a key that its kind demands.

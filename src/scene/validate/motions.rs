@@ -1,10 +1,11 @@
 //! Checks of driven motions.
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
+use std::mem::discriminant;
 
-use super::checks::{Key, components, expected, keys, needed, quoted, shape, value};
+use super::checks::{components, expected, quoted, shape, value};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue, Value};
+use crate::scene::description::{MotionKind as Given, MotionValue, Value};
 use crate::scene::resolved::{self, Resolved, Turning};
 use crate::system::{Attitude, Drive};
 
@@ -24,11 +25,11 @@ impl<'a> Resolved<'a> {
         let inputs = self.scene.inputs.iter();
         let dimension = self.scene.dimension;
         self.numbers = inputs.map(|input| input.components(dimension)).sum();
-        let mut seen = BTreeSet::new();
+        let mut seen = HashSet::new();
         for (index, motion) in self.scene.motions.iter().enumerate() {
             let path = format!("motions[{index}]");
-            let kind = self.resolve_motion(&path, motion)?;
-            if !seen.insert((motion.kind as u8, kind.of())) {
+            let kind = self.resolve_motion(&path, &motion.kind)?;
+            if !seen.insert((discriminant(&motion.kind), kind.of())) {
                 let wanted = "a motion of what is not driven yet";
                 return Err(expected(&path, wanted, quoted(kind.of())));
             }
@@ -37,7 +38,7 @@ impl<'a> Resolved<'a> {
                 name: &motion.name,
                 holder,
                 kind,
-                values: motion.value.components(),
+                values: motion.kind.value().components(),
             });
         }
         Ok(())
@@ -46,53 +47,46 @@ impl<'a> Resolved<'a> {
     fn resolve_motion(
         &mut self,
         path: &str,
-        motion: &'a Motion,
+        motion: &'a Given,
     ) -> Result<resolved::MotionKind<'a>, Error> {
         use resolved::MotionKind as Kind;
-        let all: [Key; 2] = [
-            ("marker", motion.marker.is_some(), "a name"),
-            ("joint", motion.joint.is_some(), "a name"),
-        ];
-        if motion.kind == MotionKind::Angle && motion.marker.is_some() == motion.joint.is_some() {
-            let found = motion.marker.as_ref().map_or("neither", |_| "both");
-            return Err(expected(path, "either a marker or a joint", found));
-        }
-        keys(path, "motion", &all, motion.kind.keys())?;
-        let [at_marker, at_joint, at_value] =
-            ["marker", "joint", "value"].map(|key| format!("{path}.{key}"));
-        let marker = || needed(path, "marker", "a name", motion.marker.as_deref());
-        let joint = || needed(path, "joint", "a name", motion.joint.as_deref());
-        Ok(match (motion.kind, &motion.joint) {
-            (MotionKind::Position, _) => {
-                let marker = self.require_marker(&at_marker, marker()?)?;
-                Kind::Position(marker, self.vector_of_drives(&at_value, &motion.value)?)
+        let at = |key: &str| format!("{path}.{key}");
+        let (at_marker, at_value) = (at("marker"), at("value"));
+        Ok(match motion {
+            Given::Position(of) => {
+                let marker = self.require_marker(&at_marker, &of.marker)?;
+                Kind::Position(marker, self.vector_of_drives(&at_value, &of.value)?)
             }
-            (MotionKind::Orientation, _) => {
-                let marker = self.require_driven(&at_marker, marker()?)?;
-                Kind::Orientation(marker, self.quaternion_of_drives(&at_value, &motion.value)?)
+            Given::Orientation(of) => {
+                let marker = self.require_driven(&at_marker, &of.marker)?;
+                Kind::Orientation(marker, self.quaternion_of_drives(&at_value, &of.value)?)
             }
-            (MotionKind::Angle, None) => {
-                let turning =
-                    Turning::Marker(self.require_turning(&at_marker, marker()?, NO_ANGLE)?);
-                Kind::Angle(turning, self.one_drive(&at_value, &motion.value)?)
+            Given::Angle(of) => {
+                let turning = match (&of.marker, &of.joint) {
+                    (Some(marker), None) => {
+                        Turning::Marker(self.require_turning(&at_marker, marker, NO_ANGLE)?)
+                    }
+                    (None, Some(joint)) => Turning::Pivot(self.require_pivot(&at("joint"), joint)?),
+                    (marker, _) => {
+                        let found = marker.as_ref().map_or("neither", |_| "both");
+                        return Err(expected(path, "either a marker or a joint", found));
+                    }
+                };
+                Kind::Angle(turning, self.one_drive(&at_value, &of.value)?)
             }
-            (MotionKind::Angle, Some(joint)) => {
-                let turning = Turning::Pivot(self.require_pivot(&at_joint, joint)?);
-                Kind::Angle(turning, self.one_drive(&at_value, &motion.value)?)
-            }
-            (MotionKind::Winch, _) => {
-                let marker = self.require_paid_out(&at_marker, marker()?)?;
-                if let MotionValue::One(Value::Number(number)) = &motion.value
+            Given::Winch(of) => {
+                let marker = self.require_paid_out(&at_marker, &of.marker)?;
+                if let MotionValue::One(Value::Number(number)) = &of.value
                     && *number != 0.0
                 {
                     let wanted = "a length that begins at 0, since the cable is as long as its shape at the start";
                     return Err(expected(&at_value, wanted, number));
                 }
-                Kind::Winch(marker, self.one_drive(&at_value, &motion.value)?)
+                Kind::Winch(marker, self.one_drive(&at_value, &of.value)?)
             }
-            (MotionKind::Displacement, _) => {
-                let slider = self.require_slider(&at_joint, joint()?)?;
-                Kind::Displacement(slider, self.one_drive(&at_value, &motion.value)?)
+            Given::Displacement(of) => {
+                let slider = self.require_slider(&at("joint"), &of.joint)?;
+                Kind::Displacement(slider, self.one_drive(&at_value, &of.value)?)
             }
         })
     }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, needed, quoted, unknown};
+use super::checks::{expected, needed, quoted, unknown};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, Output, OutputKind, ReadAt};
+use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
 use crate::scene::resolved::{
     self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning,
 };
@@ -14,38 +14,37 @@ const NO_ANGLE: &str = "nothing in space, where `orientation`, `quaternion` and 
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
 
-impl Output {
-    fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 10] = [
-            ("marker", self.marker.is_some(), "a name"),
-            ("from", self.from.is_some(), "a name"),
-            ("joint", self.joint.is_some(), "a name"),
-            ("gear", self.gear.is_some(), "a name"),
-            ("load", self.load.is_some(), "a name"),
-            ("motion", self.motion.is_some(), "a name"),
-            ("axes", !self.axes.is_global(), "axes"),
-            ("body", self.body.is_some(), "a name"),
-            ("count", self.count.is_some(), "a count"),
-            ("points", self.points.is_some(), "points"),
-        ];
-        let alternatives = self.kind.keys();
-        let of = [&self.marker, &self.joint, &self.motion];
-        if alternatives.len() > 1 && of.into_iter().flatten().count() > 1 {
-            return Err(expected(path, "one name of what is read", "two"));
-        }
-        keys(path, "output", &all, alternatives)
-    }
+/// What an output is read at that has a key for either of two things.
+enum Either<'a> {
+    First(&'a str),
+    Last(&'a str),
+}
 
-    fn validate_count(&self, path: &str) -> Result<(), Error> {
-        let is_right = |count| (1..=MOST_FREQUENCIES).contains(&count);
-        let is_spectrum = self.kind.read_at() == ReadAt::Spectrum;
-        if !is_spectrum || self.count.is_some_and(is_right) {
-            return Ok(());
+/// What an output is read at by one of two keys, the last of which is asked for where neither is there. Axes are those of the last.
+fn either<'a>(
+    path: &str,
+    (first, one): (&str, &'a Option<String>),
+    (last, other): (&str, &'a Option<String>),
+    axes: Along,
+) -> Result<Either<'a>, Error> {
+    match (one, other) {
+        (Some(_), Some(_)) => Err(expected(path, "one name of what is read", "two")),
+        (Some(_), None) if !axes.is_global() => {
+            let wanted = format!("nothing beside `{first}`");
+            Err(expected(&format!("{path}.axes"), &wanted, "axes"))
         }
-        let wanted = format!("an integer from 1 to {MOST_FREQUENCIES}");
-        let found = self.count.map_or("nothing".into(), |n| n.to_string());
-        Err(expected(&format!("{path}.count"), &wanted, found))
+        (Some(name), None) => Ok(Either::First(name)),
+        (None, name) => needed(path, last, "a name", name.as_deref()).map(Either::Last),
     }
+}
+
+/// Checks a number of natural frequencies or eigenvalues.
+fn validate_count(path: &str, count: u32) -> Result<(), Error> {
+    if (1..=MOST_FREQUENCIES).contains(&count) {
+        return Ok(());
+    }
+    let wanted = format!("an integer from 1 to {MOST_FREQUENCIES}");
+    Err(expected(&format!("{path}.count"), &wanted, count))
 }
 
 impl<'a> Resolved<'a> {
@@ -58,23 +57,12 @@ impl<'a> Resolved<'a> {
         let mut seen = BTreeSet::new();
         for (index, output) in self.scene.outputs.iter().enumerate() {
             let path = format!("outputs[{index}]");
-            output.validate_keys(&path)?;
-            output.validate_count(&path)?;
             let of = self.resolve_output(&path, output)?;
             self.validate_axes(&path, output, &of)?;
-            let named = [
-                &output.marker,
-                &output.from,
-                &output.joint,
-                &output.gear,
-                &output.load,
-                &output.motion,
-                &output.body,
-            ];
-            if !seen.insert((output.kind as u8, output.axes as u8, named)) {
+            let (kind, along) = (output.kind(), output.axes());
+            if !seen.insert((kind as u8, along as u8, output.names())) {
                 return Err(expected(&path, "an output not declared before", "it again"));
             }
-            let (kind, along) = (output.kind, output.axes);
             self.outputs.push(resolved::Output { kind, of, along });
         }
         Ok(())
@@ -82,7 +70,7 @@ impl<'a> Resolved<'a> {
 
     /// Axes of a body are those of a rigid body in space that turns.
     fn validate_axes(&self, path: &str, output: &Output, of: &Of<'_>) -> Result<(), Error> {
-        if output.axes.is_global() {
+        if output.axes().is_global() {
             return Ok(());
         }
         let (path, found) = (format!("{path}.axes"), "axes of a body");
@@ -107,69 +95,88 @@ impl<'a> Resolved<'a> {
     }
 
     fn resolve_output(&mut self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {
-        let marker = |require: fn(&Self, &str, &'a str) -> Result<Marker<'a>, Error>| {
-            let name = needed(path, "marker", "a name", output.marker.as_deref())?;
-            require(self, &format!("{path}.marker"), name)
-        };
-        let turning = || match &output.joint {
-            Some(joint) => {
-                let pivot = self.require_pivot(&format!("{path}.joint"), joint)?;
-                Ok::<_, Error>(Turning::Pivot(pivot))
+        let at = |key: &str| format!("{path}.{key}");
+        Ok(match output {
+            Output::Position(of) => Of::Marker(self.require_marker(&at("marker"), &of.marker)?),
+            Output::Direction(of) => Of::Marker(self.require_directed(&at("marker"), &of.marker)?),
+            Output::Velocity(of) | Output::Acceleration(of) => {
+                let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
+                match either(path, joint, marker, Along::Global)? {
+                    Either::First(joint) => Of::Sliding(self.require_slider(&at("joint"), joint)?),
+                    Either::Last(marker) => Of::Marker(self.require_marker(&at("marker"), marker)?),
+                }
             }
-            None => Ok(Turning::Marker(marker(|of, path, name| {
-                of.require_turning(path, name, NO_ANGLE)
-            })?)),
-        };
-        let spinning = || match &output.joint {
-            Some(_) => turning(),
-            None => Ok(Turning::Marker(marker(Self::require_spinning)?)),
-        };
-        Ok(match output.kind.read_at() {
-            ReadAt::Moving if output.joint.is_none() => Of::Marker(marker(Self::require_marker)?),
-            ReadAt::Moving | ReadAt::Sliding => {
-                let name = needed(path, "joint", "a name", output.joint.as_deref())?;
-                Of::Sliding(self.require_slider(&format!("{path}.joint"), name)?)
+            Output::Displacement(of) => Of::Sliding(self.require_slider(&at("joint"), &of.joint)?),
+            Output::Deflection(of) => {
+                let marker = self.require_cable_marker(&at("marker"), &of.marker)?;
+                Of::Deflected(marker, self.deflected_from(path, of, &marker)?)
             }
-            ReadAt::Gear => self.gear(path, output)?,
-            ReadAt::Load => self.exerting(path, output)?,
-            ReadAt::Marker => Of::Marker(marker(Self::require_marker)?),
-            ReadAt::Directed => Of::Marker(marker(Self::require_directed)?),
-            ReadAt::Standing => Of::Marker(marker(Self::require_standing)?),
-            ReadAt::Cable | ReadAt::Node => Of::Marker(marker(Self::require_cable_marker)?),
-            ReadAt::Rod => Of::Marker(marker(Self::require_rod_marker)?),
-            ReadAt::Flexible => Of::Marker(marker(Self::require_flexible_marker)?),
-            ReadAt::Points => self.section_points(path, output)?,
-            ReadAt::Deflected => {
-                let marker = marker(Self::require_cable_marker)?;
-                Of::Deflected(marker, self.deflected_from(path, output, &marker)?)
-            }
-            ReadAt::Turning => Of::Turning(spinning()?),
-            ReadAt::Angle => {
-                let turning = turning()?;
+            Output::Angle(of) => {
+                let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
+                let turning = match either(path, joint, marker, Along::Global)? {
+                    Either::First(joint) => {
+                        Turning::Pivot(self.require_pivot(&at("joint"), joint)?)
+                    }
+                    Either::Last(marker) => {
+                        Turning::Marker(self.require_turning(&at("marker"), marker, NO_ANGLE)?)
+                    }
+                };
                 self.count_angle(turning)
             }
-            ReadAt::Slide => {
-                let name = needed(path, "joint", "a name", output.joint.as_deref())?;
-                self.travel(&format!("{path}.joint"), name)?
+            Output::AngularVelocity(of) | Output::AngularAcceleration(of) => {
+                let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
+                Of::Turning(match either(path, joint, marker, of.axes)? {
+                    Either::First(joint) => {
+                        Turning::Pivot(self.require_pivot(&at("joint"), joint)?)
+                    }
+                    Either::Last(marker) => {
+                        Turning::Marker(self.require_spinning(&at("marker"), marker)?)
+                    }
+                })
             }
-            ReadAt::Force | ReadAt::Moment => Of::Reaction(self.reaction(path, output)?),
-            ReadAt::Scene => Of::Scene,
-            ReadAt::Spectrum => {
-                let count = needed(path, "count", "a count", output.count)?;
-                let body = output.body.as_deref();
-                if let Some(name) = body {
-                    self.validate_body_output(&format!("{path}.body"), name)?;
-                }
-                Of::Spectrum(body, count)
+            Output::Orientation(of) | Output::Quaternion(of) | Output::RotationVector(of) => {
+                Of::Marker(self.require_standing(&at("marker"), &of.marker)?)
             }
+            Output::Strain(of) | Output::Curvature(of) => {
+                Of::Marker(self.require_flexible_marker(&at("marker"), &of.marker)?)
+            }
+            Output::AxialForce(of) | Output::BendingMoment(of) | Output::ConnectivityForce(of) => {
+                Of::Marker(self.require_cable_marker(&at("marker"), &of.marker)?)
+            }
+            Output::Torque(of) => Of::Marker(self.require_rod_marker(&at("marker"), &of.marker)?),
+            Output::Stress(of) => self.stress_points(path, &of.marker, &of.points)?,
+            Output::TorsionStress(of) => self.torsion_points(path, &of.marker, &of.points)?,
+            Output::Travel(of) => self.travel(&at("joint"), &of.joint)?,
+            Output::Reaction(of) => Of::Reaction(self.reaction(path, of, false)?),
+            Output::ReactionMoment(of) => Of::Reaction(self.reaction(path, of, true)?),
+            Output::GearForce(of) => self.gear(&at("gear"), &of.gear, false)?,
+            Output::GearTorque(of) => self.gear(&at("gear"), &of.gear, true)?,
+            Output::LoadForce(of) => self.exerting(&at("load"), &of.load, false)?,
+            Output::LoadMoment(of) => self.exerting(&at("load"), &of.load, true)?,
+            Output::Energy(_)
+            | Output::Work(_)
+            | Output::Momentum(_)
+            | Output::CenterOfMass(_)
+            | Output::Resolution(_)
+            | Output::Residual(_) => Of::Scene,
+            Output::NaturalFrequency(of) => self.spectrum(path, &of.body, of.count)?,
+            Output::Eigenvalue(of) => self.spectrum(path, &of.body, of.count)?,
         })
+    }
+
+    fn spectrum(&self, path: &str, body: &'a Option<String>, count: u32) -> Result<Of<'a>, Error> {
+        validate_count(path, count)?;
+        if let Some(name) = body {
+            self.validate_body_output(&format!("{path}.body"), name)?;
+        }
+        Ok(Of::Spectrum(body.as_deref(), count))
     }
 
     /// The marker whose frame carries the rigid body that another one of its body is compared with.
     fn deflected_from(
         &self,
         path: &str,
-        output: &'a Output,
+        output: &'a DeflectionOutput,
         marker: &Marker<'a>,
     ) -> Result<Option<Marker<'a>>, Error> {
         let Some(name) = &output.from else {
@@ -203,34 +210,32 @@ impl<'a> Resolved<'a> {
         Ok(Of::Slide(joint.name, slide))
     }
 
-    fn gear(&self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {
-        let name = needed(path, "gear", "a name", output.gear.as_deref())?;
-        let path = format!("{path}.gear");
+    fn gear(&self, path: &str, name: &str, is_torque: bool) -> Result<Of<'a>, Error> {
         let Some(gear) = self.gears.iter().find(|gear| gear.name == name) else {
             let known = self.gears.iter().map(|gear| gear.name);
-            return Err(unknown(&path, "a gear of this scene", name, known));
+            return Err(unknown(path, "a gear of this scene", name, known));
         };
         let [_, second] = &gear.coordinates;
-        if second.is_angle() != (output.kind == OutputKind::GearTorque) {
-            let wanted = if second.is_angle() {
-                "a gear whose second coordinate is a displacement; gear_torque reads angles"
-            } else {
-                "a gear whose second coordinate is an angle; gear_force reads displacements"
+        if second.is_angle() != is_torque {
+            let wanted = match second.is_angle() {
+                true => {
+                    "a gear whose second coordinate is a displacement; gear_torque reads angles"
+                }
+                false => {
+                    "a gear whose second coordinate is an angle; gear_force reads displacements"
+                }
             };
-            return Err(expected(&path, wanted, quoted(name)));
+            return Err(expected(path, wanted, quoted(name)));
         }
         Ok(Of::Gear(gear.name, gear.holder))
     }
 
-    fn exerting(&self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {
-        let name = needed(path, "load", "a name", output.load.as_deref())?;
-        let path = format!("{path}.load");
+    fn exerting(&self, path: &str, name: &str, is_moment: bool) -> Result<Of<'a>, Error> {
         let mut loads = self.numbered_loads();
         let Some((id, load)) = loads.find(|(_, load)| load.name == name) else {
             let known = self.numbered_loads().map(|(_, load)| load.name);
-            return Err(unknown(&path, "a load of this scene", name, known));
+            return Err(unknown(path, "a load of this scene", name, known));
         };
-        let is_moment = output.kind == OutputKind::LoadMoment;
         if load.kind.exerts()[usize::from(is_moment)] {
             return Ok(Of::Load(load.name, id, load.kind.exerts_on()));
         }
@@ -239,15 +244,22 @@ impl<'a> Resolved<'a> {
         } else {
             "a spring_damper, bushing or contact, or a joint_spring or stop on a displacement"
         };
-        Err(expected(&path, wanted, quoted(name)))
+        Err(expected(path, wanted, quoted(name)))
     }
 
-    fn reaction(&self, path: &str, output: &'a Output) -> Result<Reaction<'a>, Error> {
-        let is_moment = output.kind.read_at() == ReadAt::Moment;
-        if let Some(name) = &output.motion {
-            return self.motion_reaction(&format!("{path}.motion"), name, is_moment);
-        }
-        let name = needed(path, "joint", "a name", output.joint.as_deref())?;
+    fn reaction(
+        &self,
+        path: &str,
+        output: &'a ReactionOutput,
+        is_moment: bool,
+    ) -> Result<Reaction<'a>, Error> {
+        let (motion, joint) = (("motion", &output.motion), ("joint", &output.joint));
+        let name = match either(path, motion, joint, output.axes)? {
+            Either::First(name) => {
+                return self.motion_reaction(&format!("{path}.motion"), name, is_moment);
+            }
+            Either::Last(name) => name,
+        };
         let path = format!("{path}.joint");
         let joint = self.require_joint(&path, name)?;
         let (wanted, offered) = if is_moment {

@@ -2,34 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, not_negative, quoted, spring_damper};
+use super::checks::{expected, not_negative, quoted, spring_damper};
 use crate::scene::Error;
-use crate::scene::description::{ActionKind, Along, Kind as _, OutputKind, Port, PortKind};
+use crate::scene::description::{ActionKind, Along, MotionPort, OutputKind, Port, PortKind};
 use crate::scene::resolved::{
     self, Action, Coupling, CouplingId, Incoming, InputKind, Marker, Motion, MotionKind, Of, On,
     Output, Resolved, Turning,
 };
 use crate::system::Signal;
 
-impl Port {
-    fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 4] = [
-            ("stiffness", self.stiffness.is_some(), "a stiffness"),
-            ("damping", self.damping.is_some(), "a damping"),
-            (
-                "rotational_stiffness",
-                self.rotational_stiffness.is_some(),
-                "a rotational stiffness",
-            ),
-            (
-                "rotational_damping",
-                self.rotational_damping.is_some(),
-                "a rotational damping",
-            ),
-        ];
-        keys(path, "port", &all, self.kind.keys())
-    }
-
+impl MotionPort {
     fn validate_springs(&self, path: &str) -> Result<(), Error> {
         let turning = [
             ("rotational_stiffness", self.rotational_stiffness, "N m/rad"),
@@ -73,8 +55,9 @@ impl<'a> Resolved<'a> {
         for (index, port) in self.scene.ports.iter().enumerate() {
             let path = format!("ports[{index}]");
             let place = format!("{path}.marker");
-            port.validate_keys(&path)?;
-            port.validate_springs(&path)?;
+            if let PortKind::Motion(motion) = &port.kind {
+                motion.validate_springs(&path)?;
+            }
             let is_spatial = self.scene.dimension == 3;
             let marker = if !port.turns() {
                 self.require_marker(&place, &port.marker)?
@@ -98,10 +81,12 @@ impl<'a> Resolved<'a> {
                     }
                 }
             }
-            let kind = match port.kind {
-                PortKind::Force => self.force_port(port, marker),
-                PortKind::Motion if port.is_coupling() => self.coupling_port(port, marker),
-                PortKind::Motion => self.motion_port(&path, port, marker),
+            let kind = match &port.kind {
+                PortKind::Force(_) => self.force_port(port, marker),
+                PortKind::Motion(motion) if motion.is_coupling() => {
+                    self.coupling_port(motion, marker)
+                }
+                PortKind::Motion(_) => self.motion_port(&path, port, marker),
             };
             self.ports.push(resolved::Port {
                 name: &port.name,
@@ -190,7 +175,7 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    fn coupling_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
+    fn coupling_port(&mut self, port: &MotionPort, marker: Marker<'a>) -> resolved::PortKind<'a> {
         let coupling = |resolved: &mut Self, incoming, first, stiffness, damping| {
             resolved.couplings += 1;
             Box::new(Coupling {

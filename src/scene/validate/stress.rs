@@ -1,9 +1,8 @@
 //! Points of sections whose stress is read.
 
-use super::checks::{expected, finite, needed, quoted};
+use super::checks::{expected, finite, quoted};
 use crate::scene::Error;
-use crate::scene::description::{Output, OutputKind};
-use crate::scene::resolved::{Of, Place, PointId, Resolved, SectionPoint};
+use crate::scene::resolved::{Marker, Of, Place, PointId, Resolved, SectionPoint};
 
 /// Most points of a section.
 const MOST_POINTS: usize = 100;
@@ -14,17 +13,38 @@ impl<'a> Resolved<'a> {
     /// # Errors
     /// A marker that does not exist, a section whose stress is not known, or points that are missing, too many or of
     /// another dimension.
-    pub(super) fn section_points(
+    pub(super) fn stress_points(
         &mut self,
         path: &str,
-        output: &'a Output,
+        marker: &'a str,
+        points: &'a [Vec<f64>],
     ) -> Result<Of<'a>, Error> {
         let place = format!("{path}.marker");
-        let name = needed(path, "marker", "a name", output.marker.as_deref())?;
-        let marker = match (self.scene.dimension, output.kind) {
-            (2, OutputKind::Stress) => self.require_cable_marker(&place, name)?,
-            _ => self.require_rod_marker(&place, name)?,
+        let marker = match self.scene.dimension {
+            2 => self.require_cable_marker(&place, marker)?,
+            _ => self.require_rod_marker(&place, marker)?,
         };
+        self.section_points(path, marker, (points, false))
+    }
+
+    /// Points of the section at a marker of a rod or beam whose section has a shape.
+    pub(super) fn torsion_points(
+        &mut self,
+        path: &str,
+        marker: &'a str,
+        points: &'a [Vec<f64>],
+    ) -> Result<Of<'a>, Error> {
+        let marker = self.require_rod_marker(&format!("{path}.marker"), marker)?;
+        self.section_points(path, marker, (points, true))
+    }
+
+    fn section_points(
+        &mut self,
+        path: &str,
+        marker: Marker<'a>,
+        (points, is_torsion): (&'a [Vec<f64>], bool),
+    ) -> Result<Of<'a>, Error> {
+        let (place, name) = (format!("{path}.marker"), marker.name);
         let Place::Along(cable, at) = marker.place else {
             return Err(expected(&place, "a marker of a cable or rod", quoted(name)));
         };
@@ -34,12 +54,11 @@ impl<'a> Resolved<'a> {
                           not say how stress is spread over the section";
             return Err(expected(&place, wanted, quoted(name)));
         }
-        if output.kind == OutputKind::TorsionStress && section.shape.is_none() {
+        if is_torsion && section.shape.is_none() {
             let wanted = "a marker of a body whose section has a `shape` there";
             return Err(expected(&place, wanted, quoted(name)));
         }
         let path = format!("{path}.points");
-        let points = output.points.as_deref().unwrap_or_default();
         if !(1..=MOST_POINTS).contains(&points.len()) {
             let wanted = format!("1 to {MOST_POINTS} points");
             return Err(expected(&path, &wanted, points.len()));

@@ -474,7 +474,7 @@ fn values_become_functions_and_inputs_have_their_starts() {
     assert_eq!(starts[1][..], [0.0, 0.0]);
     assert_eq!(starts[2][..], [0.0]);
     assert_eq!(starts[5][..], [1.0]);
-    let table = &scene.motions[1].value.components()[0];
+    let table = &scene.motions[1].kind.value().components()[0];
     let smooth = table.motion_function().expect("a spline");
     let straight = table.function().expect("a table");
     assert!(matches!(smooth, Function::Spline(_)) && matches!(straight, Function::Linear(_)));

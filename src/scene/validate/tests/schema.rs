@@ -96,7 +96,7 @@ fn the_schema_has_a_variant_for_every_kind() {
 fn keys_are_described_for_their_kind_alone() {
     let schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");
     let mut complaints = Vec::new();
-    for part in ["Joint", "Load", "Input"] {
+    for part in ["Joint", "Motion", "Load", "Input", "Output", "Port"] {
         let variants = variants(&schema, part);
         let kind = |of: &Value| {
             of["properties"]["kind"]["const"]
