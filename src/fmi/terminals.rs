@@ -3,7 +3,7 @@
 use std::io;
 
 use super::xml::{Xml, document};
-use crate::scene::{Port, PortKind, Resolved, Scene};
+use crate::scene::{PortKind, Resolved, ResolvedPort, Scene};
 use crate::simulation::{Causality, Variable, variables};
 
 /// The terminals of a scene; nothing where it has no ports.
@@ -31,7 +31,11 @@ fn write_all(xml: &mut Xml, resolved: &Resolved<'_>) -> io::Result<()> {
 }
 
 /// Any two ports fit: what both have is connected, and a spring and damper feel no acceleration.
-fn write_terminal(xml: &mut Xml, port: &Port<'_>, variables: &[Variable]) -> io::Result<()> {
+fn write_terminal(
+    xml: &mut Xml,
+    port: &ResolvedPort<'_>,
+    variables: &[Variable],
+) -> io::Result<()> {
     let what = match &port.kind {
         PortKind::Force { .. } => "force in, motion out",
         PortKind::Motion { .. } | PortKind::Coupling { .. } => "motion in, force out",

@@ -3,8 +3,9 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    By, Contact, Ends, Fluid, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion,
-    MotionKind, Port, PortKind, Scene, Surface, Turning, Value, Vector,
+    ContactBody, DirectionSource, Ends, Hold, JointCoordinate, LoadKind, MotionKind, PortKind,
+    ResolvedContact, ResolvedFluid, ResolvedGear, ResolvedJoint, ResolvedLoad, ResolvedMotion,
+    ResolvedPort, Scene, SceneVector, Surface, Value,
 };
 use crate::system::{Drive, Signal};
 
@@ -79,7 +80,7 @@ const PORTS: &str = "<p>Connect a port that forces come into with one that motio
     not the communication step; without one, give accelerations too, and step short.</p>\n";
 
 /// What comes in and what goes out.
-fn crosses(port: &Port<'_>, dimension: usize) -> String {
+fn crosses(port: &ResolvedPort<'_>, dimension: usize) -> String {
     let given = port.given;
     let (turn, turns) = match (given.turns(), dimension) {
         (true, 2) => (" and moment", ", angle and its rates"),
@@ -137,7 +138,7 @@ fn given(before: &str, value: Option<f64>, unit: &str) -> String {
 }
 
 /// The row of a joint.
-fn joint_in_words(dimension: usize, joint: &Joint<'_>) -> String {
+fn joint_in_words(dimension: usize, joint: &ResolvedJoint<'_>) -> String {
     let kind = joint.kind_name();
     let holds = joint.holds.iter();
     let holds = holds.map(|hold| hold_in_words(dimension, joint, hold));
@@ -148,7 +149,7 @@ fn joint_in_words(dimension: usize, joint: &Joint<'_>) -> String {
 }
 
 /// What a joint holds.
-fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold) -> String {
+fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &Hold) -> String {
     let point = at_point(dimension, &joint.ends);
     match hold {
         Hold::Position => format!("the position{point}"),
@@ -189,7 +190,7 @@ fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold) -> String {
     }
 }
 
-fn gear_in_words(gear: &Gear<'_>) -> String {
+fn gear_in_words(gear: &ResolvedGear<'_>) -> String {
     let [first, second] = gear.coordinates.map(|of| coordinate_in_words(&of));
     row(&[&code(gear.name), &first, &second, &number(gear.ratio)])
 }
@@ -202,10 +203,10 @@ fn coordinate_in_words(of: &JointCoordinate<'_>) -> String {
     format!("{what} {}", code(of.name()))
 }
 
-fn driven(motion: &Motion<'_>) -> &'static str {
+fn driven(motion: &ResolvedMotion<'_>) -> &'static str {
     match &motion.kind {
-        MotionKind::Angle(Turning::Marker(_), _) => "the direction of",
-        MotionKind::Angle(Turning::Pivot(_), _) => "the angle of",
+        MotionKind::Angle(DirectionSource::Marker(_), _) => "the direction of",
+        MotionKind::Angle(DirectionSource::Pivot(_), _) => "the angle of",
         MotionKind::Position(..) => "the position of",
         MotionKind::Orientation(..) => "the orientation of",
         MotionKind::Displacement(..) => "the way along",
@@ -213,7 +214,7 @@ fn driven(motion: &Motion<'_>) -> &'static str {
     }
 }
 
-fn course(motion: &Motion<'_>) -> String {
+fn course(motion: &ResolvedMotion<'_>) -> String {
     let derivatives = motion.kind.drives().iter().find_map(|drive| match drive {
         Drive::Input { derivatives, .. } => Some(*derivatives),
         Drive::Turned { attitude, .. } => Some(attitude.derivatives),
@@ -228,7 +229,7 @@ fn course(motion: &Motion<'_>) -> String {
 }
 
 /// What acts, on what, and its size.
-fn load_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) {
+fn load_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, String) {
     match &load.kind {
         LoadKind::Action {
             action,
@@ -268,7 +269,7 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) 
     }
 }
 
-fn fluid_in_words(fluid: &Fluid<'_>) -> String {
+fn fluid_in_words(fluid: &ResolvedFluid<'_>) -> String {
     let is_input = fluid
         .current
         .iter()
@@ -295,7 +296,7 @@ fn fluid_in_words(fluid: &Fluid<'_>) -> String {
 }
 
 /// The same of springs, dampers and stops of joints.
-fn spring_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) {
+fn spring_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, String) {
     let units = |on: &JointCoordinate<'_>| match on.is_angle() {
         true => ["N m/rad", "N m s/rad", "s/rad", "rad"],
         false => ["N/m", "N s/m", "s/m", "m"],
@@ -340,12 +341,12 @@ fn spring_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String
 }
 
 /// The same of a contact.
-fn contact_in_words(dimension: usize, contact: &Contact<'_>) -> (String, String, String) {
+fn contact_in_words(dimension: usize, contact: &ResolvedContact<'_>) -> (String, String, String) {
     let (by, unit) = match contact.by {
-        By::Marker(marker) => (code(marker.name), "N/m"),
-        By::Cable(cable) => (code(&cable.body.name), "N/m per length"),
+        ContactBody::Marker(marker) => (code(marker.name), "N/m"),
+        ContactBody::Cable(cable) => (code(&cable.body.name), "N/m per length"),
     };
-    let vector = |of: &Vector| vector(dimension, of.full());
+    let vector = |of: &SceneVector| vector(dimension, of.full());
     let surface = match &contact.surface {
         Surface::Plane { point, normal } => {
             format!("through {}, normal {}", vector(point), vector(normal))

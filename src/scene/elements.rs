@@ -4,7 +4,7 @@
 //! sections of a rod. So there are no rules here but those of validation, and two that it does not know: sections that
 //! are given by what a cable has no key for, and joints that hold how a line stands about its tangent.
 
-use super::description::{Body, Input, LineBody, SectionNumbers, Sections};
+use super::description::{Body, Input, LineBody, LineModel, SectionNumbers};
 use super::resolved::{First, Hold, Place, Resolved};
 use super::{Error, Scene};
 
@@ -16,7 +16,7 @@ pub struct Chosen {
     /// Name of the body.
     pub name: String,
     /// Chosen kind of sections.
-    pub sections: Sections,
+    pub sections: LineModel,
     /// Reason for the choice.
     pub why: String,
     /// The body as a beam, where it could be one and is none: shear decides.
@@ -40,12 +40,12 @@ impl Chosen {
     fn new(body: usize, line: &LineBody, dimension: usize) -> Self {
         let needed = line
             .need()
-            .filter(|(sections, _)| dimension == 3 || *sections == Sections::Lean);
+            .filter(|(sections, _)| dimension == 3 || *sections == LineModel::Reissner);
         let unneeded = match dimension {
             2 => "nothing twists in the plane",
             _ => NOTHING_NEEDED,
         };
-        let (sections, why) = needed.unwrap_or((Sections::None, unneeded));
+        let (sections, why) = needed.unwrap_or((LineModel::Cable, unneeded));
         Self {
             body,
             name: line.name.clone(),
@@ -63,7 +63,7 @@ impl Chosen {
     /// Makes it a beam where shear moves something by more than an error wanted; `what` says what it does.
     pub fn judge_shear(&mut self, part: f64, error: f64, what: &str) {
         if part > error {
-            self.sections = Sections::Lean;
+            self.sections = LineModel::Reissner;
             self.why = format!("shear {what}, more than {error:e}");
         } else {
             self.why += &format!("; shear {what}, no more than {error:e}")
@@ -82,16 +82,16 @@ impl Chosen {
 }
 
 /// The least that sections do which are asked for: in the plane they lean, as nothing twists.
-fn least(dimension: usize) -> Sections {
+fn least(dimension: usize) -> LineModel {
     match dimension {
-        2 => Sections::Lean,
-        _ => Sections::Turn,
+        2 => LineModel::Reissner,
+        _ => LineModel::Kirchhoff,
     }
 }
 
 impl LineBody {
     /// Returns the sections that the body's own keys demand, with the reason.
-    fn need(&self) -> Option<(Sections, &'static str)> {
+    fn need(&self) -> Option<(LineModel, &'static str)> {
         let all = || self.all_sections();
         let is_unequal = |numbers: SectionNumbers| {
             let [first, second] = numbers.second_moments;
@@ -101,32 +101,32 @@ impl LineBody {
         let reasons = [
             (
                 all().any(|of| of.stiffness.is_some() || of.inertia.is_some()),
-                Sections::Lean,
+                LineModel::Reissner,
                 "its sections are given as whole matrices",
             ),
             (
                 self.axis.is_some(),
-                Sections::Turn,
+                LineModel::Kirchhoff,
                 "the axis of its section is given",
             ),
             (
                 self.stations.iter().any(|station| station.twist != 0.0),
-                Sections::Turn,
+                LineModel::Kirchhoff,
                 "it is twisted without stress",
             ),
             (
                 self.is_coupled(),
-                Sections::Turn,
+                LineModel::Kirchhoff,
                 "its twist, bending or stretching are coupled",
             ),
             (
                 all().any(|of| is_unequal(of.numbers())),
-                Sections::Turn,
+                LineModel::Kirchhoff,
                 "it does not bend alike to all sides",
             ),
             (
                 is_curved && all().any(|of| of.numbers().second_moments[0] > 0.0),
-                Sections::Turn,
+                LineModel::Kirchhoff,
                 "it is curved without stress and bends",
             ),
         ];
@@ -242,7 +242,7 @@ impl Scene {
 
     /// The cable that would not be refused for this, were it a rod, or a beam in the plane.
     fn asked_of(&self, chosen: &[Chosen], error: &Error) -> Option<usize> {
-        let is_cable = |place: &usize| chosen[*place].sections == Sections::None;
+        let is_cable = |place: &usize| chosen[*place].sections == LineModel::Cable;
         let asks = |place: &usize| {
             let mut tried = chosen.to_vec();
             tried[*place].sections = least(self.dimension);
@@ -263,10 +263,10 @@ impl Scene {
     fn as_beam(&self, chosen: &[Chosen], place: usize) -> Option<LineBody> {
         let mut tried = chosen.to_vec();
         let of = &mut tried[place];
-        if of.sections == Sections::Lean {
+        if of.sections == LineModel::Reissner {
             return None;
         }
-        (of.sections, of.beam) = (Sections::Lean, None);
+        (of.sections, of.beam) = (LineModel::Reissner, None);
         let scene = self.with_elements(&tried);
         scene.resolve().ok()?;
         scene.bodies[chosen[place].body].cable().cloned()
@@ -314,7 +314,7 @@ fn held(resolved: &Resolved<'_>, chosen: &[Chosen]) -> Option<(usize, String)> {
         return None;
     }
     let cables = chosen.iter().enumerate();
-    let mut cables = cables.filter(|(_, of)| of.sections == Sections::None);
+    let mut cables = cables.filter(|(_, of)| of.sections == LineModel::Cable);
     cables.find_map(|(place, of)| {
         let is_of = |place: &Place<'_>| place.body_index() == of.body;
         let joints = resolved.joints.iter().filter(|joint| {
@@ -338,7 +338,7 @@ fn held(resolved: &Resolved<'_>, chosen: &[Chosen]) -> Option<(usize, String)> {
 fn with_reason(chosen: &[Chosen], mut error: Error) -> Error {
     let is_of = |of: &&Chosen| error.path.starts_with(&format!("bodies[{}]", of.body));
     let turned = chosen.iter().find(is_of);
-    if let Some(of) = turned.filter(|of| of.sections != Sections::None) {
+    if let Some(of) = turned.filter(|of| of.sections != LineModel::Cable) {
         error.message += &format!(" (a {})", of.in_words());
     }
     error

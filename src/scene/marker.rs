@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::description::{Kinds as _, Symbol};
 use super::resolved::{
-    Action, BodyReference, Cable, Ends, First, Form, Hold, Joint, JointCoordinate, LineId, Marker,
-    MarkerId, MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
+    Action, BodyReference, Cable, DirectionSource, Ends, First, Form, Hold, JointCoordinate,
+    LineId, LoadTarget, MarkerId, MotionKind, Pivot, Place, Resolved, ResolvedJoint,
+    ResolvedMarker, Rigid, RigidId, SlideId, Slider,
 };
 use super::{Body, LineBody, Model, RigidBody, Scene};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion};
@@ -76,7 +77,7 @@ impl<'a> Resolved<'a> {
             resolved.bodies_by_name.insert(described.name(), reference);
             for (name, place) in reference.places() {
                 let id = MarkerId(resolved.markers.len());
-                resolved.markers.push(Marker {
+                resolved.markers.push(ResolvedMarker {
                     id,
                     name,
                     place,
@@ -91,10 +92,10 @@ impl<'a> Resolved<'a> {
     }
 
     /// Finds a marker by `body.marker`.
-    pub(super) fn marker(&self, name: &'a str) -> Option<Marker<'a>> {
+    pub(super) fn marker(&self, name: &'a str) -> Option<ResolvedMarker<'a>> {
         let id = self.markers_by_name.get(&name.split_once('.')?)?;
         let marker = self.markers[id.0];
-        Some(Marker { name, ..marker })
+        Some(ResolvedMarker { name, ..marker })
     }
 }
 
@@ -284,7 +285,7 @@ impl<'a> Ends<'a> {
     }
 
     /// The markers of both ends.
-    pub(super) fn markers(&self) -> Vec<Marker<'a>> {
+    pub(super) fn markers(&self) -> Vec<ResolvedMarker<'a>> {
         match self.first {
             First::Ground(_) | First::Cable(_) => vec![self.second],
             First::Marker(first) => vec![first, self.second],
@@ -292,7 +293,7 @@ impl<'a> Ends<'a> {
     }
 }
 
-impl<'a> Joint<'a> {
+impl<'a> ResolvedJoint<'a> {
     /// Returns the specification of the joint's kind.
     pub fn kind_name(&self) -> &'static str {
         self.kind.name()
@@ -358,7 +359,7 @@ impl<'a> Joint<'a> {
         })?;
         let along = match self.ends.first {
             First::Ground(_) => direction,
-            First::Marker(Marker {
+            First::Marker(ResolvedMarker {
                 place: Place::Point(..),
                 direction: [cos, sin, _],
                 ..
@@ -366,7 +367,7 @@ impl<'a> Joint<'a> {
                 let [x, y, _] = direction;
                 [cos * x - sin * y, sin * x + cos * y, 0.0]
             }
-            First::Marker(Marker {
+            First::Marker(ResolvedMarker {
                 place: Place::Point(..),
                 ..
             }) => direction,
@@ -422,7 +423,7 @@ impl<'a> JointCoordinate<'a> {
     }
 }
 
-impl<'a> Turning<'a> {
+impl<'a> DirectionSource<'a> {
     /// Name of the marker or joint.
     pub fn name(&self) -> &'a str {
         match self {
@@ -432,7 +433,7 @@ impl<'a> Turning<'a> {
     }
 
     /// The marker, or the second one of the joint.
-    pub fn marker(&self) -> Marker<'a> {
+    pub fn marker(&self) -> ResolvedMarker<'a> {
         match self {
             Self::Marker(marker) => *marker,
             Self::Pivot(pivot) => pivot.ends.second,
@@ -453,7 +454,7 @@ impl<'a> MotionKind<'a> {
     }
 
     /// The marker that is driven, or the second one of the joint.
-    pub fn marker(&self) -> Marker<'a> {
+    pub fn marker(&self) -> ResolvedMarker<'a> {
         match self {
             Self::Angle(turning, _) => turning.marker(),
             Self::Position(marker, _) | Self::Orientation(marker, _) | Self::Winch(marker, _) => {
@@ -476,13 +477,13 @@ impl<'a> MotionKind<'a> {
     /// Where what is driven is as described, one number a coordinate: m, rad, or parts of a quaternion.
     pub fn start(&self) -> Vec<f64> {
         match self {
-            Self::Angle(Turning::Marker(marker), _) => {
+            Self::Angle(DirectionSource::Marker(marker), _) => {
                 let [x, y, _] = marker.direction;
                 vec![y.atan2(x)]
             }
             // In space the angle is counted from the start.
-            Self::Angle(Turning::Pivot(pivot), _) if pivot.axis.is_some() => vec![0.0],
-            Self::Angle(Turning::Pivot(pivot), _) => vec![pivot.ends.angle()],
+            Self::Angle(DirectionSource::Pivot(pivot), _) if pivot.axis.is_some() => vec![0.0],
+            Self::Angle(DirectionSource::Pivot(pivot), _) => vec![pivot.ends.angle()],
             Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
             Self::Orientation(marker, _) => marker.place.quaternion().to_vec(),
             Self::Displacement(slider, _) => vec![slider.start()],
@@ -495,9 +496,9 @@ impl<'a> Action<'a> {
     /// Name of the marker, joint or cable that it acts on.
     pub fn on(&self) -> &'a str {
         match self.on {
-            On::Marker(marker) => marker.name,
-            On::Joint(pivot) => pivot.name,
-            On::Cable(cable) => &cable.body.name,
+            LoadTarget::Marker(marker) => marker.name,
+            LoadTarget::Joint(pivot) => pivot.name,
+            LoadTarget::Cable(cable) => &cable.body.name,
         }
     }
 }

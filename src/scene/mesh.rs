@@ -3,7 +3,8 @@
 use super::Error;
 use super::description::OutputKind;
 use super::resolved::{
-    Cable, InputKind, LoadKind, Marker, MotionKind, Of, On, Place, Resolved, Turning,
+    Cable, DirectionSource, InputKind, LoadKind, LoadTarget, MotionKind, OutputTarget, Place,
+    Resolved, ResolvedMarker,
 };
 
 /// Shortest segment between two nodes, in elements of even length: shorter ones swing so fast that they
@@ -60,27 +61,30 @@ impl<'a> Resolved<'a> {
         coordinates
     }
 
-    fn loaded_markers(&self) -> Vec<Marker<'a>> {
+    fn loaded_markers(&self) -> Vec<ResolvedMarker<'a>> {
         let mut found = self.acted_on();
         found.extend(self.outputs.iter().filter_map(|output| match output.of {
-            Of::Marker(marker) if output.kind == OutputKind::ConnectivityForce => Some(marker),
+            OutputTarget::Marker(marker) if output.kind == OutputKind::ConnectivityForce => {
+                Some(marker)
+            }
             _ => None,
         }));
         found
     }
 
     /// Markers where joints, motions, loads, inputs, ports and masses act.
-    pub(super) fn acted_on(&self) -> Vec<Marker<'a>> {
-        let mut found: Vec<Marker<'a>> = self.masses.iter().map(|mass| mass.marker).collect();
+    pub(super) fn acted_on(&self) -> Vec<ResolvedMarker<'a>> {
+        let mut found: Vec<ResolvedMarker<'a>> =
+            self.masses.iter().map(|mass| mass.marker).collect();
         found.extend(self.ports.iter().map(|port| port.marker));
         found.extend(self.joints.iter().flat_map(|joint| joint.ends.markers()));
         found.extend(self.motions.iter().filter_map(|motion| match motion.kind {
             MotionKind::Position(marker, _)
             | MotionKind::Orientation(marker, _)
             | MotionKind::Winch(marker, _) => Some(marker),
-            MotionKind::Angle(Turning::Marker(marker), _) => Some(marker),
+            MotionKind::Angle(DirectionSource::Marker(marker), _) => Some(marker),
             // The joint has its nodes.
-            MotionKind::Angle(Turning::Pivot(_), _) | MotionKind::Displacement(..) => None,
+            MotionKind::Angle(DirectionSource::Pivot(_), _) | MotionKind::Displacement(..) => None,
         }));
         let mut actions = Vec::new();
         for load in &self.loads {
@@ -95,8 +99,8 @@ impl<'a> Resolved<'a> {
             InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
         }));
         found.extend(actions.into_iter().filter_map(|action| match action.on {
-            On::Marker(marker) => Some(marker),
-            On::Joint(_) | On::Cable(_) => None,
+            LoadTarget::Marker(marker) => Some(marker),
+            LoadTarget::Joint(_) | LoadTarget::Cable(_) => None,
         }));
         found
     }

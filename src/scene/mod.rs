@@ -28,18 +28,19 @@ pub use alike::did_you_mean;
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, Experiment, Inertia, Initial,
-    InitialMotion, InitialState, InputCourse, Integrator, Interpolation, LineBody, Material,
-    Method, Model, Orientation, OutputKind, Profile, RigidBody, Scene, Section, SectionNumbers,
-    Sections, Shape, Solid, Spin, Station, Strain, Surface, Symbol, Table, Value, Vector,
+    InitialMotion, InitialState, InputCourse, Integrator, Interpolation, LineBody, LineModel,
+    Material, Method, Model, Orientation, OutputKind, Profile, RigidBody, Scene, SceneVector,
+    Section, SectionNumbers, Shape, Solid, Spin, Station, Strain, Surface, Symbol, Table, Value,
 };
 pub use elements::Chosen;
 pub use remarks::remarks;
 pub use resolved::{
-    Action, AngleId, BodyReference, Bushing, By, Cable, ConstraintOwner, ConstraintOwnerId,
-    Contact, Coupling, CouplingId, Ends, First, Fluid, Gear, Hold, Incoming, Input, InputKind,
-    Joint, JointCoordinate, LineId, Load, LoadId, LoadKind, Marker, MarkerId, Mass, Motion,
-    MotionKind, Of, On, Output, Pivot, Place, PointId, Port, PortKind, Reaction, Resolved, Rigid,
-    RigidId, SlideId, Slider, Spring, Turning,
+    Action, AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, ContactBody,
+    Coupling, CouplingId, DirectionSource, Ends, First, Hold, Incoming, Input, InputKind,
+    JointCoordinate, LineId, LoadId, LoadKind, LoadTarget, MarkerId, MotionKind, Output,
+    OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Resolved, ResolvedBushing,
+    ResolvedContact, ResolvedFluid, ResolvedGear, ResolvedJoint, ResolvedLoad, ResolvedMarker,
+    ResolvedMass, ResolvedMotion, ResolvedPort, ResolvedSpring, Rigid, RigidId, SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};

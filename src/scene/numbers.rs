@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::description::{
-    Bushing, Contact, Fluid, JointKind, LoadKind, MotionPort, PortKind, Revolute,
+    BushingLoad, ContactLoad, FluidLoad, JointKind, LoadKind, MotionPort, PortKind, Revolute,
 };
 
 impl Scene {
@@ -46,7 +46,7 @@ impl Scene {
     }
 
     /// Mutable access to the bushing at this place in the list of loads.
-    pub fn bushing_mut(&mut self, load: usize) -> &mut Bushing {
+    pub fn bushing_mut(&mut self, load: usize) -> &mut BushingLoad {
         match &mut self.loads[load].kind {
             LoadKind::Bushing(bushing) => bushing,
             other => unreachable!("a bushing, not {other:?}"),
@@ -54,7 +54,7 @@ impl Scene {
     }
 
     /// Mutable access to the fluid at this place in the list of loads.
-    pub fn fluid_mut(&mut self, load: usize) -> &mut Fluid {
+    pub fn fluid_mut(&mut self, load: usize) -> &mut FluidLoad {
         match &mut self.loads[load].kind {
             LoadKind::Fluid(fluid) => fluid,
             other => unreachable!("a fluid, not {other:?}"),
@@ -62,7 +62,7 @@ impl Scene {
     }
 
     /// Mutable access to the contact at this place in the list of loads.
-    pub fn contact_mut(&mut self, load: usize) -> &mut Contact {
+    pub fn contact_mut(&mut self, load: usize) -> &mut ContactLoad {
         match &mut self.loads[load].kind {
             LoadKind::Contact(contact) => contact,
             other => unreachable!("a contact, not {other:?}"),

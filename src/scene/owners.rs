@@ -2,8 +2,8 @@
 
 use super::Scene;
 use super::description::{
-    Bushing, Contact, DistributedForce, DistributedMoment, Fluid, Force, JointLimit, JointSpring,
-    LoadKind, Moment, SpringDamper, Torque,
+    BushingLoad, ContactLoad, DistributedForceLoad, DistributedMomentLoad, FluidLoad, ForceLoad,
+    JointLimitLoad, JointSpringLoad, LoadKind, MomentLoad, SpringDamper, Torque,
 };
 
 impl Scene {
@@ -28,20 +28,23 @@ impl Scene {
         }
         for load in self.loads.iter().filter(|load| load.name == first) {
             match &load.kind {
-                LoadKind::Force(Force { marker, .. }) | LoadKind::Moment(Moment { marker, .. }) => {
+                LoadKind::Force(ForceLoad { marker, .. })
+                | LoadKind::Moment(MomentLoad { marker, .. }) => {
                     names.push(owner(marker));
                 }
                 LoadKind::SpringDamper(SpringDamper { markers, .. })
-                | LoadKind::Bushing(Bushing { markers, .. }) => {
+                | LoadKind::Bushing(BushingLoad { markers, .. }) => {
                     names.extend(markers.iter().map(|marker| owner(marker)));
                 }
                 LoadKind::Torque(Torque { joint, .. })
-                | LoadKind::JointSpring(JointSpring { joint, .. })
-                | LoadKind::JointLimit(JointLimit { joint, .. }) => names.extend(of_joint(joint)),
-                LoadKind::DistributedForce(DistributedForce { body, .. })
-                | LoadKind::DistributedMoment(DistributedMoment { body, .. })
-                | LoadKind::Fluid(Fluid { body, .. }) => names.push(body.clone()),
-                LoadKind::Contact(Contact { marker, body, .. }) => {
+                | LoadKind::JointSpring(JointSpringLoad { joint, .. })
+                | LoadKind::JointLimit(JointLimitLoad { joint, .. }) => {
+                    names.extend(of_joint(joint))
+                }
+                LoadKind::DistributedForce(DistributedForceLoad { body, .. })
+                | LoadKind::DistributedMoment(DistributedMomentLoad { body, .. })
+                | LoadKind::Fluid(FluidLoad { body, .. }) => names.push(body.clone()),
+                LoadKind::Contact(ContactLoad { marker, body, .. }) => {
                     names.extend(marker.iter().map(|marker| owner(marker)));
                     names.extend(body.clone());
                 }

@@ -8,8 +8,11 @@ use std::collections::BTreeMap;
 
 use super::description::{JointKind, LineBody, Port as GivenPort, RigidBody, Scene, Value};
 use crate::system::{Drive, Release};
-pub use loads::{Action, Bushing, By, Contact, Fluid, Load, LoadKind, On, Spring};
-pub use outputs::{Of, Output, Reaction, SectionPoint};
+pub use loads::{
+    Action, ContactBody, LoadKind, LoadTarget, ResolvedBushing, ResolvedContact, ResolvedFluid,
+    ResolvedLoad, ResolvedSpring,
+};
+pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
 macro_rules! numbers {
@@ -124,7 +127,7 @@ pub enum Place<'a> {
 
 /// A marker. Points and directions have three components, the third zero in the plane.
 #[derive(Clone, Copy, Debug)]
-pub struct Marker<'a> {
+pub struct ResolvedMarker<'a> {
     /// Which one.
     pub id: MarkerId,
     /// Name: `body.marker` in references, without the body in the list of all markers.
@@ -143,7 +146,7 @@ pub enum First<'a> {
     /// The ground at a point, m; where the second end is at the start if none is given.
     Ground(Option<[f64; 3]>),
     /// A marker.
-    Marker(Marker<'a>),
+    Marker(ResolvedMarker<'a>),
     /// A cable as a whole.
     Cable(Cable<'a>),
 }
@@ -154,7 +157,7 @@ pub struct Ends<'a> {
     /// The ground, a marker or a cable.
     pub first: First<'a>,
     /// A marker of another body.
-    pub second: Marker<'a>,
+    pub second: ResolvedMarker<'a>,
 }
 
 /// A revolute joint: a joint with an angle.
@@ -196,7 +199,7 @@ pub enum JointCoordinate<'a> {
 
 /// A gear between two joints.
 #[derive(Clone, Debug)]
-pub struct Gear<'a> {
+pub struct ResolvedGear<'a> {
     /// Name.
     pub name: &'a str,
     /// Which holder it is.
@@ -209,18 +212,18 @@ pub struct Gear<'a> {
 
 /// Object with an angle: a marker, or a joint between two markers.
 #[derive(Clone, Copy, Debug)]
-pub enum Turning<'a> {
+pub enum DirectionSource<'a> {
     /// Direction at a marker.
-    Marker(Marker<'a>),
+    Marker(ResolvedMarker<'a>),
     /// Angle of the second marker minus that of the first.
     Pivot(Pivot<'a>),
 }
 
 /// A mass lumped at a marker.
 #[derive(Clone, Copy, Debug)]
-pub struct Mass<'a> {
+pub struct ResolvedMass<'a> {
     /// Where it sits.
-    pub marker: Marker<'a>,
+    pub marker: ResolvedMarker<'a>,
     /// Mass, kg.
     pub mass: f64,
     /// Moment of inertia, kg m^2.
@@ -229,7 +232,7 @@ pub struct Mass<'a> {
 
 /// A joint.
 #[derive(Clone, Debug)]
-pub struct Joint<'a> {
+pub struct ResolvedJoint<'a> {
     /// Name.
     pub name: &'a str,
     /// Which holder it is.
@@ -281,7 +284,7 @@ pub enum Hold {
 
 /// A driven motion.
 #[derive(Clone, Debug)]
-pub struct Motion<'a> {
+pub struct ResolvedMotion<'a> {
     /// Name; of a port, where it belongs to one.
     pub name: &'a str,
     /// Which holder it is.
@@ -296,15 +299,15 @@ pub struct Motion<'a> {
 #[derive(Clone, Debug)]
 pub enum MotionKind<'a> {
     /// An angle, rad.
-    Angle(Turning<'a>, Drive),
+    Angle(DirectionSource<'a>, Drive),
     /// The position of a marker, m.
-    Position(Marker<'a>, Vec<Drive>),
+    Position(ResolvedMarker<'a>, Vec<Drive>),
     /// How the frame of a rigid body stands in space: the four parts of a quaternion, scalar first.
-    Orientation(Marker<'a>, Vec<Drive>),
+    Orientation(ResolvedMarker<'a>, Vec<Drive>),
     /// Displacement along a line, m.
     Displacement(Slider<'a>, Drive),
     /// The length that is paid out at the end of a cable, m.
-    Winch(Marker<'a>, Drive),
+    Winch(ResolvedMarker<'a>, Drive),
 }
 
 /// An input.
@@ -334,11 +337,11 @@ pub enum InputKind<'a> {
 
 /// A port.
 #[derive(Clone, Debug)]
-pub struct Port<'a> {
+pub struct ResolvedPort<'a> {
     /// Name.
     pub name: &'a str,
     /// Where it is.
-    pub marker: Marker<'a>,
+    pub marker: ResolvedMarker<'a>,
     /// Inputs and outputs of the port.
     pub kind: PortKind<'a>,
     /// As described.
@@ -358,9 +361,9 @@ pub enum PortKind<'a> {
     /// Input of a motion that drives the marker. Output of the force that the motion exerts.
     Motion {
         /// The position.
-        position: Box<Motion<'a>>,
+        position: Box<ResolvedMotion<'a>>,
         /// The angle, in space the orientation, if it turns.
-        angle: Option<Box<Motion<'a>>>,
+        angle: Option<Box<ResolvedMotion<'a>>>,
     },
     /// Input of a motion through a spring and a damper. Output of their force.
     Coupling {
@@ -377,7 +380,7 @@ pub enum Incoming<'a> {
     /// Value and rate of every coordinate, next to each other.
     Motion(Box<MotionKind<'a>>),
     /// In space how the frame of a rigid body would stand: a quaternion, scalar first, then the angular velocity.
-    Orientation(Marker<'a>),
+    Orientation(ResolvedMarker<'a>),
 }
 
 /// A spring and a damper between a marker and what comes in.
@@ -412,29 +415,29 @@ pub struct Resolved<'a> {
     /// Bodies.
     pub bodies: Vec<BodyReference<'a>>,
     /// Markers of all bodies, by [`MarkerId`].
-    pub markers: Vec<Marker<'a>>,
+    pub markers: Vec<ResolvedMarker<'a>>,
     /// Lumped masses.
-    pub masses: Vec<Mass<'a>>,
+    pub masses: Vec<ResolvedMass<'a>>,
     /// Joints.
-    pub joints: Vec<Joint<'a>>,
+    pub joints: Vec<ResolvedJoint<'a>>,
     /// Gears.
-    pub gears: Vec<Gear<'a>>,
+    pub gears: Vec<ResolvedGear<'a>>,
     /// Motions, without those of ports.
-    pub motions: Vec<Motion<'a>>,
+    pub motions: Vec<ResolvedMotion<'a>>,
     /// Loads.
-    pub loads: Vec<Load<'a>>,
+    pub loads: Vec<ResolvedLoad<'a>>,
     /// Loads that act only while the initial state is looked for.
-    pub initial_loads: Vec<Load<'a>>,
+    pub initial_loads: Vec<ResolvedLoad<'a>>,
     /// Inputs, without those of ports.
     pub inputs: Vec<Input<'a>>,
     /// Outputs, without those of ports.
     pub outputs: Vec<Output<'a>>,
     /// Ports.
-    pub ports: Vec<Port<'a>>,
+    pub ports: Vec<ResolvedPort<'a>>,
     /// Owners of constraints, by [`ConstraintOwnerId`].
     pub holders: Vec<ConstraintOwner<'a>>,
     /// Angles that are counted, by [`AngleId`].
-    pub angles: Vec<Turning<'a>>,
+    pub angles: Vec<DirectionSource<'a>>,
     /// Points of sections whose stress is read, by [`PointId`].
     pub points: Vec<SectionPoint<'a>>,
     /// Number of couplings.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::marker::{difference, length};
-use super::{LineBody, Shape, Vector};
+use super::{LineBody, SceneVector, Shape};
 use crate::math::vector::dot;
 
 /// A sum of two vectors with factors, from a point on.
@@ -29,7 +29,7 @@ fn unit(of: [f64; 3]) -> [f64; 3] {
 
 impl Shape {
     /// First and last end; of a helix those of its axis.
-    pub fn ends(&self) -> [Vector; 2] {
+    pub fn ends(&self) -> [SceneVector; 2] {
         let (Self::Line { from, to } | Self::Arc { from, to, .. } | Self::Helix { from, to, .. }) =
             self;
         [*from, *to]

@@ -3,8 +3,8 @@
 use crate::math::function::Function;
 use crate::math::space::spins;
 use crate::scene::{
-    self, Along, By, ConstraintOwnerId, Contact, Input, InputKind, LoadId, LoadKind, MarkerId,
-    MotionKind, On, PortKind, Resolved,
+    self, Along, ConstraintOwnerId, ContactBody, Input, InputKind, LoadId, LoadKind, LoadTarget,
+    MarkerId, MotionKind, PortKind, Resolved, ResolvedContact,
 };
 use crate::simulation::{Error, Quantity, Simulation};
 use crate::system::Signal;
@@ -148,7 +148,11 @@ fn exerted<'a>(
 }
 
 /// What a spring, a bushing or a stop does to its second end, a contact to its marker or along its body; nothing of other loads.
-fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec<MovingAction<'a>> {
+fn of_spring<'a>(
+    id: LoadId,
+    load: &'a scene::ResolvedLoad<'a>,
+    dimension: usize,
+) -> Vec<MovingAction<'a>> {
     let quantity = move |is_moment, axis| match is_moment {
         true => Quantity::LoadMoment(id, axis),
         false => Quantity::LoadForce(id, axis),
@@ -157,8 +161,9 @@ fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec
         let at = (load.name, marker.id, dimension);
         return exerted(at, load.kind.exerts(), quantity, Origin::Load).collect();
     }
-    let LoadKind::Contact(Contact {
-        by: By::Cable(on), ..
+    let LoadKind::Contact(ResolvedContact {
+        by: ContactBody::Cable(on),
+        ..
     }) = &load.kind
     else {
         return Vec::new();
@@ -175,7 +180,7 @@ fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec
 }
 
 /// The current of a fluid.
-fn of_fluid<'a>(name: &'a str, fluid: &'a scene::Fluid<'a>) -> MovingAction<'a> {
+fn of_fluid<'a>(name: &'a str, fluid: &'a scene::ResolvedFluid<'a>) -> MovingAction<'a> {
     MovingAction {
         name,
         unit: "m/s",
@@ -199,9 +204,9 @@ fn of_action<'a>(
         follower: action.follower,
         components: action.kind.components(dimension),
         on: match action.on {
-            On::Marker(marker) => Where::Marker(marker.id),
-            On::Joint(pivot) => Where::Joint(pivot.ends.second.id, pivot.joint.index()),
-            On::Cable(cable) => Where::Body(cable.id.body_index()),
+            LoadTarget::Marker(marker) => Where::Marker(marker.id),
+            LoadTarget::Joint(pivot) => Where::Joint(pivot.ends.second.id, pivot.joint.index()),
+            LoadTarget::Cable(cable) => Where::Body(cable.id.body_index()),
         },
         of: Origin::Components(&action.components, &action.along),
     }

@@ -6,8 +6,8 @@ use super::recording::Recording;
 use super::sections::{has_corners, sections};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
 use crate::scene::{
-    BodyReference, Cable, Ends, First, Hold, Joint, JointCoordinate, LineBody, Load, LoadKind,
-    Marker, Place, PortKind, Resolved, Rigid, Solid, Symbol,
+    BodyReference, Cable, Ends, First, Hold, JointCoordinate, LineBody, LoadKind, Place, PortKind,
+    Resolved, ResolvedJoint, ResolvedLoad, ResolvedMarker, Rigid, Solid, Symbol,
 };
 use crate::simulation::Pose;
 
@@ -201,7 +201,7 @@ fn of_rigid(rigid: Rigid<'_>) -> String {
     format!("\"points\":{points:?},\"solid\":{solid},\"radius\":{radius:?}")
 }
 
-fn of_marker(resolved: &Resolved<'_>, marker: &Marker<'_>) -> String {
+fn of_marker(resolved: &Resolved<'_>, marker: &ResolvedMarker<'_>) -> String {
     let body = marker.place.body();
     let place = resolved
         .bodies
@@ -247,7 +247,7 @@ fn joint_of(coordinate: &JointCoordinate<'_>) -> usize {
     }
 }
 
-fn of_stop(load: &Load<'_>) -> Option<String> {
+fn of_stop(load: &ResolvedLoad<'_>) -> Option<String> {
     let LoadKind::JointLimit { on, limits, .. } = &load.kind else {
         return None;
     };
@@ -280,7 +280,7 @@ fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
     surfaces.collect()
 }
 
-fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {
+fn of_joint(recording: &Recording, joint: &ResolvedJoint<'_>) -> String {
     let symbol = match joint.symbol() {
         Symbol::Pin => "pin",
         Symbol::Spiral => "spiral",

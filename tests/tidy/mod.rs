@@ -3,6 +3,7 @@
 mod docs;
 mod generated;
 mod manifests;
+mod names;
 mod prose;
 mod rooms;
 mod sizes;

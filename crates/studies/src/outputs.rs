@@ -1,7 +1,7 @@
 //! What runs write: the same columns for every method.
 
 use flexbody::body::Marker;
-use flexbody::scene::{Of, Output, OutputKind};
+use flexbody::scene::{Output, OutputKind, OutputTarget};
 use flexbody::system::{Evaluation, State, Workspace};
 
 use crate::scene::Start;
@@ -22,7 +22,7 @@ impl Outputs {
             .filter_map(|output| match output {
                 Output {
                     kind: OutputKind::Position,
-                    of: Of::Marker(marker),
+                    of: OutputTarget::Marker(marker),
                     ..
                 } => Some(*marker),
                 _ => None,

@@ -119,7 +119,7 @@ class Experiment(Part):
 
 Freedom = TypeAliasType("Freedom", Literal["x", "y", "z", "rotation_x", "rotation_y", "rotation_z"])
 """
-A translation or a rotation that a joint lets go.
+A translation or a rotation that a joint leaves free.
 
 - `x`: Along the first axis.
 - `y`: Along the second axis.
@@ -203,16 +203,16 @@ class ForceInput(Part):
     kind: Literal["force"] = "force"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`.
+    Marker that the force acts at, `body.marker`.
     """
     follower: StrictBool | None = None
     """
-    `force`, in space `moment` and `distributed_moment` too: as of a load.
+    Whether the components rotate with the marker. They are then along and to the left of its direction in the plane, and along the
+    axes of the body's frame in space.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Components of the force before the master sets it, N; zeros by default.
     """
 
 
@@ -224,16 +224,15 @@ class MomentInput(Part):
     kind: Literal["moment"] = "moment"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`.
+    Marker that the moment acts at, `body.marker`.
     """
     follower: StrictBool | None = None
     """
-    `force`, in space `moment` and `distributed_moment` too: as of a load.
+    Whether the components rotate with the marker, along the axes of the body's frame; in space only.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Moment before the master sets it, N m: one value in the plane, three in space; zeros by default.
     """
 
 
@@ -245,12 +244,11 @@ class TorqueInput(Part):
     kind: Literal["torque"] = "torque"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint that it acts in; `release`: of the joint that lets go.
+    Name of the joint with an axis that the torque acts about.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Torque before the master sets it, N m: one value; 0 by default.
     """
 
 
@@ -262,12 +260,11 @@ class DistributedForceInput(Part):
     kind: Literal["distributed_force"] = "distributed_force"
     body: StrictStr
     """
-    `distributed_force`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    Name of the cable, rod or beam that the force acts along.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Components of the force per reference length before the master sets it, N/m; zeros by default.
     """
 
 
@@ -279,16 +276,15 @@ class DistributedMomentInput(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed_force`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    Name of the rod or beam that the moment acts along.
     """
     follower: StrictBool | None = None
     """
-    `force`, in space `moment` and `distributed_moment` too: as of a load.
+    Whether the components rotate with the sections, along their axes; in space only.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Moment per reference length before the master sets it, N m/m: one value in the plane, three in space; zeros by default.
     """
 
 
@@ -300,12 +296,11 @@ class RestLengthInput(Part):
     kind: Literal["rest_length"] = "rest_length"
     load: StrictStr
     """
-    `rest_length`: name of the spring-damper; `current`: of the fluid.
+    Name of the spring-damper whose length is set.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Length before the master sets it, m: one value; by default the length of the spring-damper.
     """
 
 
@@ -317,12 +312,11 @@ class ReleaseInput(Part):
     kind: Literal["release"] = "release"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint that it acts in; `release`: of the joint that lets go.
+    Name of the joint that is released.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Value before the master sets it: one value; 0 by default, which holds the joint.
     """
 
 
@@ -334,12 +328,11 @@ class CurrentInput(Part):
     kind: Literal["current"] = "current"
     load: StrictStr
     """
-    `rest_length`: name of the spring-damper; `current`: of the fluid.
+    Name of the fluid whose velocity is set.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force or a current, one of others; zero by default,
-    for a rest length that of the spring-damper, for a current that of the fluid.
+    Components of the velocity before the master sets it, m/s; by default those of the fluid.
     """
 
 
@@ -403,14 +396,12 @@ class OrientationJoint(Part):
     kind: Literal["orientation"] = "orientation"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
     """
     angle: StrictFloat | None = None
     """
-    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
-    unloaded, rad, by default that at the start.
+    In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
+    The direction of `ground` is 0.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -431,8 +422,7 @@ class PointOnCable(Part):
     kind: Literal["point_on_cable"] = "point_on_cable"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Name of the cable, then the `body.marker` on its line.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -453,25 +443,23 @@ class JointSpringLoad(Part):
     kind: Literal["joint_spring"] = "joint_spring"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint that it acts in; `joint_spring`, `joint_limit`: of a joint with a coordinate.
+    Name of the joint that the spring acts in.
     """
     coordinate: CoordinateKind | None = None
     """
-    `joint_spring`, `joint_limit`: which coordinate of the joint; the displacement, if it has one, by default.
+    Coordinate of the joint that the spring acts on; by default the displacement of a joint that has one, else the angle.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
-    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    Damping, N s/m for a displacement and N m s/rad for an angle; 0 by default.
     """
     rest: StrictFloat | None = None
     """
-    `joint_spring`: coordinate at rest, m or rad; that at the start by default.
+    Coordinate at which the spring is unloaded, m or rad; by default the coordinate at the start.
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
-    `contact`: N/m of a marker, N/m per reference length of a body.
+    Stiffness, N/m for a displacement and N m/rad for an angle; 0 by default. A stiffness or a damping is needed.
     """
 
 
@@ -488,23 +476,23 @@ class BushingLoad(Part):
     kind: Literal["bushing"] = "bushing"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
+    Markers that the bushing connects: `ground` or `body.marker`, then `body.marker`.
     """
     rotational_damping: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
     """
-    `bushing`: damping about the three axes, N m s/rad; zeros by default.
+    Damping about the three axes, N m s/rad; zeros by default.
     """
     rotational_stiffness: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
     """
-    `bushing`: stiffness about the three axes, N m/rad; zeros by default.
+    Stiffness about the three axes, N m/rad; zeros by default.
     """
     translational_damping: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
     """
-    `bushing`: damping along the three axes, N s/m; zeros by default.
+    Damping along the three axes, N s/m; zeros by default.
     """
     translational_stiffness: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
     """
-    `bushing`: stiffness along the three axes, N/m; zeros by default.
+    Stiffness along the three axes, N/m; zeros by default.
     """
 
 
@@ -521,29 +509,27 @@ class JointLimitLoad(Part):
     kind: Literal["joint_limit"] = "joint_limit"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint that it acts in; `joint_spring`, `joint_limit`: of a joint with a coordinate.
+    Name of the joint whose coordinate is limited.
     """
     stiffness: Annotated[StrictFloat, Field(ge=0.0)]
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
-    `contact`: N/m of a marker, N/m per reference length of a body.
+    Stiffness `k` beyond a limit, N/m for a displacement and N m/rad for an angle.
     """
     coordinate: CoordinateKind | None = None
     """
-    `joint_spring`, `joint_limit`: which coordinate of the joint; the displacement, if it has one, by default.
+    Coordinate of the joint that is limited; by default the displacement of a joint that has one, else the angle.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
-    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    Damping `a` in the force `k d (1 + a d')` at the coordinate `d` beyond a limit, s/m or s/rad; 0 by default.
     """
     lower: StrictFloat | None = None
     """
-    `joint_limit`: the least coordinate without force, m or rad; no limit there by default.
+    Least coordinate without force, m or rad; by default there is no lower limit. One of both limits is needed.
     """
     upper: StrictFloat | None = None
     """
-    `joint_limit`: the largest coordinate without force, m or rad; no limit there by default.
+    Largest coordinate without force, m or rad; by default there is no upper limit.
     """
 
 
@@ -717,7 +703,7 @@ class PositionOutput(Part):
     kind: Literal["position"] = "position"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker at which the quantity is read, `body.marker`.
     """
 
 
@@ -737,11 +723,11 @@ class VelocityOutput(Part):
     kind: Literal["velocity"] = "velocity"
     joint: StrictStr | None = None
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint along a line whose displacement has the rate that is read.
     """
     marker: StrictStr | None = None
     """
-    `body.marker`, for quantities at a marker.
+    Marker whose rate is read, `body.marker`.
     """
 
 
@@ -761,11 +747,11 @@ class AccelerationOutput(Part):
     kind: Literal["acceleration"] = "acceleration"
     joint: StrictStr | None = None
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint along a line whose displacement has the rate that is read.
     """
     marker: StrictStr | None = None
     """
-    `body.marker`, for quantities at a marker.
+    Marker whose rate is read, `body.marker`.
     """
 
 
@@ -778,7 +764,7 @@ class DisplacementOutput(Part):
     kind: Literal["displacement"] = "displacement"
     joint: StrictStr
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint along a line.
     """
 
 
@@ -795,11 +781,11 @@ class DeflectionOutput(Part):
     kind: Literal["deflection"] = "deflection"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the cable, rod or beam whose deflection is read, `body.marker`.
     """
     from_: StrictStr | None = None
     """
-    `deflection` only: the marker of the same body whose frame carries the rigid body that the marker is compared with; without it
+    Another marker of the same body, whose frame carries the rigid body that `marker` is compared with, `body.marker`. By default
     the rigid body is the drawn one where it fits the present one best.
     """
 
@@ -813,7 +799,7 @@ class DirectionOutput(Part):
     kind: Literal["direction"] = "direction"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker at which the quantity is read, `body.marker`.
     """
 
 
@@ -834,11 +820,11 @@ class AngleOutput(Part):
     kind: Literal["angle"] = "angle"
     joint: StrictStr | None = None
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint with an axis whose angle is read.
     """
     marker: StrictStr | None = None
     """
-    `body.marker`, for quantities at a marker.
+    Marker whose direction is read in the plane, `body.marker`.
     """
 
 
@@ -850,33 +836,33 @@ class OrientationOutput(Part):
     kind: Literal["orientation"] = "orientation"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the rigid body, rod or beam whose frame is read, `body.marker`.
     """
 
 
 class QuaternionOutput(Part):
     """
-    The same as a unit quaternion, scalar first: `w >= 0` at the start, and from there on without jumps, so that it changes
+    How a rigid body or the section of a rod in space stands, as a unit quaternion, scalar first: `w >= 0` at the start, and from there on without jumps, so that it changes
     its sign with every full turn.
     """
 
     kind: Literal["quaternion"] = "quaternion"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the rigid body, rod or beam whose frame is read, `body.marker`.
     """
 
 
 class RotationVectorOutput(Part):
     """
-    The same as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body turns on beyond,
+    How a rigid body or the section of a rod in space stands, as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body turns on beyond,
     the vector jumps to its opposite.
     """
 
     kind: Literal["rotation_vector"] = "rotation_vector"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the rigid body, rod or beam whose frame is read, `body.marker`.
     """
 
 
@@ -896,16 +882,15 @@ class AngularVelocityOutput(Part):
     kind: Literal["angular_velocity"] = "angular_velocity"
     joint: StrictStr | None = None
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint with an axis whose angle has the rate that is read.
     """
     axes: Along | None = None
     """
-    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
-    joint: along which axes components are.
+    Axes along which the components are, in space only.
     """
     marker: StrictStr | None = None
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the body or section whose rotation is read, `body.marker`.
     """
 
 
@@ -925,16 +910,15 @@ class AngularAccelerationOutput(Part):
     kind: Literal["angular_acceleration"] = "angular_acceleration"
     joint: StrictStr | None = None
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint with an axis whose angle has the rate that is read.
     """
     axes: Along | None = None
     """
-    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
-    joint: along which axes components are.
+    Axes along which the components are, in space only.
     """
     marker: StrictStr | None = None
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the body or section whose rotation is read, `body.marker`.
     """
 
 
@@ -946,7 +930,7 @@ class StrainOutput(Part):
     kind: Literal["strain"] = "strain"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the flexible cable, rod or beam at which the strain is read, `body.marker`.
     """
 
 
@@ -958,7 +942,7 @@ class CurvatureOutput(Part):
     kind: Literal["curvature"] = "curvature"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the flexible cable, rod or beam at which the strain is read, `body.marker`.
     """
 
 
@@ -971,7 +955,7 @@ class AxialForceOutput(Part):
     kind: Literal["axial_force"] = "axial_force"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the cable, rod or beam at which the section force is read, `body.marker`.
     """
 
 
@@ -985,7 +969,7 @@ class BendingMomentOutput(Part):
     kind: Literal["bending_moment"] = "bending_moment"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the cable, rod or beam at which the section force is read, `body.marker`.
     """
 
 
@@ -998,7 +982,7 @@ class TorqueOutput(Part):
     kind: Literal["torque"] = "torque"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the rod or beam at which the torque is read, `body.marker`.
     """
 
 
@@ -1017,13 +1001,12 @@ class StressOutput(Part):
     kind: Literal["stress"] = "stress"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the rod or beam, or of the cable in the plane, whose section is read, `body.marker`.
     """
     points: Annotated[list[Point], Field(max_length=100, min_length=1)]
     """
-    `stress` and `torsion_stress` only: points of the section, m. Of a rod or beam `[y, z]` along the first and the second axis of the
-    section from the line of the body; of a cable in the plane `[y]`, the way from its line to the left of its direction. One variable
-    a point, in this order.
+    Points of the section, m: one variable for each point, in this order. In space a point is `[y, z]` along the first and the second
+    axis of the section from the line of the body. In the plane it is `[y]`, to the left of the direction of the line.
     """
 
 
@@ -1037,13 +1020,12 @@ class TorsionStressOutput(Part):
     kind: Literal["torsion_stress"] = "torsion_stress"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the rod or beam whose section is read, `body.marker`.
     """
     points: Annotated[list[Point], Field(max_length=100, min_length=1)]
     """
-    `stress` and `torsion_stress` only: points of the section, m. Of a rod or beam `[y, z]` along the first and the second axis of the
-    section from the line of the body; of a cable in the plane `[y]`, the way from its line to the left of its direction. One variable
-    a point, in this order.
+    Points of the section, m: one variable for each point, in this order. A point is `[y, z]` along the first and the second axis of
+    the section from the line of the body.
     """
 
 
@@ -1055,7 +1037,7 @@ class ConnectivityForceOutput(Part):
     kind: Literal["connectivity_force"] = "connectivity_force"
     marker: StrictStr
     """
-    `body.marker`, for quantities at a marker.
+    Marker of the cable, rod or beam at which the section force is read, `body.marker`.
     """
 
 
@@ -1067,7 +1049,7 @@ class TravelOutput(Part):
     kind: Literal["travel"] = "travel"
     joint: StrictStr
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint of kind `point_on_cable`.
     """
 
 
@@ -1087,16 +1069,15 @@ class ReactionOutput(Part):
     kind: Literal["reaction"] = "reaction"
     motion: StrictStr | None = None
     """
-    Name of a motion, for what drives it.
+    Name of the motion whose driving force or moment is read.
     """
     axes: Along | None = None
     """
-    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
-    joint: along which axes components are.
+    Axes along which the components are, in space only.
     """
     joint: StrictStr | None = None
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint whose reaction is read.
     """
 
 
@@ -1116,16 +1097,15 @@ class ReactionMomentOutput(Part):
     kind: Literal["reaction_moment"] = "reaction_moment"
     motion: StrictStr | None = None
     """
-    Name of a motion, for what drives it.
+    Name of the motion whose driving force or moment is read.
     """
     axes: Along | None = None
     """
-    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
-    joint: along which axes components are.
+    Axes along which the components are, in space only.
     """
     joint: StrictStr | None = None
     """
-    Name of a joint, for quantities of a joint.
+    Name of the joint whose reaction is read.
     """
 
 
@@ -1137,7 +1117,7 @@ class GearForceOutput(Part):
     kind: Literal["gear_force"] = "gear_force"
     gear: StrictStr
     """
-    Name of a gear.
+    Name of the gear.
     """
 
 
@@ -1149,7 +1129,7 @@ class GearTorqueOutput(Part):
     kind: Literal["gear_torque"] = "gear_torque"
     gear: StrictStr
     """
-    Name of a gear.
+    Name of the gear.
     """
 
 
@@ -1162,7 +1142,7 @@ class LoadForceOutput(Part):
     kind: Literal["load_force"] = "load_force"
     load: StrictStr
     """
-    Name of a load, for its force or moment.
+    Name of the load.
     """
 
 
@@ -1174,7 +1154,7 @@ class LoadMomentOutput(Part):
     kind: Literal["load_moment"] = "load_moment"
     load: StrictStr
     """
-    Name of a load, for its force or moment.
+    Name of the load.
     """
 
 
@@ -1237,15 +1217,13 @@ class NaturalFrequencyOutput(Part):
     """
 
     kind: Literal["natural_frequency"] = "natural_frequency"
+    count: Annotated[StrictInt, Field(ge=0)]
+    """
+    Number of natural frequencies, from 1 to 100, lowest first; at most as many as the scene has.
+    """
     body: StrictStr | None = None
     """
-    `natural_frequency` and `eigenvalue` of a scene with one body only: its name, which then begins those of the
-    variables.
-    """
-    count: Annotated[StrictInt | None, Field(ge=0)] = None
-    """
-    `natural_frequency` and `eigenvalue` only: how many, lowest frequency or slowest eigenvalue first; no more than
-    the scene has.
+    Of a scene with one body only: name of the body, with which the names of the variables then begin.
     """
 
 
@@ -1260,15 +1238,13 @@ class EigenvalueOutput(Part):
     """
 
     kind: Literal["eigenvalue"] = "eigenvalue"
+    count: Annotated[StrictInt, Field(ge=0)]
+    """
+    Number of eigenvalues, from 1 to 100, slowest first; at most as many as the scene has.
+    """
     body: StrictStr | None = None
     """
-    `natural_frequency` and `eigenvalue` of a scene with one body only: its name, which then begins those of the
-    variables.
-    """
-    count: Annotated[StrictInt | None, Field(ge=0)] = None
-    """
-    `natural_frequency` and `eigenvalue` only: how many, lowest frequency or slowest eigenvalue first; no more than
-    the scene has.
+    Of a scene with one body only: name of the body, with which the names of the variables then begin.
     """
 
 
@@ -1334,7 +1310,7 @@ class ForcePort(Part):
     kind: Literal["force"] = "force"
     rotation: StrictBool | None = None
     """
-    Angle and moment too; a rotational spring or damper says so by itself.
+    Whether a moment comes in and the rotation of the marker goes out too.
     """
 
 
@@ -1354,24 +1330,24 @@ class MotionPort(Part):
     kind: Literal["motion"] = "motion"
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `motion` only: damping of a damper beside the spring, N s/m.
+    Damping of a damper beside the spring, N s/m.
     """
     rotation: StrictBool | None = None
     """
-    Angle and moment too; a rotational spring or damper says so by itself.
+    Whether a rotation comes in and a moment goes out too. A rotational stiffness or damping implies it.
     """
     rotational_damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    With a stiffness or damping only: damping between the directions, N m s/rad.
+    With a stiffness or a damping only: damping beside the rotational spring, N m s/rad.
     """
     rotational_stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    With a stiffness or damping only: stiffness between the directions, N m/rad.
+    With a stiffness or a damping only: stiffness of a spring between the orientation that comes in and that of the marker, N m/rad.
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `motion` only: stiffness of a spring between the marker and the point that comes in, N/m; the
-    marker then stays free.
+    Stiffness of a spring between the point that comes in and the marker, N/m; by default the marker follows the point. With a
+    stiffness or a damping the marker stays free.
     """
 
 
@@ -1792,30 +1768,24 @@ class Revolute(Part):
     kind: Literal["revolute"] = "revolute"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
     """
     angle: StrictFloat | None = None
     """
-    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
-    unloaded, rad, by default that at the start.
+    With `stiffness` or `damping` only: angle at which the spring is unloaded, rad; by default the angle at the start.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `revolute` only: damping of rotation, N m s/rad.
+    Damping of rotation, N m s/rad; by default there is no damper.
     """
     direction: Vector | None = None
     """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    Axis of rotation, required in space and absent in the plane. It is given in the axes of the first marker's body at the start:
+    of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -1824,7 +1794,7 @@ class Revolute(Part):
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `revolute` only: stiffness of a spring against rotation, N m/rad.
+    Stiffness of a spring against rotation, N m/rad; by default there is no spring.
     """
 
 
@@ -1840,12 +1810,11 @@ class Spherical(Part):
     kind: Literal["spherical"] = "spherical"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -1866,24 +1835,20 @@ class Universal(Part):
     kind: Literal["universal"] = "universal"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
     """
     direction: Vector
     """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    Axis of the cross that is fixed in the first body. It is given in the axes of the first marker's body at the start:
+    of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
     """
     second_direction: Vector
     """
-    `universal` only: the axis that is fixed in the second body, across `direction` and in the same axes as that.
+    Axis of the cross that is fixed in the second body, perpendicular to `direction` and in the same axes.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -1904,18 +1869,16 @@ class Weld(Part):
     kind: Literal["weld"] = "weld"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
     """
     angle: StrictFloat | None = None
     """
-    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
-    unloaded, rad, by default that at the start.
+    In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
+    The direction of `ground` is 0.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -1936,20 +1899,16 @@ class PointOnLine(Part):
     kind: Literal["point_on_line"] = "point_on_line"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
     """
     direction: Vector
     """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    Direction of the line. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
+    or beam the tangent and both axes of its section.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -1970,20 +1929,16 @@ class Cylindrical(Part):
     kind: Literal["cylindrical"] = "cylindrical"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
     """
     direction: Vector
     """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    Direction of the line, which is the axis of rotation too. It is given in the axes of the first marker's body at the start:
+    of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -2004,24 +1959,20 @@ class Screw(Part):
     kind: Literal["screw"] = "screw"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
     """
     direction: Vector
     """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    Axis of the screw. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
+    or beam the tangent and both axes of its section.
     """
     pitch: StrictFloat
     """
-    `screw` only: way along the axis a full turn, m; negative of a left-handed thread.
+    Displacement along the axis for each full turn, m; negative for a left-handed thread.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -2042,26 +1993,21 @@ class Prismatic(Part):
     kind: Literal["prismatic"] = "prismatic"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
     """
     angle: StrictFloat | None = None
     """
-    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    rad; as at the start by default, and in space always. `revolute` with `stiffness` or `damping`: the angle at which its spring is
-    unloaded, rad, by default that at the start.
+    In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
+    The direction of `ground` is 0.
     """
     direction: Vector | None = None
     """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    Direction of the line, required in space; in the plane by default the direction of the first marker. It is given in the axes of
+    the first marker's body at the start: of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -2082,20 +2028,16 @@ class Planar(Part):
     kind: Literal["planar"] = "planar"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or the `body.marker` that carries the plane, then the `body.marker` in the plane.
     """
     direction: Vector
     """
-    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
-    its section there). `point_on_line`, `cylindrical`, `screw`: direction
-    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `cylindrical`, `screw`: the axis of rotation, which none of them goes without
-    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    Normal of the plane, which is the axis of rotation too. It is given in the axes of the first marker's body at the start:
+    of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: a point of the plane on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -2116,16 +2058,15 @@ class Distance(Part):
     kind: Literal["distance"] = "distance"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers at the ends of the link: `ground` or `body.marker`, then `body.marker`.
     """
     length: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    `distance` only: length of the link, m; the distance at the start by default.
+    Length of the link, m; by default the distance of its ends at the start.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: end of the link on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -2146,17 +2087,16 @@ class Generic(Part):
     kind: Literal["generic"] = "generic"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    What it joins: `ground` or `body.marker`, then `body.marker`. `point_on_cable`: the name of a cable,
-    then `body.marker`.
+    Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
     """
     free: list[Freedom]
     """
-    `generic` only: what is let go along and about the axes of the body of the first marker (of ground: the global
-    ones); everything else is held. Of two rotations the first turns about the axis of the first body.
+    Translations along and rotations about the axes of the first marker's body that are free. The joint holds all others. With
+    `ground` these are the global axes. Of two free rotations the first is about the axis of the first body.
     """
     point: Vector | None = None
     """
-    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -2201,26 +2141,23 @@ class SpringDamperLoad(Part):
     kind: Literal["spring_damper"] = "spring_damper"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
+    Ends of the spring: `ground` or `body.marker`, then `body.marker`.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
-    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    Damping, N s/m; 0 by default.
     """
     length: Value | None = None
     """
-    `spring_damper`: length at rest, m; the distance at the start by default.
+    Length at rest, m; by default the distance of the ends at the start.
     """
     point: Vector | None = None
     """
-    `spring_damper` from `ground` only: where on the ground, m; where the second marker is at the
-    start by default.
+    With `ground` only: end of the spring on the ground, m; by default the position of the second marker at the start.
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
-    `contact`: N/m of a marker, N/m per reference length of a body.
+    Stiffness, N/m; 0 by default. A stiffness or a damping is needed.
     """
 
 
@@ -2237,42 +2174,40 @@ class FluidLoad(Part):
     kind: Literal["fluid"] = "fluid"
     body: StrictStr
     """
-    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
-    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
+    Name of the cable, rod or beam that the fluid streams past.
     """
     density: Annotated[StrictFloat, Field(gt=0.0)]
     """
-    `fluid`: density of the fluid, kg/m^3.
+    Density of the fluid, kg/m^3.
     """
     added_mass: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `fluid`: coefficient of added mass, the fluid that moves along by that which is displaced; 0 by default.
+    Coefficient of added mass: the mass of fluid that moves along, divided by the mass of displaced fluid; 0 by default.
     """
     area: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    `fluid`: area of the section that displaces fluid, m^2; that of the circle of `diameter` by default.
+    Area of the section that displaces fluid, m^2; by default the area of a circle of this `diameter`.
     """
     buoyancy: StrictBool | None = True
     """
-    `fluid`: whether the weight of the displaced fluid lifts the body; true by default.
+    Whether the weight of the displaced fluid lifts the body; true by default.
     """
     current: Annotated[list[Value] | None, Field(max_length=3, min_length=2)] = None
     """
-    `fluid`: velocity of the fluid in global axes, m/s; zero by default. Its components may be expressions in `s` too, as those of
-    what is distributed along a body.
+    Velocity of the fluid in global axes, m/s; zero by default. Expressions may contain the material coordinate `s` of the body,
+    which is 0 at the first end and 1 at the last.
     """
     diameter: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    `fluid`: diameter that drag counts with, m; by default the outer one of a circle or tube, else that of a circle with the area of
-    the section.
+    Diameter for drag, m; by default the outer diameter of a circle or tube, else that of a circle with the area of the section.
     """
     drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `fluid`: coefficient of drag across the line, by the area `diameter` times length; 0 by default.
+    Coefficient of drag across the line, for the area `diameter` times length; 0 by default.
     """
     tangential_drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `fluid`: coefficient of drag along the line, by the area `pi diameter` times length; 0 by default.
+    Coefficient of drag along the line, for the area `pi diameter` times length; 0 by default.
     """
 
 
@@ -2815,18 +2750,16 @@ class ForceLoad(Part):
     kind: Literal["force"] = "force"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
+    Marker that the force acts at, `body.marker`.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
-    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
-    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    Components of the force, N: two in the plane, three in space.
     """
     follower: StrictBool | None = None
     """
-    `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
-    space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
+    Whether the components rotate with the marker. They are then along and to the left of its direction in the plane, and along the
+    axes of the body's frame in space.
     """
 
 
@@ -2843,18 +2776,15 @@ class MomentLoad(Part):
     kind: Literal["moment"] = "moment"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
+    Marker that the moment acts at, `body.marker`.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
-    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
-    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    Moment, N m: one value in the plane, three components in space.
     """
     follower: StrictBool | None = None
     """
-    `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
-    space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
+    Whether the components rotate with the marker, along the axes of the body's frame; in space only.
     """
 
 
@@ -2870,13 +2800,11 @@ class TorqueLoad(Part):
     kind: Literal["torque"] = "torque"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint that it acts in; `joint_spring`, `joint_limit`: of a joint with a coordinate.
+    Name of the joint with an axis that the torque acts about.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
-    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
-    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    Torque on the second marker, N m: one value.
     """
 
 
@@ -2892,14 +2820,12 @@ class DistributedForceLoad(Part):
     kind: Literal["distributed_force"] = "distributed_force"
     body: StrictStr
     """
-    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
-    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
+    Name of the cable, rod or beam that the force acts along.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
-    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
-    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    Components of the force per reference length, N/m: two in the plane, three in space. Expressions may contain the material
+    coordinate `s` of the body, which is 0 at the first end and 1 at the last.
     """
 
 
@@ -2916,19 +2842,16 @@ class DistributedMomentLoad(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
-    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
+    Name of the rod or beam that the moment acts along.
     """
     value: LoadValue
     """
-    `force`, `moment`, `torque`, `distributed_force`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
-    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
-    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    Moment per reference length, N m/m: one value in the plane, three components in space. Expressions may contain the material
+    coordinate `s` of the body, which is 0 at the first end and 1 at the last.
     """
     follower: StrictBool | None = None
     """
-    `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
-    space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
+    Whether the components rotate with the sections, along their axes; in space only.
     """
 
 
@@ -2946,37 +2869,34 @@ class ContactLoad(Part):
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
     kind: Literal["contact"] = "contact"
-    surface: Surface
-    """
-    `contact`: what is touched.
-    """
     stiffness: Annotated[StrictFloat, Field(ge=0.0)]
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `joint_limit`: N/m along a displacement, N m/rad about an angle;
-    `contact`: N/m of a marker, N/m per reference length of a body.
+    Stiffness `k` of the surface, N/m at a marker; N/m per reference length along a body.
+    """
+    surface: Surface
+    """
+    Surface that is touched.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `joint_limit`, `contact`: `a` in the force `k d (1 + a d')`
-    where a limit is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    Damping `a` in the normal force `k d (1 + a d')` at the depth `d` below the surface, s/m; 0 by default.
     """
     friction: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `contact`: Coulomb's coefficient of friction; 0 by default.
+    Coulomb's coefficient of friction `mu`; 0 by default.
     """
     marker: StrictStr | None = None
     """
-    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
+    Marker that touches the surface, `body.marker`.
     """
     slip_velocity: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `contact` with friction: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. What would
-    stick creeps at a fraction of it.
+    With friction only: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. A contact that
+    would stick creeps at a fraction of it.
     """
     body: StrictStr | None = None
     """
-    `distributed_force`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
-    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
+    Name of the cable, rod or beam whose line touches the surface; the thickness of the body does not count.
     """
 
 
@@ -3038,15 +2958,15 @@ class AngleMotion(Part):
     kind: Literal["angle"] = "angle"
     value: MotionValue
     """
-    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
+    Course of the angle in time, rad.
     """
     joint: StrictStr | None = None
     """
-    `angle`: name of the driven revolute joint; `displacement`: of the joint along a line.
+    Name of the joint with an axis whose angle is driven.
     """
     marker: StrictStr | None = None
     """
-    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
+    Marker whose direction is driven in the plane, `body.marker`.
     """
 
 
@@ -3060,13 +2980,13 @@ class PositionMotion(Part):
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
     kind: Literal["position"] = "position"
-    value: MotionValue
-    """
-    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
-    """
     marker: StrictStr
     """
-    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
+    Marker whose position is driven, `body.marker`.
+    """
+    value: MotionValue
+    """
+    Course of the position in time, m: two components in the plane, three in space.
     """
 
 
@@ -3081,13 +3001,13 @@ class OrientationMotion(Part):
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
     kind: Literal["orientation"] = "orientation"
-    value: MotionValue
-    """
-    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
-    """
     marker: StrictStr
     """
-    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
+    Marker of the rigid body whose orientation is driven, `body.marker`.
+    """
+    value: MotionValue
+    """
+    Course of the quaternion in time: its four parts, scalar first.
     """
 
 
@@ -3102,13 +3022,13 @@ class DisplacementMotion(Part):
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
     kind: Literal["displacement"] = "displacement"
-    value: MotionValue
-    """
-    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
-    """
     joint: StrictStr
     """
-    `angle`: name of the driven revolute joint; `displacement`: of the joint along a line.
+    Name of the joint whose displacement is driven.
+    """
+    value: MotionValue
+    """
+    Course of the displacement in time, m.
     """
 
 
@@ -3124,13 +3044,13 @@ class WinchMotion(Part):
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
     kind: Literal["winch"] = "winch"
-    value: MotionValue
-    """
-    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
-    """
     marker: StrictStr
     """
-    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
+    Marker at the end of the cable where the winch is, `body.marker`.
+    """
+    value: MotionValue
+    """
+    Course of the length paid out in time, m; 0 at the start.
     """
 
 

@@ -4,7 +4,9 @@ use super::picture::{Picture, seen};
 use crate::math::function::Function;
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
-use crate::scene::{self, Cable, Input, InputKind, LoadKind, Marker, On, PortKind, Resolved};
+use crate::scene::{
+    self, Cable, Input, InputKind, LoadKind, LoadTarget, PortKind, Resolved, ResolvedMarker,
+};
 use crate::system::Signal;
 
 /// Arrows at most that stand for a distributed force: on a short body as many as have room.
@@ -87,11 +89,11 @@ fn way(components: &[f64]) -> Point {
 
 impl<'a> DrawnAction<'a> {
     /// The marker that it acts on, or the second one of a joint; none on a cable as a whole.
-    pub(super) fn marker(&self) -> Option<Marker<'a>> {
+    pub(super) fn marker(&self) -> Option<ResolvedMarker<'a>> {
         match self.action.on {
-            On::Marker(marker) => Some(marker),
-            On::Joint(pivot) => Some(pivot.ends.second),
-            On::Cable(_) => None,
+            LoadTarget::Marker(marker) => Some(marker),
+            LoadTarget::Joint(pivot) => Some(pivot.ends.second),
+            LoadTarget::Cable(_) => None,
         }
     }
 
@@ -111,10 +113,12 @@ impl<'a> Picture<'a> {
     pub(super) fn actions(&mut self) {
         for action in actions(self.resolved) {
             match action.action.on {
-                On::Marker(marker) if action.action.kind.is_force() => self.force(&action, marker),
-                On::Marker(marker) => self.turn(marker),
-                On::Joint(pivot) => self.turn(pivot.ends.second),
-                On::Cable(cable) => {
+                LoadTarget::Marker(marker) if action.action.kind.is_force() => {
+                    self.force(&action, marker)
+                }
+                LoadTarget::Marker(marker) => self.turn(marker),
+                LoadTarget::Joint(pivot) => self.turn(pivot.ends.second),
+                LoadTarget::Cable(cable) => {
                     let along = action.way([1.0, 0.0]);
                     self.distributed(action.label, cable, along, action.action.kind.is_force());
                 }
@@ -140,12 +144,12 @@ impl<'a> Picture<'a> {
         }
     }
 
-    fn turn(&mut self, marker: Marker<'_>) {
+    fn turn(&mut self, marker: ResolvedMarker<'_>) {
         let at = self.at(marker.position);
         symbols::turn(&mut self.canvas, at, self.unit, symbols::LOAD);
     }
 
-    fn force(&mut self, action: &DrawnAction<'a>, marker: Marker<'a>) {
+    fn force(&mut self, action: &DrawnAction<'a>, marker: ResolvedMarker<'a>) {
         let place = self.place(marker);
         let along = action.way(place.direction);
         let tail = symbols::force(&mut self.canvas, place.point, along, self.unit);

@@ -4,7 +4,8 @@ use super::picture::{MarkerInImage, Picture};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{
-    Ends, First, Hold, Joint, JointCoordinate, LoadKind, MotionKind, Place as On, PortKind, Symbol,
+    Ends, First, Hold, JointCoordinate, LoadKind, MotionKind, Place as On, PortKind, ResolvedJoint,
+    Symbol,
 };
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
@@ -22,7 +23,7 @@ impl Picture<'_> {
         }
     }
 
-    fn joint(&mut self, joint: &Joint<'_>) {
+    fn joint(&mut self, joint: &ResolvedJoint<'_>) {
         let (ends, place) = (&joint.ends, self.place(joint.ends.second));
         let (second, unit) = (place.point, self.unit);
         match joint.symbol() {
@@ -58,7 +59,7 @@ impl Picture<'_> {
     }
 
     /// Direction of the line that a joint holds its second marker on.
-    fn along(&self, joint: &Joint<'_>) -> [f64; 2] {
+    fn along(&self, joint: &ResolvedJoint<'_>) -> [f64; 2] {
         if self.scene.dimension == 3 {
             let given = joint.holds.iter().find_map(|hold| match hold {
                 Hold::Line(direction) | Hold::Plane(direction) => Some(*direction),

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_6;
 
 use super::labels::Box;
 use crate::page::canvas::{Canvas, Point, Style, direction, moved};
-use crate::scene::{Ends, Marker, Place as On, Resolved, Scene};
+use crate::scene::{Ends, Place as On, Resolved, ResolvedMarker, Scene};
 
 /// Colour of bodies.
 pub(super) const BODY: &str = "#2b5c8a";
@@ -92,7 +92,7 @@ impl<'a> Picture<'a> {
     }
 
     /// A marker in the image.
-    pub(super) fn place(&self, marker: Marker<'a>) -> MarkerInImage<'a> {
+    pub(super) fn place(&self, marker: ResolvedMarker<'a>) -> MarkerInImage<'a> {
         let [across, up] = self.seen(marker.direction);
         MarkerInImage {
             on: marker.place,

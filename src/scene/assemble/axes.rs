@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::Builder;
 use crate::body::{Marker, axes_at};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
-use crate::scene::resolved::{self, Action, Hold, Pivot, Place, Turning};
+use crate::scene::resolved::{self, Action, DirectionSource, Hold, Pivot, Place};
 use crate::system::joints::{Across, Clamp, Perpendicular, Primitive};
 use crate::system::loads::{AppliedLoad, SpatialMoment};
 use crate::system::{Attachment, AxisTurn, Direction, reach};
@@ -28,7 +28,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A marker in the directions of the axes of its body's frame.
-    pub(super) fn frame_axes(&self, marker: resolved::Marker<'_>) -> [Marker; D] {
+    pub(super) fn frame_axes(&self, marker: resolved::ResolvedMarker<'_>) -> [Marker; D] {
         let built = self.marker(marker);
         std::array::from_fn(|k| match marker.place {
             Place::Point(rigid, _) if built.is_framed() => {
@@ -45,7 +45,7 @@ impl<const D: usize> Builder<'_, D> {
     /// A moment on a rigid body: in global axes, or in those of its frame.
     pub(super) fn moment_on(
         &self,
-        marker: resolved::Marker<'_>,
+        marker: resolved::ResolvedMarker<'_>,
         action: &Action<'_>,
     ) -> AppliedLoad<D> {
         let axes = self.frame_axes(marker);
@@ -77,15 +77,15 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// In space, the turn that a joint with an axis lets its bodies make.
-    pub(super) fn turn_of(&self, joint: &resolved::Joint<'_>) -> Option<AxisTurn<D>> {
+    pub(super) fn turn_of(&self, joint: &resolved::ResolvedJoint<'_>) -> Option<AxisTurn<D>> {
         self.turn(joint.pivot()?)
     }
 
     /// Returns the rotation of a joint about its axis. `None` for a marker.
-    pub(super) fn axis_turn(&self, turning: &Turning<'_>) -> Option<AxisTurn<D>> {
+    pub(super) fn axis_turn(&self, turning: &DirectionSource<'_>) -> Option<AxisTurn<D>> {
         match turning {
-            Turning::Pivot(pivot) => self.turn(*pivot),
-            Turning::Marker(_) => None,
+            DirectionSource::Pivot(pivot) => self.turn(*pivot),
+            DirectionSource::Marker(_) => None,
         }
     }
 
@@ -146,7 +146,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A section of a rod or beam that is welded to the ground is held by rows alone, if no other joint does so already.
-    pub(super) fn clamp(&self, joint: &resolved::Joint<'_>) -> Option<Primitive<D>> {
+    pub(super) fn clamp(&self, joint: &resolved::ResolvedJoint<'_>) -> Option<Primitive<D>> {
         let ([Hold::Position, Hold::Direction(_)], true, Place::Along(cable, s)) = (
             &joint.holds[..],
             D == 3 && joint.ends.is_grounded(),

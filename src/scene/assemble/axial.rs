@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use crate::scene::Axial;
-use crate::scene::resolved::{Cable, Ends, First, Marker, MotionKind, Place, PortKind, Resolved};
+use crate::scene::resolved::{
+    Cable, Ends, First, MotionKind, Place, PortKind, Resolved, ResolvedMarker,
+};
 
 /// Part of the length from an end up to which a marker is at it.
 const AT_END: f64 = 1e-9;
@@ -38,7 +40,7 @@ impl Resolved<'_> {
     /// Whether joints or motions exert forces on the first and the last end of a cable.
     fn held_ends(&self, cable: Cable<'_>) -> [bool; 2] {
         let mut held = [false; 2];
-        let mut hold = |marker: Marker<'_>| {
+        let mut hold = |marker: ResolvedMarker<'_>| {
             if let Place::Along(of, s) = marker.place
                 && of.id == cable.id
             {
@@ -46,7 +48,7 @@ impl Resolved<'_> {
                 held[1] |= s > 1.0 - AT_END;
             }
         };
-        let ends_of = |ends: Ends<'_>, hold: &mut dyn FnMut(Marker<'_>)| {
+        let ends_of = |ends: Ends<'_>, hold: &mut dyn FnMut(ResolvedMarker<'_>)| {
             hold(ends.second);
             if let First::Marker(first) = ends.first {
                 hold(first);

@@ -14,7 +14,7 @@ use crate::elements::{self, ElementPolynomial, Nodal};
 use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
-use crate::scene::{Error, LineBody, RigidBody, SectionNumbers, Sections, Strain};
+use crate::scene::{Error, LineBody, LineModel, RigidBody, SectionNumbers, Strain};
 use crate::system::{LineChain, LumpedMass, RigidRod};
 
 /// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
@@ -358,10 +358,10 @@ fn build_elements<const D: usize>(
             axial_stiffness: stretching(0.5),
             bending_stiffness: bending(0.5),
             line_of: match body.sections {
-                Sections::None => LineOf::Cable,
-                Sections::Turn if body.is_coupled_axially() => LineOf::Beam,
-                Sections::Turn => LineOf::Rod,
-                Sections::Lean => LineOf::Beam,
+                LineModel::Cable => LineOf::Cable,
+                LineModel::Kirchhoff if body.is_coupled_axially() => LineOf::Beam,
+                LineModel::Kirchhoff => LineOf::Rod,
+                LineModel::Reissner => LineOf::Beam,
             },
             line_density: density(0.5),
             axial_damping_time,

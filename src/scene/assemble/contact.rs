@@ -6,18 +6,18 @@ use crate::elements::Element;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
 use crate::scene::description::Surface;
-use crate::scene::resolved::{By, Cable, Contact, Form};
+use crate::scene::resolved::{Cable, ContactBody, Form, ResolvedContact};
 use crate::system::RigidRod;
 use crate::system::loads::{self, AppliedLoad, ContactPoint, PANELS};
 
 impl<const D: usize> Builder<'_, D> {
-    pub(super) fn contact(&self, contact: &Contact<'_>) -> AppliedLoad<D> {
+    pub(super) fn contact(&self, contact: &ResolvedContact<'_>) -> AppliedLoad<D> {
         let places = match contact.by {
-            By::Marker(marker) => vec![ContactPoint {
+            ContactBody::Marker(marker) => vec![ContactPoint {
                 marker: self.marker(marker),
                 weight: 1.0,
             }],
-            By::Cable(cable) => self.places(cable),
+            ContactBody::Cable(cable) => self.places(cable),
         };
         let [stiffness, damping] = contact.sizes;
         AppliedLoad::Contact(Box::new(loads::Contact {

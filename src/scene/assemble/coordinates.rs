@@ -2,7 +2,9 @@
 
 use super::{Builder, unit};
 use crate::math::space::{Vector, axis, vector};
-use crate::scene::resolved::{self, First, Gear, JointCoordinate, Pivot, Slider, Turning};
+use crate::scene::resolved::{
+    self, DirectionSource, First, JointCoordinate, Pivot, ResolvedGear, Slider,
+};
 use crate::system::joints::{Coupler, Primitive};
 use crate::system::loads::{AppliedLoad, JointLimit, JointSpring, SixBushing};
 use crate::system::{Angle, Attachment, Coordinate, Direction, Translation};
@@ -30,7 +32,7 @@ impl<const D: usize> Builder<'_, D> {
     /// The angle of a joint, which is counted.
     fn counted(&mut self, pivot: &Pivot<'_>) -> Coordinate<D> {
         let ends = self.ends(pivot.ends);
-        let turn = self.axis_turn(&Turning::Pivot(*pivot));
+        let turn = self.axis_turn(&DirectionSource::Pivot(*pivot));
         let index = self.count_angle(ends, turn);
         Coordinate::Angle(Angle { ends, turn }, index)
     }
@@ -79,7 +81,7 @@ impl<const D: usize> Builder<'_, D> {
         })
     }
 
-    pub(super) fn bushing(&self, bushing: &resolved::Bushing<'_>) -> AppliedLoad<D> {
+    pub(super) fn bushing(&self, bushing: &resolved::ResolvedBushing<'_>) -> AppliedLoad<D> {
         let ends = self.ends(bushing.ends);
         let first = match bushing.ends.first {
             First::Marker(marker) => self.frame_axes(marker).map(Direction::Of),
@@ -137,7 +139,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     pub(super) fn gears(&mut self) {
-        for Gear {
+        for ResolvedGear {
             coordinates, ratio, ..
         } in &self.resolved.gears
         {

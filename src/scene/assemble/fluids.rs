@@ -5,7 +5,7 @@ use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
 use crate::scene::Error;
 use crate::scene::description::SectionNumbers;
-use crate::scene::resolved::{Cable, Fluid, Form, LoadKind, Resolved};
+use crate::scene::resolved::{Cable, Form, LoadKind, Resolved, ResolvedFluid};
 use crate::system::loads::{self, AppliedLoad, FluidSegment, LoadedLine, PANELS};
 
 impl Resolved<'_> {
@@ -22,7 +22,7 @@ impl Resolved<'_> {
     }
 }
 
-impl Fluid<'_> {
+impl ResolvedFluid<'_> {
     fn strip(&self, section: &SectionNumbers) -> FluidSegment {
         let [across, along] = self.drag;
         let faced = 0.5 * self.density * self.diameter(section);
@@ -59,7 +59,11 @@ impl<const D: usize> Builder<'_, D> {
     ///
     /// # Errors
     /// A mesh that is not possible, or an expression of the current that has no value at a Gauss point.
-    pub(super) fn fluid(&self, fluid: &Fluid<'_>, path: &str) -> Result<AppliedLoad<D>, Error> {
+    pub(super) fn fluid(
+        &self,
+        fluid: &ResolvedFluid<'_>,
+        path: &str,
+    ) -> Result<AppliedLoad<D>, Error> {
         let cable = fluid.on;
         let mut strips = Vec::new();
         for ends in self.segments(cable)?.windows(2) {

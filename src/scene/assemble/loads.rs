@@ -5,7 +5,7 @@ use crate::body::RodChain;
 use crate::math::function::Function;
 use crate::math::quadrature::GAUSS_5;
 use crate::scene::Error;
-use crate::scene::resolved::{Action, Cable, InputKind, LoadKind, On, Spring};
+use crate::scene::resolved::{Action, Cable, InputKind, LoadKind, LoadTarget, ResolvedSpring};
 use crate::system::Signal;
 use crate::system::loads::{self, AppliedLoad, DistributedMoment, LineLoad};
 
@@ -41,7 +41,7 @@ impl<const D: usize> Builder<'_, D> {
         Ok(())
     }
 
-    fn spring(&self, spring: &Spring<'_>) -> AppliedLoad<D> {
+    fn spring(&self, spring: &ResolvedSpring<'_>) -> AppliedLoad<D> {
         let ends = self.ends(spring.ends);
         let now = || Signal::Function(Function::Constant(self.distance_at_start(&ends)));
         AppliedLoad::Spring(loads::Spring {
@@ -61,18 +61,20 @@ impl<const D: usize> Builder<'_, D> {
             })
         };
         match action.on {
-            On::Marker(marker) if action.kind.is_force() => AppliedLoad::Force(loads::Force {
-                marker: self.marker(marker),
-                follower: action.follower,
-                components: each(components),
-                axes: self.frame_axes(marker),
-            }),
-            On::Marker(marker) if D == 3 => self.moment_on(marker, action),
-            On::Joint(pivot) if D == 3 => self.torque(pivot, action),
-            On::Marker(marker) => moment(self.on_marker(marker)),
-            On::Joint(pivot) => moment(self.ends(pivot.ends)),
-            On::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
-            On::Cable(cable) => AppliedLoad::DistributedForce(loads::DistributedForce {
+            LoadTarget::Marker(marker) if action.kind.is_force() => {
+                AppliedLoad::Force(loads::Force {
+                    marker: self.marker(marker),
+                    follower: action.follower,
+                    components: each(components),
+                    axes: self.frame_axes(marker),
+                })
+            }
+            LoadTarget::Marker(marker) if D == 3 => self.moment_on(marker, action),
+            LoadTarget::Joint(pivot) if D == 3 => self.torque(pivot, action),
+            LoadTarget::Marker(marker) => moment(self.on_marker(marker)),
+            LoadTarget::Joint(pivot) => moment(self.ends(pivot.ends)),
+            LoadTarget::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
+            LoadTarget::Cable(cable) => AppliedLoad::DistributedForce(loads::DistributedForce {
                 on: self.line(cable),
                 density: uniform(components),
             }),
@@ -102,7 +104,7 @@ impl<const D: usize> Builder<'_, D> {
     /// Builds a force or a moment with the components that vary along a body. These are parsed for every Gauss point.
     fn action_along(&self, action: &Action<'_>, path: &str) -> Result<AppliedLoad<D>, Error> {
         let mut load = self.action(action);
-        if let On::Cable(cable) = action.on {
+        if let LoadTarget::Cable(cable) = action.on {
             let (along, path) = (&action.along[..], format!("{path}.value"));
             match &mut load {
                 AppliedLoad::DistributedForce(on) => {

@@ -1,7 +1,7 @@
 //! Memory that a scene will take, about: it is asked for before anything is built.
 
 use crate::scene::resolved::{BodyReference, Resolved};
-use crate::scene::{Error, Model, Sections};
+use crate::scene::{Error, LineModel, Model};
 
 // Memory in the plane and in space, bytes, a third more than measured with thousands of each, factors of the implicit method with them.
 /// Memory of a cable element.
@@ -40,9 +40,9 @@ impl Resolved<'_> {
             BodyReference::Cable(cable) if cable.body.model != Model::Rigid => {
                 let count = cable.body.elements.unwrap_or(1) as usize;
                 let each = match cable.body.sections {
-                    Sections::None => BYTES_OF_CABLE,
-                    Sections::Turn => BYTES_OF_ROD,
-                    Sections::Lean => BYTES_OF_BEAM,
+                    LineModel::Cable => BYTES_OF_CABLE,
+                    LineModel::Kirchhoff => BYTES_OF_ROD,
+                    LineModel::Reissner => BYTES_OF_BEAM,
                 };
                 count.saturating_mul(each[place])
             }

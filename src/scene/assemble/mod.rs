@@ -19,7 +19,8 @@ pub use initial::Motions;
 use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
-    self, CouplingId, Ends, First, Hold, LoadId, MarkerId, Place, PointId, Resolved, Turning,
+    self, CouplingId, DirectionSource, Ends, First, Hold, LoadId, MarkerId, Place, PointId,
+    Resolved,
 };
 use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
@@ -246,7 +247,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    fn marker(&self, marker: resolved::Marker<'_>) -> Marker {
+    fn marker(&self, marker: resolved::ResolvedMarker<'_>) -> Marker {
         self.markers[marker.id.index()]
     }
 
@@ -297,15 +298,15 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A marker, seen from the ground.
-    fn on_marker(&self, marker: resolved::Marker<'_>) -> [Attachment<D>; 2] {
+    fn on_marker(&self, marker: resolved::ResolvedMarker<'_>) -> [Attachment<D>; 2] {
         let ground = Attachment::Ground(Vector::zeros());
         [ground, Attachment::Body(self.marker(marker))]
     }
 
-    fn turning(&self, turning: &Turning<'_>) -> [Attachment<D>; 2] {
+    fn turning(&self, turning: &DirectionSource<'_>) -> [Attachment<D>; 2] {
         match turning {
-            Turning::Marker(marker) => self.on_marker(*marker),
-            Turning::Pivot(pivot) => self.ends(pivot.ends),
+            DirectionSource::Marker(marker) => self.on_marker(*marker),
+            DirectionSource::Pivot(pivot) => self.ends(pivot.ends),
         }
     }
 
@@ -376,7 +377,7 @@ impl<const D: usize> Builder<'_, D> {
     fn primitives(
         &self,
         hold: &Hold,
-        joint: &resolved::Joint<'_>,
+        joint: &resolved::ResolvedJoint<'_>,
         ends: [Attachment<D>; 2],
     ) -> Vec<Primitive<D>> {
         let is_framed = ends.iter().any(Attachment::is_framed);
@@ -398,7 +399,7 @@ impl<const D: usize> Builder<'_, D> {
     fn primitive(
         &self,
         hold: &Hold,
-        joint: &resolved::Joint<'_>,
+        joint: &resolved::ResolvedJoint<'_>,
         ends: [Attachment<D>; 2],
     ) -> Option<Primitive<D>> {
         Some(match *hold {

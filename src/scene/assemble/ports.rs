@@ -1,7 +1,7 @@
 //! Loads of ports: what comes in, and springs and dampers to what moves outside.
 
 use super::Builder;
-use crate::scene::resolved::{Coupling, Port, PortKind};
+use crate::scene::resolved::{Coupling, PortKind, ResolvedPort};
 use crate::system::Signal;
 use crate::system::loads::{self, AppliedLoad, OrientationBushing, RotationalBushing};
 
@@ -25,7 +25,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    fn couple_position(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
+    fn couple_position(&mut self, port: &ResolvedPort<'_>, coupling: &Coupling<'_>) {
         let signal = |k| Signal::Input(coupling.first + k);
         self.couple(AppliedLoad::Bushing(loads::Bushing {
             marker: self.marker(port.marker),
@@ -36,7 +36,7 @@ impl<const D: usize> Builder<'_, D> {
         }));
     }
 
-    fn couple_angle(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
+    fn couple_angle(&mut self, port: &ResolvedPort<'_>, coupling: &Coupling<'_>) {
         let counted = self.count_angle(self.on_marker(port.marker), None);
         self.couple(AppliedLoad::RotationalBushing(RotationalBushing {
             marker: self.marker(port.marker),
@@ -48,7 +48,7 @@ impl<const D: usize> Builder<'_, D> {
         }));
     }
 
-    fn couple_orientation(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
+    fn couple_orientation(&mut self, port: &ResolvedPort<'_>, coupling: &Coupling<'_>) {
         let signal = |k| Signal::Input(coupling.first + k);
         let axes = self.frame_axes(port.marker);
         let bushing = OrientationBushing {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::accuracy::elements;
 use super::section::between;
-use super::{Inertia, Orientation, Section, SectionNumbers, Solid, Spin, Station, Vector};
+use super::{Inertia, Orientation, SceneVector, Section, SectionNumbers, Solid, Spin, Station};
 
 /// A body; `element` says of which kind.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -67,7 +67,7 @@ pub struct LineBody {
     /// rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
     /// then along `y`, or along `z` where that is the line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub axis: Option<Vector>,
+    pub axis: Option<SceneVector>,
     /// Unstressed shape, and the configuration at the start.
     pub shape: Shape,
     /// Rigid motion at the start; velocity of the first end.
@@ -78,31 +78,31 @@ pub struct LineBody {
     pub markers: BTreeMap<String, f64>,
     /// What its sections do, as its element says, or was chosen.
     #[serde(skip)]
-    pub sections: Sections,
+    pub sections: LineModel,
     /// Against gravity as the scene was written, of any length; zero without gravity. A parameter that changes gravity later does not turn sections.
     #[serde(skip)]
     pub vertical: [f64; 3],
 }
 
-/// What the sections of a line do.
+/// Kinematics of the sections of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sections {
-    /// Nothing: a cable.
+pub enum LineModel {
+    /// A line without sections that rotate: a cable.
     #[default]
-    None,
-    /// They turn about the line: a rod.
-    Turn,
-    /// They turn and lean against it: a beam.
-    Lean,
+    Cable,
+    /// Sections that rotate about the line and stay across it: a rod (Kirchhoff).
+    Kirchhoff,
+    /// Sections that rotate freely, with shear: a beam (Reissner).
+    Reissner,
 }
 
-impl Sections {
-    /// The element that they make of a line.
+impl LineModel {
+    /// Name of the element that a line of this model is.
     pub fn element(self) -> &'static str {
         match self {
-            Self::None => "cable",
-            Self::Turn => "rod",
-            Self::Lean => "beam",
+            Self::Cable => "cable",
+            Self::Kirchhoff => "rod",
+            Self::Reissner => "beam",
         }
     }
 }
@@ -145,7 +145,7 @@ pub struct RigidBody {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: Option<f64>,
     /// Centre of mass at the start, m.
-    pub position: Vector,
+    pub position: SceneVector,
     /// Direction of the body's frame at the start, counter-clockwise, rad.
     #[serde(default)]
     pub angle: f64,
@@ -157,7 +157,7 @@ pub struct RigidBody {
     pub motion: InitialMotion,
     /// Named points in the body's frame, whose origin is the centre of mass, m.
     #[serde(default)]
-    pub markers: BTreeMap<String, Vector>,
+    pub markers: BTreeMap<String, SceneVector>,
 }
 
 /// Material of a cable.
@@ -226,9 +226,9 @@ pub enum Shape {
     #[schemars(title = "Line")]
     Line {
         /// First end, m.
-        from: Vector,
+        from: SceneVector,
         /// Last end, m.
-        to: Vector,
+        to: SceneVector,
     },
     /// Circular arc that bulges to the right of the way from `from` to `to`: drawn from left to
     /// right it sags. In space it sags towards -z in the upright plane through both ends, and the cable has no
@@ -236,9 +236,9 @@ pub enum Shape {
     #[schemars(title = "Arc")]
     Arc {
         /// First end, m.
-        from: Vector,
+        from: SceneVector,
         /// Last end, m.
-        to: Vector,
+        to: SceneVector,
         /// Length along the arc, m; more than the distance between the ends.
         length: f64,
     },
@@ -246,16 +246,16 @@ pub enum Shape {
     #[schemars(title = "Helix")]
     Helix {
         /// Where its axis begins, m.
-        from: Vector,
+        from: SceneVector,
         /// Where its axis ends, m.
-        to: Vector,
+        to: SceneVector,
         /// Distance of the line from the axis, m.
         #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
         /// Number of turns; positive of a right-handed helix, negative of a left-handed one.
         turns: f64,
         /// Direction from the axis to the first end, of any length; what of it is along the axis does not count.
-        start: Vector,
+        start: SceneVector,
     },
 }
 
@@ -264,8 +264,8 @@ pub enum Shape {
 #[serde(deny_unknown_fields)]
 pub struct InitialMotion {
     /// Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s; zero by default.
-    #[serde(default, skip_serializing_if = "Vector::is_unsaid")]
-    pub velocity: Vector,
+    #[serde(default, skip_serializing_if = "SceneVector::is_unsaid")]
+    pub velocity: SceneVector,
     /// Angular velocity, counter-clockwise in the plane, in global axes in space, rad/s.
     #[serde(default)]
     pub spin: Spin,
@@ -303,12 +303,12 @@ pub struct Mass {
 impl LineBody {
     /// Whether its sections turn about its line: a rod or a beam.
     pub fn is_rod(&self) -> bool {
-        self.sections != Sections::None
+        self.sections != LineModel::Cable
     }
 
     /// Whether they lean against it, too.
     pub fn is_beam(&self) -> bool {
-        self.sections == Sections::Lean
+        self.sections == LineModel::Reissner
     }
 
     /// Whether sections couple twist and bending, or either with stretching.

@@ -4,7 +4,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
-use super::body::{Body, InitialMotion, LineBody, Model, RigidBody, Sections};
+use super::body::{Body, InitialMotion, LineBody, LineModel, Model, RigidBody};
 use super::section::Section;
 use super::strict::{Strict, at, typed};
 
@@ -25,8 +25,8 @@ impl<'de> Deserialize<'de> for Body {
         let element = keys.remove("element").ok_or_else(|| wrong("nothing"))?;
         match element.as_str() {
             Some("cable") => typed(value).map(Self::Cable),
-            Some("rod") => with_sections(value, Sections::Turn).map(Self::Rod),
-            Some("beam") => with_sections(value, Sections::Lean).map(Self::Beam),
+            Some("rod") => with_sections(value, LineModel::Kirchhoff).map(Self::Rod),
+            Some("beam") => with_sections(value, LineModel::Reissner).map(Self::Beam),
             Some("auto") => typed(value).map(Self::Auto),
             Some("rigid") => typed(value).map(Self::Rigid),
             _ => Err(wrong(&element.to_string())),
@@ -34,7 +34,7 @@ impl<'de> Deserialize<'de> for Body {
     }
 }
 
-fn with_sections<E: serde::de::Error>(value: Value, sections: Sections) -> Result<LineBody, E> {
+fn with_sections<E: serde::de::Error>(value: Value, sections: LineModel) -> Result<LineBody, E> {
     let body: LineBody = typed(value)?;
     Ok(LineBody { sections, ..body })
 }
@@ -118,20 +118,20 @@ impl Body {
 
 impl LineBody {
     /// The body as an element whose sections do this in so many dimensions, without what it has no use for.
-    pub fn made(&self, sections: Sections, dimension: usize) -> Body {
+    pub fn made(&self, sections: LineModel, dimension: usize) -> Body {
         let mut body = Self {
             sections,
             ..self.clone()
         };
-        if sections == Sections::None {
+        if sections == LineModel::Cable {
             body.material.shear_modulus = None;
         }
         body.sections_mut()
             .for_each(|of| of.make(sections, dimension));
         match sections {
-            Sections::None => Body::Cable(body),
-            Sections::Turn => Body::Rod(body),
-            Sections::Lean => Body::Beam(body),
+            LineModel::Cable => Body::Cable(body),
+            LineModel::Kirchhoff => Body::Rod(body),
+            LineModel::Reissner => Body::Beam(body),
         }
     }
 
@@ -145,8 +145,8 @@ impl LineBody {
 
 impl Section {
     /// Leaves out what an element has no use for, and says second moments as it does.
-    fn make(&mut self, sections: Sections, dimension: usize) {
-        let is_cable = sections == Sections::None;
+    fn make(&mut self, sections: LineModel, dimension: usize) {
+        let is_cable = sections == LineModel::Cable;
         let has_one_axis = is_cable || dimension == 2;
         match (has_one_axis, self.second_moment, self.second_moments) {
             (true, None, Some([first, _])) => {
@@ -160,7 +160,7 @@ impl Section {
         if has_one_axis && self.shape.is_none() {
             self.torsion_constant = None;
         }
-        if sections != Sections::Lean {
+        if sections != LineModel::Reissner {
             (self.shear_factors, self.shear_factor) = (None, None);
         }
     }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Vector;
+use super::SceneVector;
 use super::tagged::{kinds, part};
 
 /// A joint between two markers.
@@ -34,7 +34,7 @@ kinds! {
         /// Holds the position and the direction, in space how bodies stand to each other.
         Weld(Weld),
         /// Holds the marker on a line of the first one, which may move. The marker rotates freely.
-        PointOnLine(PointOnLine),
+        PointOnLine(PointOnLineJoint),
         /// Holds the marker on a line of the first one, in space, and lets it turn about that line only.
         Cylindrical(Cylindrical),
         /// Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
@@ -46,7 +46,7 @@ kinds! {
         /// Holds the direction, in space how bodies stand to each other.
         Orientation(OrientationJoint),
         /// Holds the distance.
-        Distance(Distance),
+        Distance(DistanceJoint),
         /// Holds the marker on the line of a cable.
         PointOnCable(PointOnCable),
         /// Holds, in space, what `free` does not name.
@@ -61,11 +61,11 @@ pub struct Revolute {
     pub markers: [String; 2],
     /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Axis of rotation, required in space and absent in the plane. It is given in the axes of the first marker's body at the start:
     /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direction: Option<Vector>,
+    pub direction: Option<SceneVector>,
     /// With `stiffness` or `damping` only: angle at which the spring is unloaded, rad; by default the angle at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
@@ -86,7 +86,7 @@ pub struct Spherical {
     pub markers: [String; 2],
     /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
 }
 
 /// A universal joint.
@@ -96,12 +96,12 @@ pub struct Universal {
     pub markers: [String; 2],
     /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Axis of the cross that is fixed in the first body. It is given in the axes of the first marker's body at the start:
     /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
-    pub direction: Vector,
+    pub direction: SceneVector,
     /// Axis of the cross that is fixed in the second body, perpendicular to `direction` and in the same axes.
-    pub second_direction: Vector,
+    pub second_direction: SceneVector,
 }
 
 /// A weld.
@@ -111,7 +111,7 @@ pub struct Weld {
     pub markers: [String; 2],
     /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
     /// The direction of `ground` is 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -120,18 +120,18 @@ pub struct Weld {
 
 /// A point on a line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct PointOnLine {
+pub struct PointOnLineJoint {
     /// Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
     pub markers: [String; 2],
     /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Direction of the line. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
     /// or beam the tangent and both axes of its section.
     // What is missing is told once the dimension is known.
     #[serde(default)]
     #[schemars(!default)]
-    pub direction: Vector,
+    pub direction: SceneVector,
 }
 
 /// A cylindrical joint.
@@ -141,10 +141,10 @@ pub struct Cylindrical {
     pub markers: [String; 2],
     /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Direction of the line, which is the axis of rotation too. It is given in the axes of the first marker's body at the start:
     /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
-    pub direction: Vector,
+    pub direction: SceneVector,
 }
 
 /// A screw.
@@ -154,10 +154,10 @@ pub struct Screw {
     pub markers: [String; 2],
     /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Axis of the screw. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
     /// or beam the tangent and both axes of its section.
-    pub direction: Vector,
+    pub direction: SceneVector,
     /// Displacement along the axis for each full turn, m; negative for a left-handed thread.
     pub pitch: f64,
 }
@@ -169,11 +169,11 @@ pub struct Prismatic {
     pub markers: [String; 2],
     /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Direction of the line, required in space; in the plane by default the direction of the first marker. It is given in the axes of
     /// the first marker's body at the start: of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direction: Option<Vector>,
+    pub direction: Option<SceneVector>,
     /// In the plane only: angle from the direction of the first marker to that of the second, rad; by default the angle at the start.
     /// The direction of `ground` is 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -187,10 +187,10 @@ pub struct Planar {
     pub markers: [String; 2],
     /// With `ground` only: a point of the plane on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Normal of the plane, which is the axis of rotation too. It is given in the axes of the first marker's body at the start:
     /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
-    pub direction: Vector,
+    pub direction: SceneVector,
 }
 
 /// A joint that holds an orientation.
@@ -206,12 +206,12 @@ pub struct OrientationJoint {
 
 /// A link of constant length.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Distance {
+pub struct DistanceJoint {
     /// Markers at the ends of the link: `ground` or `body.marker`, then `body.marker`.
     pub markers: [String; 2],
     /// With `ground` only: end of the link on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Length of the link, m; by default the distance of its ends at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -232,7 +232,7 @@ pub struct Generic {
     pub markers: [String; 2],
     /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Translations along and rotations about the axes of the first marker's body that are free. The joint holds all others. With
     /// `ground` these are the global axes. Of two free rotations the first is about the axis of the first body.
     pub free: Vec<Freedom>,
@@ -276,15 +276,15 @@ pub enum Condition<'a> {
     /// The position, at that of the first marker.
     Position,
     /// The position, on a line through the first marker of this direction; by default that of the marker itself.
-    Line(Option<Vector>),
+    Line(Option<SceneVector>),
     /// The direction; in space how bodies stand to each other. The angle between both, rad; by default that at the start.
     Direction(Option<f64>),
     /// In space an axis, which stays along that of the first body.
-    Axis(Vector),
+    Axis(SceneVector),
     /// In space an axis, the second, which stays across one of the first body, the first.
-    Across(Vector, Vector),
+    Across(SceneVector, SceneVector),
     /// In space the position, in a plane through the first marker of this normal.
-    Plane(Vector),
+    Plane(SceneVector),
     /// The distance, m; by default that at the start.
     Distance(Option<f64>),
     /// The position, on the curve of a cable, which stands in place of the first marker.
@@ -393,7 +393,7 @@ impl JointKind {
     }
 
     /// Point on the ground, m, of a joint that is given one.
-    pub fn point(&self) -> Option<Vector> {
+    pub fn point(&self) -> Option<SceneVector> {
         match self {
             Self::Revolute(of) => of.point,
             Self::Spherical(of) => of.point,
@@ -411,7 +411,7 @@ impl JointKind {
     }
 
     /// Values of `direction` and `second_direction`, of a joint that has them.
-    pub fn directions(&self) -> [Option<Vector>; 2] {
+    pub fn directions(&self) -> [Option<SceneVector>; 2] {
         match self {
             Self::Revolute(of) => [of.direction, None],
             Self::Universal(of) => [Some(of.direction), Some(of.second_direction)],

@@ -8,30 +8,40 @@ use super::{Input, JointKind, LoadKind, MotionKind, Output, PortKind};
 
 /// Makes one titled variant for every kind of all parts, with all keys that it takes.
 pub fn tell_apart(schema: &mut Schema) {
-    spread::<JointKind>(schema);
-    spread::<MotionKind>(schema);
-    spread::<LoadKind>(schema);
-    spread::<Input>(schema);
-    spread::<Output>(schema);
-    spread::<PortKind>(schema);
+    let parts = [
+        (JointKind::PART, JointKind::SPEAKS),
+        (MotionKind::PART, MotionKind::SPEAKS),
+        (LoadKind::PART, LoadKind::SPEAKS),
+        (Input::PART, Input::SPEAKS),
+        (Output::PART, Output::SPEAKS),
+        (PortKind::PART, PortKind::SPEAKS),
+    ];
+    for (part, _) in parts {
+        take_in(schema, part);
+    }
+    drop_unused(schema);
+    for (part, speaks) in parts {
+        spread(schema, part, speaks);
+    }
 }
 
 /// Gives every variant of a part the keys that all of them share.
-fn spread<K: Kinds>(schema: &mut Schema) {
+fn spread(schema: &mut Schema, name: &str, speaks: bool) {
     let definitions = schema.pointer_mut("/$defs").and_then(Value::as_object_mut);
     let Some(definitions) = definitions else {
         return;
     };
     let names: Vec<String> = definitions.keys().cloned().collect();
-    let Some(part) = definitions.get_mut(K::PART) else {
+    let Some(part) = definitions.get_mut(name) else {
         return;
     };
     // Unlike any other name in the schema: models made of it are named so.
     let title = |kind: &Value| {
-        let name = camel_case(kind.as_str().unwrap_or_default());
-        match K::SPEAKS && !names.contains(&name) {
-            true => name,
-            false => name + K::PART,
+        let kind = camel_case(kind.as_str().unwrap_or_default());
+        if speaks && !names.contains(&kind) {
+            kind
+        } else {
+            kind + name
         }
     };
     let variants = part["oneOf"].as_array().into_iter().flatten();
@@ -64,6 +74,50 @@ fn spread<K: Kinds>(schema: &mut Schema) {
     });
     let variants: Vec<Value> = variants.collect();
     *part = json!({ "description": part["description"], "oneOf": variants });
+}
+
+/// Puts the keys of the types of all kinds of a part in the places that refer to them.
+fn take_in(schema: &mut Schema, part: &str) {
+    let definitions = schema.pointer_mut("/$defs").and_then(Value::as_object_mut);
+    let Some(definitions) = definitions else {
+        return;
+    };
+    let others = definitions.clone();
+    let variants = definitions.get_mut(part).map(|part| &mut part["oneOf"]);
+    let variants = variants.and_then(Value::as_array_mut).into_iter().flatten();
+    for variant in variants {
+        let name = variant["$ref"].as_str().unwrap_or_default();
+        let Some(own) = others.get(name.trim_start_matches("#/$defs/")) else {
+            continue;
+        };
+        let mut properties = properties_of(own);
+        properties.append(&mut properties_of(variant));
+        let required = [required_of(variant), required_of(own)].concat();
+        variant["properties"] = properties.into();
+        variant["required"] = required.into();
+        if let Some(either) = own.get("x-either") {
+            variant["x-either"] = either.clone();
+        }
+        if let Some(variant) = variant.as_object_mut() {
+            variant.remove("$ref");
+        }
+    }
+}
+
+/// Removes definitions that nothing refers to.
+fn drop_unused(schema: &mut Schema) {
+    loop {
+        let text = schema.as_value().to_string();
+        let definitions = schema.pointer_mut("/$defs").and_then(Value::as_object_mut);
+        let Some(definitions) = definitions else {
+            return;
+        };
+        let before = definitions.len();
+        definitions.retain(|name, _| text.contains(&format!("\"#/$defs/{name}\"")));
+        if definitions.len() == before {
+            return;
+        }
+    }
 }
 
 fn properties_of(variant: &Value) -> Map<String, Value> {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::action::{Acting, ActionKind, is_false};
 use super::tagged::{kinds, part};
-use super::{CoordinateKind, LoadValue, Surface, Value, Vector};
+use super::{CoordinateKind, LoadValue, SceneVector, Surface, Value};
 
 /// A load that is known in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -22,39 +22,39 @@ kinds! {
     /// Loads by kind.
     LoadKind of "Load" {
         /// Force at a marker, N.
-        Force(Force),
+        Force(ForceLoad),
         /// Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow,
         /// and its work then depends on the way that the body turns.
-        Moment(Moment),
+        Moment(MomentLoad),
         /// Moment on the second marker of a joint about its axis, opposite on its first, N m.
         Torque(Torque),
         /// Force in global axes per reference length of a cable, rod or beam, N/m.
-        DistributedForce(DistributedForce),
+        DistributedForce(DistributedForceLoad),
         /// Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
         /// global axes where it does not follow, and its work then depends on the way that sections turn.
-        DistributedMoment(DistributedMoment),
+        DistributedMoment(DistributedMomentLoad),
         /// Spring and damper side by side between two points.
         SpringDamper(SpringDamper),
         /// Spring and damper side by side on a coordinate of a joint.
-        JointSpring(JointSpring),
+        JointSpring(JointSpringLoad),
         /// Springs and dampers between two bodies in space, three along and three about the axes of the first one's body (of ground: the
         /// global ones), from how they stand at the start: the rotation is measured by its vector, angle along axis.
-        Bushing(Bushing),
+        Bushing(BushingLoad),
         /// One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
         /// force is continuous in time (Hunt and Crossley 1975).
-        JointLimit(JointLimit),
+        JointLimit(JointLimitLoad),
         /// A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
         /// and others 1950). The added mass counts in all directions alike.
-        Fluid(Fluid),
+        Fluid(FluidLoad),
         /// Contact of a marker, or of the line of a cable, rod or beam, with a surface of the ground: a one-sided spring and damper along the
         /// normal (Hunt and Crossley 1975) and friction along the surface, which is none at rest, so that an equilibrium has none.
-        Contact(Contact),
+        Contact(ContactLoad),
     }
 }
 
 /// A force at a marker.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Force {
+pub struct ForceLoad {
     /// Marker that the force acts at, `body.marker`.
     pub marker: String,
     /// Whether the components rotate with the marker. They are then along and to the left of its direction in the plane, and along the
@@ -67,7 +67,7 @@ pub struct Force {
 
 /// A moment at a marker.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Moment {
+pub struct MomentLoad {
     /// Marker that the moment acts at, `body.marker`.
     pub marker: String,
     /// Whether the components rotate with the marker, along the axes of the body's frame; in space only.
@@ -88,7 +88,7 @@ pub struct Torque {
 
 /// A force along a line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DistributedForce {
+pub struct DistributedForceLoad {
     /// Name of the cable, rod or beam that the force acts along.
     pub body: String,
     /// Components of the force per reference length, N/m: two in the plane, three in space. Expressions may contain the material
@@ -98,7 +98,7 @@ pub struct DistributedForce {
 
 /// A moment along the sections of a line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DistributedMoment {
+pub struct DistributedMomentLoad {
     /// Name of the rod or beam that the moment acts along.
     pub body: String,
     /// Whether the components rotate with the sections, along their axes; in space only.
@@ -116,7 +116,7 @@ pub struct SpringDamper {
     pub markers: [String; 2],
     /// With `ground` only: end of the spring on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<Vector>,
+    pub point: Option<SceneVector>,
     /// Stiffness, N/m; 0 by default. A stiffness or a damping is needed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
@@ -132,7 +132,7 @@ pub struct SpringDamper {
 
 /// A spring and a damper on a coordinate of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct JointSpring {
+pub struct JointSpringLoad {
     /// Name of the joint that the spring acts in.
     pub joint: String,
     /// Coordinate of the joint that the spring acts on; by default the displacement of a joint that has one, else the angle.
@@ -153,7 +153,7 @@ pub struct JointSpring {
 
 /// Springs and dampers along and about three axes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Bushing {
+pub struct BushingLoad {
     /// Markers that the bushing connects: `ground` or `body.marker`, then `body.marker`.
     pub markers: [String; 2],
     /// Stiffness along the three axes, N/m; zeros by default.
@@ -172,7 +172,7 @@ pub struct Bushing {
 
 /// Limits of a coordinate of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct JointLimit {
+pub struct JointLimitLoad {
     /// Name of the joint whose coordinate is limited.
     pub joint: String,
     /// Coordinate of the joint that is limited; by default the displacement of a joint that has one, else the angle.
@@ -195,7 +195,7 @@ pub struct JointLimit {
 
 /// A fluid along a line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Fluid {
+pub struct FluidLoad {
     /// Name of the cable, rod or beam that the fluid streams past.
     pub body: String,
     /// Density of the fluid, kg/m^3.
@@ -235,7 +235,7 @@ pub struct Fluid {
 /// Contact with a surface of the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(extend("x-either" = [["marker"], ["body"]]))]
-pub struct Contact {
+pub struct ContactLoad {
     /// Marker that touches the surface, `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,

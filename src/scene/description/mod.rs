@@ -34,7 +34,8 @@ pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
 pub use action::{Acting, ActionKind, ActsOn};
 pub use body::{
-    Axial, Body, InitialMotion, LineBody, Mass, Material, Model, RigidBody, Sections, Shape, Strain,
+    Axial, Body, InitialMotion, LineBody, LineModel, Mass, Material, Model, RigidBody, Shape,
+    Strain,
 };
 pub use gear::{CoordinateKind, Gear};
 pub use initial::{Initial, InitialState};
@@ -42,8 +43,8 @@ pub use input::Input;
 pub use joint::{Condition, Freedom, Generic, Joint, JointKind, Revolute, Symbol};
 pub use kinds::{tell_apart, tell_by_tag};
 pub use load::{
-    Bushing, Contact, DistributedForce, DistributedMoment, Fluid, Force, JointLimit, JointSpring,
-    Load, LoadKind, Moment, SpringDamper, Torque,
+    BushingLoad, ContactLoad, DistributedForceLoad, DistributedMomentLoad, FluidLoad, ForceLoad,
+    JointLimitLoad, JointSpringLoad, Load, LoadKind, MomentLoad, SpringDamper, Torque,
 };
 pub use motion::{Motion, MotionKind};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
@@ -57,7 +58,7 @@ pub use strict::Strict;
 pub use surface::Surface;
 pub use tagged::Kinds;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
-pub use vector::{Spin, Vector};
+pub use vector::{SceneVector, Spin};
 
 /// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -73,8 +74,8 @@ pub struct Scene {
     #[schemars(range(min = 2, max = 3))]
     pub dimension: usize,
     /// Gravitational acceleration, m/s^2; zero by default.
-    #[serde(default, skip_serializing_if = "Vector::is_unsaid")]
-    pub gravity: Vector,
+    #[serde(default, skip_serializing_if = "SceneVector::is_unsaid")]
+    pub gravity: SceneVector,
     /// Angular velocity of the frame that the scene is described in, about its origin, rad/s: a number in the plane,
     /// counter-clockwise, three components in space. Gravity and the ground turn with the frame.
     #[serde(default)]
@@ -151,7 +152,7 @@ impl Scene {
         });
         for vector in zeros.chain([&mut self.gravity]) {
             if vector.is_unsaid() {
-                *vector = Vector::zero(self.dimension.clamp(2, 3));
+                *vector = SceneVector::zero(self.dimension.clamp(2, 3));
             }
         }
         let vertical = self.gravity.full().map(|component| -component);

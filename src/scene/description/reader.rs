@@ -108,7 +108,7 @@ impl serde::de::Error for Wrong {
                 wanted,
                 format_args!("the text \"{text}\": a number has no quotation marks"),
             ),
-            _ => Self::here(wanted, Found(found)),
+            _ => Self::here(wanted, FoundValue(found)),
         }
     }
 
@@ -156,9 +156,9 @@ fn expectation(wanted: &str) -> String {
 }
 
 /// What was found, in words of JSON.
-struct Found<'a>(Unexpected<'a>);
+struct FoundValue<'a>(Unexpected<'a>);
 
-impl Display for Found<'_> {
+impl Display for FoundValue<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Unexpected::Bool(value) => write!(f, "{value}"),
@@ -184,7 +184,7 @@ pub(super) fn found(value: &Value) -> String {
         Value::Array(_) => Unexpected::Seq,
         Value::Object(_) => Unexpected::Map,
     };
-    Found(found).to_string()
+    FoundValue(found).to_string()
 }
 
 impl<'de> Deserializer<'de> for Reader {

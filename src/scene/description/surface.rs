@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Vector;
+use super::SceneVector;
 
 /// Surface of the ground that is touched from outside; it stands still.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,15 +14,15 @@ pub enum Surface {
     #[schemars(title = "PlaneSurface")]
     Plane {
         /// A point of it, m.
-        point: Vector,
+        point: SceneVector,
         /// Direction away from the ground, of any length but zero.
-        normal: Vector,
+        normal: SceneVector,
     },
     /// Circle, in the plane.
     #[schemars(title = "CircleSurface")]
     Circle {
         /// Its centre, m.
-        center: Vector,
+        center: SceneVector,
         /// Radius, m.
         radius: f64,
     },
@@ -30,7 +30,7 @@ pub enum Surface {
     #[schemars(title = "SphereSurface")]
     Sphere {
         /// Its centre, m.
-        center: Vector,
+        center: SceneVector,
         /// Radius, m.
         radius: f64,
     },
@@ -38,9 +38,9 @@ pub enum Surface {
     #[schemars(title = "CylinderSurface")]
     Cylinder {
         /// A point of its axis, m.
-        point: Vector,
+        point: SceneVector,
         /// Direction of its axis, of any length but zero.
-        axis: Vector,
+        axis: SceneVector,
         /// Radius, m.
         radius: f64,
     },
@@ -129,14 +129,22 @@ fn room(near: &[[f64; 3]]) -> (Vector3<f64>, f64) {
 }
 
 /// The foot of a point on a plane, m, and its unit normal.
-fn foot(at: Vector3<f64>, point: &Vector, normal: &Vector) -> (Vector3<f64>, Vector3<f64>) {
+fn foot(
+    at: Vector3<f64>,
+    point: &SceneVector,
+    normal: &SceneVector,
+) -> (Vector3<f64>, Vector3<f64>) {
     let normal = Vector3::from(normal.full()).normalize();
     let above = normal.dot(&(at - Vector3::from(point.full())));
     (at - normal * above, normal)
 }
 
 /// The foot of a point on an axis, m, and its unit vector.
-fn on_axis(at: Vector3<f64>, point: &Vector, axis: &Vector) -> (Vector3<f64>, Vector3<f64>) {
+fn on_axis(
+    at: Vector3<f64>,
+    point: &SceneVector,
+    axis: &SceneVector,
+) -> (Vector3<f64>, Vector3<f64>) {
     let (point, axis) = (Vector3::from(point.full()), Vector3::from(axis.full()));
     let axis = axis.normalize();
     (point + axis * axis.dot(&(at - point)), axis)

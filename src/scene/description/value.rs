@@ -155,7 +155,7 @@ struct Anything {
 }
 
 /// What a JSON value turned out to be.
-enum Found {
+enum JsonForm {
     One(Value),
     Vector(Vec<Value>),
     Input(MasterInput),
@@ -171,42 +171,42 @@ struct TableOrInput {
 }
 
 impl<'de> Visitor<'de> for Anything {
-    type Value = Found;
+    type Value = JsonForm;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.wanted)
     }
 
-    fn visit_f64<E>(self, value: f64) -> Result<Found, E> {
-        Ok(Found::One(Value::Number(value)))
+    fn visit_f64<E>(self, value: f64) -> Result<JsonForm, E> {
+        Ok(JsonForm::One(Value::Number(value)))
     }
 
-    fn visit_i64<E: Error>(self, value: i64) -> Result<Found, E> {
+    fn visit_i64<E: Error>(self, value: i64) -> Result<JsonForm, E> {
         self.visit_f64(value as f64)
     }
 
-    fn visit_u64<E: Error>(self, value: u64) -> Result<Found, E> {
+    fn visit_u64<E: Error>(self, value: u64) -> Result<JsonForm, E> {
         self.visit_f64(value as f64)
     }
 
-    fn visit_str<E>(self, text: &str) -> Result<Found, E> {
-        Ok(Found::One(Value::Expression(text.into())))
+    fn visit_str<E>(self, text: &str) -> Result<JsonForm, E> {
+        Ok(JsonForm::One(Value::Expression(text.into())))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Found, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<JsonForm, A::Error> {
         if !self.list {
             return Err(A::Error::custom(format!(
                 "expected {}, found a list",
                 self.wanted
             )));
         }
-        Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Found::Vector)
+        Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(JsonForm::Vector)
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Found, A::Error> {
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<JsonForm, A::Error> {
         let keys = MapAccessDeserializer::new(map);
         if !self.input {
-            return Table::deserialize(keys).map(|table| Found::One(Value::Table(table)));
+            return Table::deserialize(keys).map(|table| JsonForm::One(Value::Table(table)));
         }
         match TableOrInput::deserialize(keys)? {
             TableOrInput {
@@ -214,7 +214,7 @@ impl<'de> Visitor<'de> for Anything {
                 interpolation,
                 slopes,
                 input: None,
-            } => Ok(Found::One(Value::Table(Table {
+            } => Ok(JsonForm::One(Value::Table(Table {
                 table,
                 interpolation,
                 slopes,
@@ -224,7 +224,7 @@ impl<'de> Visitor<'de> for Anything {
                 interpolation: None,
                 slopes: None,
                 input: Some(input),
-            } => Ok(Found::Input(MasterInput { input })),
+            } => Ok(JsonForm::Input(MasterInput { input })),
             _ => Err(A::Error::custom(format!("expected {}", self.wanted))),
         }
     }
@@ -239,8 +239,8 @@ impl<'de> Deserialize<'de> for Value {
             input: false,
         };
         match deserializer.deserialize_any(visitor)? {
-            Found::One(value) => Ok(value),
-            Found::Vector(_) | Found::Input(_) => {
+            JsonForm::One(value) => Ok(value),
+            JsonForm::Vector(_) | JsonForm::Input(_) => {
                 Err(D::Error::custom(format!("expected {wanted}")))
             }
         }
@@ -256,9 +256,9 @@ impl<'de> Deserialize<'de> for LoadValue {
             input: false,
         };
         match deserializer.deserialize_any(visitor)? {
-            Found::One(value) => Ok(Self::One(value)),
-            Found::Vector(values) => Ok(Self::Vector(values)),
-            Found::Input(_) => Err(D::Error::custom(format!("expected {wanted}"))),
+            JsonForm::One(value) => Ok(Self::One(value)),
+            JsonForm::Vector(values) => Ok(Self::Vector(values)),
+            JsonForm::Input(_) => Err(D::Error::custom(format!("expected {wanted}"))),
         }
     }
 }
@@ -271,9 +271,9 @@ impl<'de> Deserialize<'de> for MotionValue {
             input: true,
         };
         Ok(match deserializer.deserialize_any(visitor)? {
-            Found::One(value) => Self::One(value),
-            Found::Vector(values) => Self::Vector(values),
-            Found::Input(input) => Self::Input(input),
+            JsonForm::One(value) => Self::One(value),
+            JsonForm::Vector(values) => Self::Vector(values),
+            JsonForm::Input(input) => Self::Input(input),
         })
     }
 }

@@ -11,14 +11,14 @@ use super::strict::{Strict, typed};
 
 /// Components of a vector or a point: `[x, y]` in the plane, `[x, y, z]` in space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Vector {
+pub struct SceneVector {
     /// Those that are not given are zero.
     components: [f64; 3],
     /// How many are given.
     count: usize,
 }
 
-impl Vector {
+impl SceneVector {
     /// The zero vector of so many dimensions.
     pub fn zero(dimension: usize) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl Vector {
     }
 }
 
-impl From<[f64; 2]> for Vector {
+impl From<[f64; 2]> for SceneVector {
     fn from([x, y]: [f64; 2]) -> Self {
         Self {
             components: [x, y, 0.0],
@@ -52,7 +52,7 @@ impl From<[f64; 2]> for Vector {
     }
 }
 
-impl From<[f64; 3]> for Vector {
+impl From<[f64; 3]> for SceneVector {
     fn from(components: [f64; 3]) -> Self {
         Self {
             components,
@@ -61,7 +61,7 @@ impl From<[f64; 3]> for Vector {
     }
 }
 
-impl Index<usize> for Vector {
+impl Index<usize> for SceneVector {
     type Output = f64;
 
     fn index(&self, axis: usize) -> &f64 {
@@ -69,19 +69,19 @@ impl Index<usize> for Vector {
     }
 }
 
-impl IndexMut<usize> for Vector {
+impl IndexMut<usize> for SceneVector {
     fn index_mut(&mut self, axis: usize) -> &mut f64 {
         &mut self.components[axis]
     }
 }
 
-impl Serialize for Vector {
+impl Serialize for SceneVector {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.given().serialize(serializer)
     }
 }
 
-impl<'de> Deserialize<'de> for Vector {
+impl<'de> Deserialize<'de> for SceneVector {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Vec::<f64>::deserialize(deserializer)?[..] {
             [x, y] => Ok([x, y].into()),
@@ -94,7 +94,7 @@ impl<'de> Deserialize<'de> for Vector {
     }
 }
 
-impl JsonSchema for Vector {
+impl JsonSchema for SceneVector {
     fn schema_name() -> Cow<'static, str> {
         "Vector".into()
     }

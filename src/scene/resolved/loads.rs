@@ -2,13 +2,13 @@
 
 use std::f64::consts::PI;
 
-use super::{Cable, Ends, JointCoordinate, LoadId, Marker, Pivot, Resolved};
+use super::{Cable, Ends, JointCoordinate, LoadId, Pivot, Resolved, ResolvedMarker};
 use crate::scene::description::{ActionKind, SectionNumbers, Surface, Value};
 use crate::system::Signal;
 
 /// A load that the scene knows.
 #[derive(Clone, Debug)]
-pub struct Load<'a> {
+pub struct ResolvedLoad<'a> {
     /// Name.
     pub name: &'a str,
     /// Kind of load with its parameters.
@@ -26,7 +26,7 @@ pub enum LoadKind<'a> {
         values: &'a [Value],
     },
     /// A spring and a damper side by side.
-    Spring(Spring<'a>),
+    Spring(ResolvedSpring<'a>),
     /// A spring and a damper on a coordinate of a joint.
     JointSpring {
         /// Coordinate that spring and damper act on.
@@ -37,7 +37,7 @@ pub enum LoadKind<'a> {
         rest: Option<f64>,
     },
     /// Springs and dampers along and about three axes.
-    Bushing(Bushing<'a>),
+    Bushing(ResolvedBushing<'a>),
     /// Stops of a coordinate of a joint.
     JointLimit {
         /// Coordinate that the stops limit.
@@ -48,14 +48,14 @@ pub enum LoadKind<'a> {
         limits: [Option<f64>; 2],
     },
     /// A fluid along a body.
-    Fluid(Fluid<'a>),
+    Fluid(ResolvedFluid<'a>),
     /// Contact with a surface of the ground.
-    Contact(Contact<'a>),
+    Contact(ResolvedContact<'a>),
 }
 
 /// A fluid along a body.
 #[derive(Clone, Debug)]
-pub struct Fluid<'a> {
+pub struct ResolvedFluid<'a> {
     /// Line body that the fluid acts on.
     pub on: Cable<'a>,
     /// Density of the fluid, kg/m^3.
@@ -78,7 +78,7 @@ pub struct Fluid<'a> {
     pub buoyancy: bool,
 }
 
-impl Fluid<'_> {
+impl ResolvedFluid<'_> {
     /// Diameter that drag counts with at a section, m.
     pub fn diameter(&self, section: &SectionNumbers) -> f64 {
         self.diameter.unwrap_or_else(|| section.diameter())
@@ -98,9 +98,9 @@ impl Fluid<'_> {
 
 /// Contact with a surface of the ground.
 #[derive(Clone, Copy, Debug)]
-pub struct Contact<'a> {
+pub struct ResolvedContact<'a> {
     /// Marker or line body that touches the surface.
-    pub by: By<'a>,
+    pub by: ContactBody<'a>,
     /// Surface that is touched.
     pub surface: Surface,
     /// Stiffness (N/m, of a body N/m per length) and damping (s/m).
@@ -113,16 +113,16 @@ pub struct Contact<'a> {
 
 /// Marker or line body that touches a surface.
 #[derive(Clone, Copy, Debug)]
-pub enum By<'a> {
+pub enum ContactBody<'a> {
     /// A marker.
-    Marker(Marker<'a>),
+    Marker(ResolvedMarker<'a>),
     /// A cable along its line.
     Cable(Cable<'a>),
 }
 
-impl<'a> By<'a> {
+impl<'a> ContactBody<'a> {
     /// The marker, if it is one.
-    pub fn marker(self) -> Option<Marker<'a>> {
+    pub fn marker(self) -> Option<ResolvedMarker<'a>> {
         match self {
             Self::Marker(marker) => Some(marker),
             Self::Cable(_) => None,
@@ -132,7 +132,7 @@ impl<'a> By<'a> {
 
 /// Springs and dampers along and about the axes of the first end's body.
 #[derive(Clone, Copy, Debug)]
-pub struct Bushing<'a> {
+pub struct ResolvedBushing<'a> {
     /// Ends of the bushing.
     pub ends: Ends<'a>,
     /// Stiffness along (N/m) and about (N m/rad) the axes.
@@ -168,7 +168,7 @@ impl<'a> LoadKind<'a> {
     }
 
     /// The marker that such a force or moment acts on; none of a contact of a body.
-    pub fn exerts_on(&self) -> Option<Marker<'a>> {
+    pub fn exerts_on(&self) -> Option<ResolvedMarker<'a>> {
         match self {
             Self::Action { .. } | Self::Fluid(_) => None,
             Self::Spring(_) | Self::Bushing(_) => self.between().map(|ends| ends.second),
@@ -203,7 +203,7 @@ impl<'a> LoadKind<'a> {
 
 /// A spring and a damper between two ends.
 #[derive(Clone, Debug)]
-pub struct Spring<'a> {
+pub struct ResolvedSpring<'a> {
     /// Ends of the spring.
     pub ends: Ends<'a>,
     /// Stiffness, N/m.
@@ -222,7 +222,7 @@ pub struct Action<'a> {
     /// Which.
     pub kind: ActionKind,
     /// Marker, joint or line body that the load acts on, depending on its kind.
-    pub on: On<'a>,
+    pub on: LoadTarget<'a>,
     /// Whether it turns with the marker.
     pub follower: bool,
     /// Components, as many as the kind has. Components that vary along a body are zero here.
@@ -233,9 +233,9 @@ pub struct Action<'a> {
 
 /// Marker, joint or line body that a force or a moment acts on.
 #[derive(Clone, Copy, Debug)]
-pub enum On<'a> {
+pub enum LoadTarget<'a> {
     /// A marker.
-    Marker(Marker<'a>),
+    Marker(ResolvedMarker<'a>),
     /// A joint: its second marker, and the opposite on its first.
     Joint(Pivot<'a>),
     /// A cable, per reference length.
@@ -244,7 +244,7 @@ pub enum On<'a> {
 
 impl<'a> Resolved<'a> {
     /// Loads with their numbers.
-    pub fn numbered_loads(&self) -> impl Iterator<Item = (LoadId, &Load<'a>)> {
+    pub fn numbered_loads(&self) -> impl Iterator<Item = (LoadId, &ResolvedLoad<'a>)> {
         let loads = self.loads.iter().enumerate();
         loads.map(|(place, load)| (LoadId(place), load))
     }

@@ -1,6 +1,9 @@
 //! What the master reads.
 
-use super::{AngleId, Cable, ConstraintOwnerId, LoadId, Marker, PointId, SlideId, Slider, Turning};
+use super::{
+    AngleId, Cable, ConstraintOwnerId, DirectionSource, LoadId, PointId, ResolvedMarker, SlideId,
+    Slider,
+};
 use crate::scene::description::{Along, OutputKind};
 
 /// A joint or a motion that reacts.
@@ -20,24 +23,24 @@ pub struct Output<'a> {
     /// Kind of quantity that is read.
     pub kind: OutputKind,
     /// Object that the quantity is read at, depending on its kind.
-    pub of: Of<'a>,
+    pub of: OutputTarget<'a>,
     /// Along which axes.
     pub along: Along,
 }
 
 /// Object that an output is read at.
 #[derive(Clone, Copy, Debug)]
-pub enum Of<'a> {
+pub enum OutputTarget<'a> {
     /// A marker.
-    Marker(Marker<'a>),
+    Marker(ResolvedMarker<'a>),
     /// A marker of a cable, and another one of the same body.
-    Deflected(Marker<'a>, Option<Marker<'a>>),
+    Deflected(ResolvedMarker<'a>, Option<ResolvedMarker<'a>>),
     /// Marker or joint with an angle.
-    Turning(Turning<'a>),
+    Turning(DirectionSource<'a>),
     /// Marker or joint with an angle that is counted over full turns.
-    Angle(Turning<'a>, AngleId),
+    Angle(DirectionSource<'a>, AngleId),
     /// Points of the section at a marker: the first, and the points as described.
-    Points(Marker<'a>, PointId, &'a [Vec<f64>]),
+    Points(ResolvedMarker<'a>, PointId, &'a [Vec<f64>]),
     /// A joint of this name, and its slide.
     Slide(&'a str, SlideId),
     /// A joint or a motion.
@@ -47,7 +50,7 @@ pub enum Of<'a> {
     /// A gear of this name.
     Gear(&'a str, ConstraintOwnerId),
     /// A load of this name, and the marker that it acts on; none of a contact of a body.
-    Load(&'a str, LoadId, Option<Marker<'a>>),
+    Load(&'a str, LoadId, Option<ResolvedMarker<'a>>),
     /// The scene.
     Scene,
     /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.
@@ -58,7 +61,7 @@ pub enum Of<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct SectionPoint<'a> {
     /// Where the section is.
-    pub marker: Marker<'a>,
+    pub marker: ResolvedMarker<'a>,
     /// The cable, rod or beam.
     pub cable: Cable<'a>,
     /// Material coordinate of the section, in [0, 1].

@@ -10,9 +10,9 @@ use super::checks::{
     vector,
 };
 use crate::math::expression::Expression;
-use crate::scene::resolved::{Mass, Place, Resolved};
+use crate::scene::resolved::{Place, Resolved, ResolvedMass};
 use crate::scene::{
-    Body, Error, Inertia, InitialMotion, LineBody, Model, RigidBody, Solid, Vector,
+    Body, Error, Inertia, InitialMotion, LineBody, Model, RigidBody, SceneVector, Solid,
 };
 
 impl Body {
@@ -295,7 +295,12 @@ impl RigidBody {
     }
 
     /// In space a thin rod has no points beside its axis: nothing says how they turn about it.
-    fn validate_thin(&self, place: &str, dimension: usize, point: &Vector) -> Result<(), Error> {
+    fn validate_thin(
+        &self,
+        place: &str,
+        dimension: usize,
+        point: &SceneVector,
+    ) -> Result<(), Error> {
         let Some(axis) = self.inertia().thin().filter(|_| dimension == 3) else {
             return Ok(());
         };
@@ -393,7 +398,7 @@ impl Resolved<'_> {
                 return Err(expected(&at("mass"), "a positive number (kg)", mass.mass));
             }
             let (mass, inertia) = (mass.mass, mass.inertia);
-            self.masses.push(Mass {
+            self.masses.push(ResolvedMass {
                 marker,
                 mass,
                 inertia,

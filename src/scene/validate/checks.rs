@@ -6,7 +6,7 @@ use std::fmt::Display;
 use crate::math::function::Function;
 use crate::scene::Error;
 use crate::scene::alike::{did_you_mean, listed};
-use crate::scene::description::{Spin, Value, Vector};
+use crate::scene::description::{SceneVector, Spin, Value};
 use crate::scene::marker::GROUND;
 
 /// Words that begin variable names of the scene itself, or stand for something else.
@@ -88,7 +88,7 @@ pub fn shape(dimension: usize) -> &'static str {
 ///
 /// # Errors
 /// Another number of components, or one that is not finite.
-pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error> {
+pub fn vector(path: &str, dimension: usize, value: &SceneVector) -> Result<(), Error> {
     let count = value.given().len();
     if count != dimension && count > 0 {
         let wanted = format!("{dimension} components {}", shape(dimension));
@@ -105,7 +105,7 @@ pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error>
 ///
 /// # Errors
 /// Another number of components, one that is not finite, or a vector of length 0.
-pub fn direction(path: &str, dimension: usize, value: &Vector) -> Result<(), Error> {
+pub fn direction(path: &str, dimension: usize, value: &SceneVector) -> Result<(), Error> {
     vector(path, dimension, value)?;
     if value.full() != [0.0; 3] {
         return Ok(());

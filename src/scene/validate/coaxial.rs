@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use crate::scene::resolved::{First, Hold, Joint, Place, Resolved};
+use crate::scene::resolved::{First, Hold, Place, Resolved, ResolvedJoint};
 
 /// Angle between axes, rad, up to which they are one: the error of directions that are written with six digits, or with five and a
 /// length below one.
@@ -37,7 +37,7 @@ impl Resolved<'_> {
 }
 
 /// The two rigid bodies of a joint in order, the ground first.
-fn bodies(joint: &Joint<'_>) -> Option<[Option<usize>; 2]> {
+fn bodies(joint: &ResolvedJoint<'_>) -> Option<[Option<usize>; 2]> {
     let rigid = |place: Place<'_>| match place {
         Place::Point(..) => Some(place.body_index()),
         Place::Along(..) => None,
@@ -53,7 +53,7 @@ fn bodies(joint: &Joint<'_>) -> Option<[Option<usize>; 2]> {
 }
 
 /// The axis about which a joint lets its bodies rotate.
-fn axis_of(joint: &Joint<'_>) -> Option<Vector3<f64>> {
+fn axis_of(joint: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
     joint.holds.iter().find_map(|hold| match hold {
         Hold::Axis(axis) => Vector3::from(*axis).try_normalize(0.0),
         _ => None,
@@ -61,7 +61,7 @@ fn axis_of(joint: &Joint<'_>) -> Option<Vector3<f64>> {
 }
 
 /// The point that a joint holds, as described.
-fn point(joint: &Joint<'_>) -> Option<Vector3<f64>> {
+fn point(joint: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
     let holds = |hold: &Hold| matches!(hold, Hold::Position);
     let at = match joint.ends.first {
         First::Ground(Some(point)) => point,
@@ -71,7 +71,7 @@ fn point(joint: &Joint<'_>) -> Option<Vector3<f64>> {
 }
 
 /// The axis that two joints have in common, if theirs nearly agree.
-fn common([a, b]: [&Joint<'_>; 2]) -> Option<Vector3<f64>> {
+fn common([a, b]: [&ResolvedJoint<'_>; 2]) -> Option<Vector3<f64>> {
     let axes = [axis_of(a), axis_of(b)];
     let way = point(a).zip(point(b)).map(|(a, b)| b - a);
     let line = way.and_then(|way| way.try_normalize(0.0));
@@ -86,7 +86,7 @@ fn common([a, b]: [&Joint<'_>; 2]) -> Option<Vector3<f64>> {
 }
 
 /// Gives a joint an axis, in the sense of its own.
-fn turn(joint: &mut Joint<'_>, axis: Vector3<f64>) {
+fn turn(joint: &mut ResolvedJoint<'_>, axis: Vector3<f64>) {
     for hold in &mut joint.holds {
         if let Hold::Axis(own) | Hold::Line(own) = hold {
             let along = Vector3::from(*own).dot(&axis);

@@ -3,7 +3,7 @@
 use super::checks::{direction, expected, needed, not_negative, positive, vector};
 use crate::scene::Error;
 use crate::scene::description::{self, Surface};
-use crate::scene::resolved::{By, Contact, Resolved};
+use crate::scene::resolved::{ContactBody, Resolved, ResolvedContact};
 
 impl Surface {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
@@ -51,23 +51,25 @@ impl<'a> Resolved<'a> {
     pub(super) fn contact(
         &self,
         path: &str,
-        load: &'a description::Contact,
-    ) -> Result<Contact<'a>, Error> {
+        load: &'a description::ContactLoad,
+    ) -> Result<ResolvedContact<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
         let by = match (&load.marker, &load.body) {
             (Some(_), Some(_)) => {
                 return Err(expected(&at("body"), "nothing beside `marker`", "a name"));
             }
-            (Some(marker), None) => By::Marker(self.require_marker(&at("marker"), marker)?),
+            (Some(marker), None) => {
+                ContactBody::Marker(self.require_marker(&at("marker"), marker)?)
+            }
             (None, body) => {
                 let body = needed(path, "body", "a name", body.as_deref())?;
-                By::Cable(self.require_cable(&at("body"), body)?)
+                ContactBody::Cable(self.require_cable(&at("body"), body)?)
             }
         };
         (load.surface).validate(&at("surface"), self.scene.dimension)?;
         let unit = match by {
-            By::Marker(_) => "N/m",
-            By::Cable(_) => "N/m^2",
+            ContactBody::Marker(_) => "N/m",
+            ContactBody::Cable(_) => "N/m^2",
         };
         positive(&at("stiffness"), unit, load.stiffness)?;
         let damping = load.damping.unwrap_or(0.0);
@@ -81,7 +83,7 @@ impl<'a> Resolved<'a> {
             needed(path, "friction", "a coefficient", load.friction)?;
             positive(&at("slip_velocity"), "m/s", slip_velocity)?;
         }
-        Ok(Contact {
+        Ok(ResolvedContact {
             by,
             surface: load.surface,
             sizes: [load.stiffness, damping],

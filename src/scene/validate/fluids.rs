@@ -4,7 +4,7 @@ use super::checks::{components, expected, finite, not_negative, positive, quoted
 use super::loads::component;
 use crate::scene::Error;
 use crate::scene::description::{self, Value};
-use crate::scene::resolved::{self, Fluid, LoadKind, Resolved};
+use crate::scene::resolved::{self, LoadKind, Resolved, ResolvedFluid};
 use crate::system::Signal;
 
 impl<'a> Resolved<'a> {
@@ -15,8 +15,8 @@ impl<'a> Resolved<'a> {
     pub(super) fn fluid(
         &self,
         path: &str,
-        load: &'a description::Fluid,
-    ) -> Result<Fluid<'a>, Error> {
+        load: &'a description::FluidLoad,
+    ) -> Result<ResolvedFluid<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
         let on = self.require_cable(&at("body"), &load.body)?;
         for (key, unit, value) in [
@@ -59,7 +59,7 @@ impl<'a> Resolved<'a> {
             })?,
         };
         let along = given.iter().enumerate();
-        Ok(Fluid {
+        Ok(ResolvedFluid {
             on,
             density: load.density,
             current,
@@ -88,7 +88,8 @@ impl<'a> Resolved<'a> {
             _ => None,
         });
         let Some(fluid) = fluid else {
-            let fluids = |load: &&resolved::Load<'_>| matches!(load.kind, LoadKind::Fluid(_));
+            let fluids =
+                |load: &&resolved::ResolvedLoad<'_>| matches!(load.kind, LoadKind::Fluid(_));
             let known = self.loads.iter().filter(fluids).map(|load| load.name);
             return Err(unknown(path, "a fluid of this scene", name, known));
         };

@@ -3,7 +3,7 @@
 use super::checks::{expected, not_zero, quoted};
 use crate::scene::Error;
 use crate::scene::description::CoordinateKind;
-use crate::scene::resolved::{Gear, Resolved};
+use crate::scene::resolved::{Resolved, ResolvedGear};
 
 impl<'a> Resolved<'a> {
     /// Resolves the gears.
@@ -31,7 +31,7 @@ impl<'a> Resolved<'a> {
             };
             not_zero(&format!("{path}.ratio"), unit, gear.ratio)?;
             let holder = self.hold(&path, &gear.name);
-            self.gears.push(Gear {
+            self.gears.push(ResolvedGear {
                 name: &gear.name,
                 holder,
                 coordinates,

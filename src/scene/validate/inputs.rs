@@ -103,7 +103,8 @@ impl<'a> Resolved<'a> {
             _ => None,
         });
         let Some(spring) = spring else {
-            let springs = |load: &&resolved::Load<'_>| matches!(load.kind, LoadKind::Spring(_));
+            let springs =
+                |load: &&resolved::ResolvedLoad<'_>| matches!(load.kind, LoadKind::Spring(_));
             let known = self.loads.iter().filter(springs).map(|load| load.name);
             return Err(unknown(path, "a spring-damper of this scene", name, known));
         };

@@ -8,8 +8,8 @@ use super::checks::{
 };
 use crate::scene::description::{Condition, Freedom, Generic, JointKind, Kinds as _};
 use crate::scene::marker::GROUND;
-use crate::scene::resolved::{self, Ends, First, Hold, Marker, Place, Resolved, SlideId};
-use crate::scene::{Error, Vector};
+use crate::scene::resolved::{self, Ends, First, Hold, Place, Resolved, ResolvedMarker, SlideId};
+use crate::scene::{Error, SceneVector};
 use crate::system::Release;
 
 /// Cosine of an angle that is a right one but for rounding.
@@ -156,7 +156,7 @@ impl<'a> Resolved<'a> {
             });
             let holds = holds.collect::<Result<Vec<_>, _>>()?.concat();
             let holder = self.hold(&path, &joint.name);
-            self.joints.push(resolved::Joint {
+            self.joints.push(resolved::ResolvedJoint {
                 name: &joint.name,
                 holder,
                 kind,
@@ -212,7 +212,7 @@ impl<'a> Resolved<'a> {
     /// or such a body can hold.
     fn require_axes(&self, path: &str, joint: &JointKind, ends: &Ends<'a>) -> Result<(), Error> {
         let holds = joint.holds();
-        let is_cable = |marker: &Marker<'_>| {
+        let is_cable = |marker: &ResolvedMarker<'_>| {
             matches!(marker.place, Place::Along(..)) && !marker.place.is_framed()
         };
         let first = match ends.first {
@@ -297,11 +297,11 @@ impl<'a> Resolved<'a> {
     /// A direction in the axes of the first end's body, in global axes at the start.
     fn global(ends: &Ends<'a>, direction: [f64; 3]) -> [f64; 3] {
         match ends.first {
-            First::Marker(Marker {
+            First::Marker(ResolvedMarker {
                 place: Place::Point(rigid, _),
                 ..
             }) => rigid.body.directed(direction),
-            First::Marker(Marker {
+            First::Marker(ResolvedMarker {
                 place: Place::Along(cable, s),
                 ..
             }) if cable.body.is_rod() => cable.body.directed(s, direction),
@@ -316,7 +316,7 @@ impl<'a> Resolved<'a> {
         condition: Condition<'_>,
         ends: &Ends<'a>,
     ) -> Result<Hold, Error> {
-        let global = |of: Vector| Self::global(ends, of.full());
+        let global = |of: SceneVector| Self::global(ends, of.full());
         Ok(match condition {
             Condition::Position => Hold::Position,
             Condition::Line(Some(direction)) if self.scene.dimension == 3 => {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::checks::{expected, finite, positive, vector};
-use crate::scene::{Error, Shape, Vector};
+use crate::scene::{Error, SceneVector, Shape};
 
 /// Most turns of a helix: of an element more than half a turn is an error, and elements are counted.
 const TURNS: f64 = 1e4;
@@ -55,7 +55,7 @@ impl Shape {
         &self,
         path: &str,
         dimension: usize,
-        (radius, turns, start): (f64, f64, &Vector),
+        (radius, turns, start): (f64, f64, &SceneVector),
     ) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.helix.{key}");
         if dimension == 2 {

@@ -7,7 +7,7 @@ use crate::scene::Error;
 use crate::scene::description::{
     Acting, ActionKind, ActsOn, Load, LoadKind, LoadValue, SpringDamper, Value,
 };
-use crate::scene::resolved::{self, Action, On, Resolved, Spring};
+use crate::scene::resolved::{self, Action, LoadTarget, Resolved, ResolvedSpring};
 use crate::system::Signal;
 
 /// Builds a component of a load as a function of time. Components that vary along a body are built by
@@ -46,7 +46,7 @@ impl<'a> Resolved<'a> {
             let path = format!("loads[{index}]");
             let kind = self.resolve_load(&path, load)?;
             let name = &load.name;
-            self.loads.push(resolved::Load { name, kind });
+            self.loads.push(resolved::ResolvedLoad { name, kind });
         }
         Ok(())
     }
@@ -69,7 +69,8 @@ impl<'a> Resolved<'a> {
             }
             let kind = self.resolve_load(&path, load)?;
             let name = &load.name;
-            self.initial_loads.push(resolved::Load { name, kind });
+            self.initial_loads
+                .push(resolved::ResolvedLoad { name, kind });
         }
         Ok(())
     }
@@ -110,13 +111,13 @@ impl<'a> Resolved<'a> {
         let at = |key: &str| format!("{path}.{key}");
         let on = match kind.acts_on() {
             // A direction is what a moment turns and what a follower turns with.
-            ActsOn::Marker => On::Marker(match follower || !kind.is_force() {
+            ActsOn::Marker => LoadTarget::Marker(match follower || !kind.is_force() {
                 true => self.require_spinning(&at("marker"), on)?,
                 false => self.require_marker(&at("marker"), on)?,
             }),
-            ActsOn::Joint => On::Joint(self.require_pivot(&at("joint"), on)?),
-            ActsOn::Cable => On::Cable(self.require_cable(&at("body"), on)?),
-            ActsOn::Sections => On::Cable(self.require_sections(&at("body"), on)?),
+            ActsOn::Joint => LoadTarget::Joint(self.require_pivot(&at("joint"), on)?),
+            ActsOn::Cable => LoadTarget::Cable(self.require_cable(&at("body"), on)?),
+            ActsOn::Sections => LoadTarget::Cable(self.require_sections(&at("body"), on)?),
         };
         Ok(Action {
             kind,
@@ -149,7 +150,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A missing key, a marker that does not exist, or a stiffness, damping or length out of range.
-    pub(super) fn spring(&self, path: &str, load: &'a SpringDamper) -> Result<Spring<'a>, Error> {
+    pub(super) fn spring(
+        &self,
+        path: &str,
+        load: &'a SpringDamper,
+    ) -> Result<ResolvedSpring<'a>, Error> {
         let ends = self.require_pair(path, &load.markers, load.point)?;
         let stiffness = (load.stiffness, "N/m");
         let [stiffness, damping] = spring_damper(path, stiffness, (load.damping, "N s/m"))?;
@@ -159,7 +164,7 @@ impl<'a> Resolved<'a> {
         }
         let length = load.length.as_ref();
         let length = length.map(|length| value(&place, length, false));
-        Ok(Spring {
+        Ok(ResolvedSpring {
             ends,
             stiffness,
             damping,

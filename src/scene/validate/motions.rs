@@ -6,7 +6,7 @@ use std::mem::discriminant;
 use super::checks::{components, expected, quoted, shape, value};
 use crate::scene::Error;
 use crate::scene::description::{MotionKind as Given, MotionValue, Value};
-use crate::scene::resolved::{self, Resolved, Turning};
+use crate::scene::resolved::{self, DirectionSource, Resolved};
 use crate::system::{Attitude, Drive};
 
 /// Replacement in space for a driven angle of a marker, in a message.
@@ -34,7 +34,7 @@ impl<'a> Resolved<'a> {
                 return Err(expected(&path, wanted, quoted(kind.of())));
             }
             let holder = self.hold(&path, &motion.name);
-            self.motions.push(resolved::Motion {
+            self.motions.push(resolved::ResolvedMotion {
                 name: &motion.name,
                 holder,
                 kind,
@@ -64,9 +64,11 @@ impl<'a> Resolved<'a> {
             Given::Angle(of) => {
                 let turning = match (&of.marker, &of.joint) {
                     (Some(marker), None) => {
-                        Turning::Marker(self.require_turning(&at_marker, marker, NO_ANGLE)?)
+                        DirectionSource::Marker(self.require_turning(&at_marker, marker, NO_ANGLE)?)
                     }
-                    (None, Some(joint)) => Turning::Pivot(self.require_pivot(&at("joint"), joint)?),
+                    (None, Some(joint)) => {
+                        DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
+                    }
                     (marker, _) => {
                         let found = marker.as_ref().map_or("neither", |_| "both");
                         return Err(expected(path, "either a marker or a joint", found));

@@ -6,7 +6,8 @@ use super::checks::{expected, needed, quoted, unknown};
 use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
 use crate::scene::resolved::{
-    self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning,
+    self, AngleId, DirectionSource, First, MotionKind, OutputTarget, Reaction, Resolved,
+    ResolvedMarker,
 };
 
 /// Replacement in space for an angle of a marker, in a message.
@@ -69,7 +70,12 @@ impl<'a> Resolved<'a> {
     }
 
     /// Axes of a body are those of a rigid body in space that turns.
-    fn validate_axes(&self, path: &str, output: &Output, of: &Of<'_>) -> Result<(), Error> {
+    fn validate_axes(
+        &self,
+        path: &str,
+        output: &Output,
+        of: &OutputTarget<'_>,
+    ) -> Result<(), Error> {
         if output.axes().is_global() {
             return Ok(());
         }
@@ -77,7 +83,7 @@ impl<'a> Resolved<'a> {
         if self.scene.dimension == 2 {
             return Err(expected(&path, "nothing in the plane", found));
         }
-        let Of::Reaction(reaction) = of else {
+        let OutputTarget::Reaction(reaction) = of else {
             return Ok(());
         };
         let joint = self
@@ -94,61 +100,79 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    fn resolve_output(&mut self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {
+    fn resolve_output(
+        &mut self,
+        path: &str,
+        output: &'a Output,
+    ) -> Result<OutputTarget<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
         Ok(match output {
-            Output::Position(of) => Of::Marker(self.require_marker(&at("marker"), &of.marker)?),
-            Output::Direction(of) => Of::Marker(self.require_directed(&at("marker"), &of.marker)?),
+            Output::Position(of) => {
+                OutputTarget::Marker(self.require_marker(&at("marker"), &of.marker)?)
+            }
+            Output::Direction(of) => {
+                OutputTarget::Marker(self.require_directed(&at("marker"), &of.marker)?)
+            }
             Output::Velocity(of) | Output::Acceleration(of) => {
                 let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
                 match either(path, joint, marker, Along::Global)? {
-                    Either::First(joint) => Of::Sliding(self.require_slider(&at("joint"), joint)?),
-                    Either::Last(marker) => Of::Marker(self.require_marker(&at("marker"), marker)?),
+                    Either::First(joint) => {
+                        OutputTarget::Sliding(self.require_slider(&at("joint"), joint)?)
+                    }
+                    Either::Last(marker) => {
+                        OutputTarget::Marker(self.require_marker(&at("marker"), marker)?)
+                    }
                 }
             }
-            Output::Displacement(of) => Of::Sliding(self.require_slider(&at("joint"), &of.joint)?),
+            Output::Displacement(of) => {
+                OutputTarget::Sliding(self.require_slider(&at("joint"), &of.joint)?)
+            }
             Output::Deflection(of) => {
                 let marker = self.require_cable_marker(&at("marker"), &of.marker)?;
-                Of::Deflected(marker, self.deflected_from(path, of, &marker)?)
+                OutputTarget::Deflected(marker, self.deflected_from(path, of, &marker)?)
             }
             Output::Angle(of) => {
                 let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
                 let turning = match either(path, joint, marker, Along::Global)? {
                     Either::First(joint) => {
-                        Turning::Pivot(self.require_pivot(&at("joint"), joint)?)
+                        DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
                     }
-                    Either::Last(marker) => {
-                        Turning::Marker(self.require_turning(&at("marker"), marker, NO_ANGLE)?)
-                    }
+                    Either::Last(marker) => DirectionSource::Marker(self.require_turning(
+                        &at("marker"),
+                        marker,
+                        NO_ANGLE,
+                    )?),
                 };
                 self.count_angle(turning)
             }
             Output::AngularVelocity(of) | Output::AngularAcceleration(of) => {
                 let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
-                Of::Turning(match either(path, joint, marker, of.axes)? {
+                OutputTarget::Turning(match either(path, joint, marker, of.axes)? {
                     Either::First(joint) => {
-                        Turning::Pivot(self.require_pivot(&at("joint"), joint)?)
+                        DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
                     }
                     Either::Last(marker) => {
-                        Turning::Marker(self.require_spinning(&at("marker"), marker)?)
+                        DirectionSource::Marker(self.require_spinning(&at("marker"), marker)?)
                     }
                 })
             }
             Output::Orientation(of) | Output::Quaternion(of) | Output::RotationVector(of) => {
-                Of::Marker(self.require_standing(&at("marker"), &of.marker)?)
+                OutputTarget::Marker(self.require_standing(&at("marker"), &of.marker)?)
             }
             Output::Strain(of) | Output::Curvature(of) => {
-                Of::Marker(self.require_flexible_marker(&at("marker"), &of.marker)?)
+                OutputTarget::Marker(self.require_flexible_marker(&at("marker"), &of.marker)?)
             }
             Output::AxialForce(of) | Output::BendingMoment(of) | Output::ConnectivityForce(of) => {
-                Of::Marker(self.require_cable_marker(&at("marker"), &of.marker)?)
+                OutputTarget::Marker(self.require_cable_marker(&at("marker"), &of.marker)?)
             }
-            Output::Torque(of) => Of::Marker(self.require_rod_marker(&at("marker"), &of.marker)?),
+            Output::Torque(of) => {
+                OutputTarget::Marker(self.require_rod_marker(&at("marker"), &of.marker)?)
+            }
             Output::Stress(of) => self.stress_points(path, &of.marker, &of.points)?,
             Output::TorsionStress(of) => self.torsion_points(path, &of.marker, &of.points)?,
             Output::Travel(of) => self.travel(&at("joint"), &of.joint)?,
-            Output::Reaction(of) => Of::Reaction(self.reaction(path, of, false)?),
-            Output::ReactionMoment(of) => Of::Reaction(self.reaction(path, of, true)?),
+            Output::Reaction(of) => OutputTarget::Reaction(self.reaction(path, of, false)?),
+            Output::ReactionMoment(of) => OutputTarget::Reaction(self.reaction(path, of, true)?),
             Output::GearForce(of) => self.gear(&at("gear"), &of.gear, false)?,
             Output::GearTorque(of) => self.gear(&at("gear"), &of.gear, true)?,
             Output::LoadForce(of) => self.exerting(&at("load"), &of.load, false)?,
@@ -158,18 +182,23 @@ impl<'a> Resolved<'a> {
             | Output::Momentum(_)
             | Output::CenterOfMass(_)
             | Output::Resolution(_)
-            | Output::Residual(_) => Of::Scene,
+            | Output::Residual(_) => OutputTarget::Scene,
             Output::NaturalFrequency(of) => self.spectrum(path, &of.body, of.count)?,
             Output::Eigenvalue(of) => self.spectrum(path, &of.body, of.count)?,
         })
     }
 
-    fn spectrum(&self, path: &str, body: &'a Option<String>, count: u32) -> Result<Of<'a>, Error> {
+    fn spectrum(
+        &self,
+        path: &str,
+        body: &'a Option<String>,
+        count: u32,
+    ) -> Result<OutputTarget<'a>, Error> {
         validate_count(path, count)?;
         if let Some(name) = body {
             self.validate_body_output(&format!("{path}.body"), name)?;
         }
-        Ok(Of::Spectrum(body.as_deref(), count))
+        Ok(OutputTarget::Spectrum(body.as_deref(), count))
     }
 
     /// The marker whose frame carries the rigid body that another one of its body is compared with.
@@ -177,8 +206,8 @@ impl<'a> Resolved<'a> {
         &self,
         path: &str,
         output: &'a DeflectionOutput,
-        marker: &Marker<'a>,
-    ) -> Result<Option<Marker<'a>>, Error> {
+        marker: &ResolvedMarker<'a>,
+    ) -> Result<Option<ResolvedMarker<'a>>, Error> {
         let Some(name) = &output.from else {
             return Ok(None);
         };
@@ -198,19 +227,19 @@ impl<'a> Resolved<'a> {
         Ok(Some(from))
     }
 
-    pub(super) fn count_angle(&mut self, turning: Turning<'a>) -> Of<'a> {
+    pub(super) fn count_angle(&mut self, turning: DirectionSource<'a>) -> OutputTarget<'a> {
         self.angles.push(turning);
-        Of::Angle(turning, AngleId(self.angles.len() - 1))
+        OutputTarget::Angle(turning, AngleId(self.angles.len() - 1))
     }
 
-    fn travel(&self, path: &str, name: &str) -> Result<Of<'a>, Error> {
+    fn travel(&self, path: &str, name: &str) -> Result<OutputTarget<'a>, Error> {
         let joint = self.require_joint(path, name)?;
         let slide = joint.slide();
         let slide = slide.ok_or_else(|| expected(path, "a joint of kind along", quoted(name)))?;
-        Ok(Of::Slide(joint.name, slide))
+        Ok(OutputTarget::Slide(joint.name, slide))
     }
 
-    fn gear(&self, path: &str, name: &str, is_torque: bool) -> Result<Of<'a>, Error> {
+    fn gear(&self, path: &str, name: &str, is_torque: bool) -> Result<OutputTarget<'a>, Error> {
         let Some(gear) = self.gears.iter().find(|gear| gear.name == name) else {
             let known = self.gears.iter().map(|gear| gear.name);
             return Err(unknown(path, "a gear of this scene", name, known));
@@ -227,17 +256,17 @@ impl<'a> Resolved<'a> {
             };
             return Err(expected(path, wanted, quoted(name)));
         }
-        Ok(Of::Gear(gear.name, gear.holder))
+        Ok(OutputTarget::Gear(gear.name, gear.holder))
     }
 
-    fn exerting(&self, path: &str, name: &str, is_moment: bool) -> Result<Of<'a>, Error> {
+    fn exerting(&self, path: &str, name: &str, is_moment: bool) -> Result<OutputTarget<'a>, Error> {
         let mut loads = self.numbered_loads();
         let Some((id, load)) = loads.find(|(_, load)| load.name == name) else {
             let known = self.numbered_loads().map(|(_, load)| load.name);
             return Err(unknown(path, "a load of this scene", name, known));
         };
         if load.kind.exerts()[usize::from(is_moment)] {
-            return Ok(Of::Load(load.name, id, load.kind.exerts_on()));
+            return Ok(OutputTarget::Load(load.name, id, load.kind.exerts_on()));
         }
         let wanted = if is_moment {
             "a bushing, or a joint_spring or stop on an angle"

@@ -6,8 +6,8 @@ use super::checks::{expected, not_negative, quoted, spring_damper};
 use crate::scene::Error;
 use crate::scene::description::{ActionKind, Along, MotionPort, OutputKind, Port, PortKind};
 use crate::scene::resolved::{
-    self, Action, Coupling, CouplingId, Incoming, InputKind, Marker, Motion, MotionKind, Of, On,
-    Output, Resolved, Turning,
+    self, Action, Coupling, CouplingId, DirectionSource, Incoming, InputKind, LoadTarget,
+    MotionKind, Output, OutputTarget, Resolved, ResolvedMarker, ResolvedMotion,
 };
 use crate::system::Signal;
 
@@ -44,10 +44,9 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_ports(&mut self) -> Result<(), Error> {
         let driven = self.motions.iter().filter_map(|motion| match &motion.kind {
             MotionKind::Position(marker, _) => Some((false, marker.name)),
-            MotionKind::Angle(Turning::Marker(marker), _) | MotionKind::Orientation(marker, _) => {
-                Some((true, marker.name))
-            }
-            MotionKind::Angle(Turning::Pivot(_), _)
+            MotionKind::Angle(DirectionSource::Marker(marker), _)
+            | MotionKind::Orientation(marker, _) => Some((true, marker.name)),
+            MotionKind::Angle(DirectionSource::Pivot(_), _)
             | MotionKind::Displacement(..)
             | MotionKind::Winch(..) => None,
         });
@@ -88,7 +87,7 @@ impl<'a> Resolved<'a> {
                 }
                 PortKind::Motion(_) => self.motion_port(&path, port, marker),
             };
-            self.ports.push(resolved::Port {
+            self.ports.push(resolved::ResolvedPort {
                 name: &port.name,
                 marker,
                 kind,
@@ -98,19 +97,19 @@ impl<'a> Resolved<'a> {
         Ok(())
     }
 
-    fn force_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
+    fn force_port(&mut self, port: &'a Port, marker: ResolvedMarker<'a>) -> resolved::PortKind<'a> {
         use OutputKind::*;
         let mut inputs = vec![self.action_input(ActionKind::Force, marker)];
-        let of = Of::Marker(marker);
+        let of = OutputTarget::Marker(marker);
         let mut outputs = vec![(Position, of), (Velocity, of), (Acceleration, of)];
         if port.turns() {
             inputs.push(self.action_input(ActionKind::Moment, marker));
-            let turning = Turning::Marker(marker);
+            let turning = DirectionSource::Marker(marker);
             let stands = match self.scene.dimension {
                 2 => (Angle, self.count_angle(turning)),
                 _ => (Quaternion, of),
             };
-            let of = Of::Turning(turning);
+            let of = OutputTarget::Turning(turning);
             outputs.extend([stands, (AngularVelocity, of), (AngularAcceleration, of)]);
         }
         let outputs = outputs.into_iter();
@@ -124,13 +123,17 @@ impl<'a> Resolved<'a> {
     }
 
     /// A force or a moment that comes in.
-    fn action_input(&mut self, kind: ActionKind, marker: Marker<'a>) -> resolved::Input<'a> {
+    fn action_input(
+        &mut self,
+        kind: ActionKind,
+        marker: ResolvedMarker<'a>,
+    ) -> resolved::Input<'a> {
         let count = kind.components(self.scene.dimension);
         let first = self.place(count);
         resolved::Input {
             kind: InputKind::Action(Action {
                 kind,
-                on: On::Marker(marker),
+                on: LoadTarget::Marker(marker),
                 follower: false,
                 components: (0..count).map(|k| Signal::Input(first + k)).collect(),
                 along: Vec::new(),
@@ -142,15 +145,15 @@ impl<'a> Resolved<'a> {
 
     /// The motions that come in: with two derivatives or, with a spring and damper, which do not feel
     /// accelerations, with one.
-    fn position(&mut self, marker: Marker<'a>, derivatives: usize) -> MotionKind<'a> {
+    fn position(&mut self, marker: ResolvedMarker<'a>, derivatives: usize) -> MotionKind<'a> {
         let coordinates = 0..self.scene.dimension;
         let drives = coordinates.map(|_| self.driven(derivatives)).collect();
         MotionKind::Position(marker, drives)
     }
 
-    fn angle(&mut self, marker: Marker<'a>, derivatives: usize) -> MotionKind<'a> {
+    fn angle(&mut self, marker: ResolvedMarker<'a>, derivatives: usize) -> MotionKind<'a> {
         match self.scene.dimension {
-            2 => MotionKind::Angle(Turning::Marker(marker), self.driven(derivatives)),
+            2 => MotionKind::Angle(DirectionSource::Marker(marker), self.driven(derivatives)),
             _ => MotionKind::Orientation(marker, self.turned(derivatives)),
         }
     }
@@ -159,11 +162,11 @@ impl<'a> Resolved<'a> {
         &mut self,
         path: &str,
         port: &'a Port,
-        marker: Marker<'a>,
+        marker: ResolvedMarker<'a>,
     ) -> resolved::PortKind<'a> {
         let position = self.position(marker, 2);
         let angle = port.turns().then(|| self.angle(marker, 2));
-        let mut motion = |kind| Motion {
+        let mut motion = |kind| ResolvedMotion {
             name: &port.name,
             holder: self.hold(path, &port.name),
             kind,
@@ -175,7 +178,11 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    fn coupling_port(&mut self, port: &MotionPort, marker: Marker<'a>) -> resolved::PortKind<'a> {
+    fn coupling_port(
+        &mut self,
+        port: &MotionPort,
+        marker: ResolvedMarker<'a>,
+    ) -> resolved::PortKind<'a> {
         let coupling = |resolved: &mut Self, incoming, first, stiffness, damping| {
             resolved.couplings += 1;
             Box::new(Coupling {

@@ -4,20 +4,25 @@ use super::checks::{expected, quoted, unknown, vector};
 use crate::scene::description::CoordinateKind;
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
-    BodyReference, Cable, Ends, First, Form, Joint, JointCoordinate, Marker, Pivot, Place,
-    Resolved, Slider,
+    BodyReference, Cable, Ends, First, Form, JointCoordinate, Pivot, Place, Resolved,
+    ResolvedJoint, ResolvedMarker, Slider,
 };
-use crate::scene::{Error, LineBody, Vector};
+use crate::scene::{Error, LineBody, SceneVector};
 
 impl<'a> Resolved<'a> {
     /// Finds a marker.
     ///
     /// # Errors
     /// The marker does not exist. The error lists similar names.
-    pub(super) fn require_marker(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+    pub(super) fn require_marker(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<ResolvedMarker<'a>, Error> {
         self.marker(name).ok_or_else(|| {
-            let of =
-                |marker: &Marker<'_>| format!("{}.{}", marker.place.body().name(), marker.name);
+            let of = |marker: &ResolvedMarker<'_>| {
+                format!("{}.{}", marker.place.body().name(), marker.name)
+            };
             let known: Vec<String> = self.markers.iter().map(of).collect();
             let known = known.iter().map(String::as_str);
             unknown(path, "a marker of this scene", name, known)
@@ -33,7 +38,7 @@ impl<'a> Resolved<'a> {
         path: &str,
         name: &'a str,
         instead: &str,
-    ) -> Result<Marker<'a>, Error> {
+    ) -> Result<ResolvedMarker<'a>, Error> {
         match self.scene.dimension {
             2 => self.require_directed(path, name),
             _ => Err(expected(path, instead, quoted(name))),
@@ -45,7 +50,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body does not rotate.
-    pub(super) fn require_spinning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+    pub(super) fn require_spinning(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<ResolvedMarker<'a>, Error> {
         match self.scene.dimension {
             2 => self.require_directed(path, name),
             _ => self.require_standing(path, name),
@@ -56,7 +65,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist or has no orientation, or the scene is planar.
-    pub(super) fn require_standing(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+    pub(super) fn require_standing(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         let wanted = match self.scene.dimension {
             2 => "nothing in the plane, where \"angle\" says how a body stands",
@@ -75,7 +88,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, is on a rod, or its body lacks inertia about an axis.
-    pub(super) fn require_driven(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+    pub(super) fn require_driven(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_standing(path, name)?;
         match marker.place {
             Place::Along(..) => {
@@ -94,7 +111,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body has no inertia.
-    pub(super) fn require_directed(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+    pub(super) fn require_directed(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         if marker.place.turns() {
             return Ok(marker);
@@ -112,7 +133,7 @@ impl<'a> Resolved<'a> {
         &self,
         path: &str,
         name: &'a str,
-    ) -> Result<Marker<'a>, Error> {
+    ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         if matches!(marker.place, Place::Along(..)) {
             return Ok(marker);
@@ -128,7 +149,7 @@ impl<'a> Resolved<'a> {
         &self,
         path: &str,
         name: &'a str,
-    ) -> Result<Marker<'a>, Error> {
+    ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_cable_marker(path, name)?;
         if self.scene.dimension == 2 {
             let wanted = "a marker of a rod or beam in space: nothing is twisted in the plane";
@@ -149,7 +170,7 @@ impl<'a> Resolved<'a> {
         &self,
         path: &str,
         name: &'a str,
-    ) -> Result<Marker<'a>, Error> {
+    ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_cable_marker(path, name)?;
         if let Place::Along(cable, _) = marker.place {
             chain(path, "a marker of a cable that bends", cable)?;
@@ -215,7 +236,7 @@ impl<'a> Resolved<'a> {
         &self,
         path: &str,
         markers: &'a [String; 2],
-        point: Option<Vector>,
+        point: Option<SceneVector>,
     ) -> Result<Ends<'a>, Error> {
         let second = self.require_marker(&format!("{path}.markers[1]"), &markers[1])?;
         let place = format!("{path}.point");
@@ -260,7 +281,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist. The error lists similar names.
-    pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<&Joint<'a>, Error> {
+    pub(super) fn require_joint(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<&ResolvedJoint<'a>, Error> {
         let found = self.joints.iter().find(|joint| joint.name == name);
         found.ok_or_else(|| self.no_joint(path, name))
     }

@@ -3,7 +3,8 @@
 use super::checks::{expected, quoted};
 use crate::scene::Error;
 use crate::scene::resolved::{
-    ConstraintOwnerId, InputKind, JointCoordinate, LoadKind, MotionKind, On, Resolved, Turning,
+    ConstraintOwnerId, DirectionSource, InputKind, JointCoordinate, LoadKind, LoadTarget,
+    MotionKind, Resolved,
 };
 use crate::system::Release;
 
@@ -59,7 +60,7 @@ impl Resolved<'_> {
         }
         for motion in &self.motions {
             match &motion.kind {
-                MotionKind::Angle(Turning::Pivot(pivot), _) => {
+                MotionKind::Angle(DirectionSource::Pivot(pivot), _) => {
                     found.push((pivot.joint, motion.name));
                 }
                 MotionKind::Displacement(slider, _) => found.push((slider.joint, motion.name)),
@@ -72,7 +73,7 @@ impl Resolved<'_> {
                     found.push((of(on), load.name));
                 }
                 LoadKind::Action { action, .. } => {
-                    if let On::Joint(pivot) = action.on {
+                    if let LoadTarget::Joint(pivot) = action.on {
                         found.push((pivot.joint, load.name));
                     }
                 }
@@ -81,7 +82,7 @@ impl Resolved<'_> {
         }
         for input in &self.inputs {
             if let InputKind::Action(action) = &input.kind
-                && let On::Joint(pivot) = action.on
+                && let LoadTarget::Joint(pivot) = action.on
             {
                 found.push((pivot.joint, action.kind.words()[0]));
             }

@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::checks::{expected, finite, needed, not_negative, planar, positive, vector};
 use crate::scene::mesh::SHORTEST;
-use crate::scene::{Error, LineBody, Model, Profile, Section, Sections, Strain};
+use crate::scene::{Error, LineBody, LineModel, Model, Profile, Section, Strain};
 
 impl LineBody {
     /// Checks the cross section or the sections at stations. A cable may have no keys of rods.
@@ -201,16 +201,16 @@ const OF_SPACE: &str =
     "nothing in the plane, where nothing twists and sections bend about one axis";
 
 /// Names the replacement for a feature of sections that rotate about their line, in a message.
-fn instead_of_turning(kind: Sections) -> &'static str {
+fn instead_of_turning(kind: LineModel) -> &'static str {
     match kind {
-        Sections::None => OF_RODS,
+        LineModel::Cable => OF_RODS,
         _ => OF_SPACE,
     }
 }
 
 impl Section {
-    fn validate(&self, path: &str, dimension: usize, kind: Sections) -> Result<(), Error> {
-        if kind == Sections::Lean {
+    fn validate(&self, path: &str, dimension: usize, kind: LineModel) -> Result<(), Error> {
+        if kind == LineModel::Reissner {
             self.validate_beam(path, dimension)?;
             if self.stiffness.is_some() {
                 return Ok(());
@@ -222,13 +222,13 @@ impl Section {
             return self.validate_shape(path, dimension, kind, shape);
         }
         let at = |key: &str| format!("{path}.{key}");
-        if kind != Sections::None && dimension == 3 {
+        if kind != LineModel::Cable && dimension == 3 {
             self.validate_numbers_of_rod(path)?;
         } else {
             self.refuse_numbers_of_rods(path, instead_of_turning(kind))?;
             let moment = needed(path, "second_moment", "a value", self.second_moment)?;
             match kind {
-                Sections::None => not_negative(&at("second_moment"), "m^4", moment)?,
+                LineModel::Cable => not_negative(&at("second_moment"), "m^4", moment)?,
                 _ => positive(&at("second_moment"), "m^4", moment)?,
             }
         }
@@ -240,10 +240,10 @@ impl Section {
         &self,
         path: &str,
         dimension: usize,
-        kind: Sections,
+        kind: LineModel,
         mut shape: Profile,
     ) -> Result<(), Error> {
-        let turns = kind != Sections::None && dimension == 3;
+        let turns = kind != LineModel::Cable && dimension == 3;
         let numbers = [
             ("area", self.area.is_some()),
             ("second_moment", self.second_moment.is_some()),

@@ -2,8 +2,10 @@
 
 use super::checks::{expected, finite, not_negative, positive, spring_damper};
 use crate::scene::Error;
-use crate::scene::description::{self, CoordinateKind, JointLimit, JointSpring, LoadKind as Given};
-use crate::scene::resolved::{Bushing, First, JointCoordinate, LoadKind, Resolved};
+use crate::scene::description::{
+    self, CoordinateKind, JointLimitLoad, JointSpringLoad, LoadKind as Given,
+};
+use crate::scene::resolved::{First, JointCoordinate, LoadKind, Resolved, ResolvedBushing};
 
 impl<'a> Resolved<'a> {
     /// Resolves a load other than a force or a moment.
@@ -40,7 +42,7 @@ impl<'a> Resolved<'a> {
         self.require_coordinate(&format!("{path}.joint"), joint, which)
     }
 
-    fn joint_spring(&self, path: &str, load: &'a JointSpring) -> Result<LoadKind<'a>, Error> {
+    fn joint_spring(&self, path: &str, load: &'a JointSpringLoad) -> Result<LoadKind<'a>, Error> {
         let on = self.coordinate(path, &load.joint, load.coordinate)?;
         let units = match on.is_angle() {
             true => ["N m/rad", "N m s/rad"],
@@ -57,7 +59,7 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    fn stop(&self, path: &str, load: &'a JointLimit) -> Result<LoadKind<'a>, Error> {
+    fn stop(&self, path: &str, load: &'a JointLimitLoad) -> Result<LoadKind<'a>, Error> {
         let on = self.coordinate(path, &load.joint, load.coordinate)?;
         let units = match on.is_angle() {
             true => ["N m/rad", "s/rad"],
@@ -86,7 +88,11 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    fn bushing(&self, path: &str, load: &'a description::Bushing) -> Result<Bushing<'a>, Error> {
+    fn bushing(
+        &self,
+        path: &str,
+        load: &'a description::BushingLoad,
+    ) -> Result<ResolvedBushing<'a>, Error> {
         if self.scene.dimension == 2 {
             let wanted = "spring_damper, or revolute with a stiffness in the plane";
             return Err(expected(&format!("{path}.kind"), wanted, "bushing"));
@@ -116,7 +122,7 @@ impl<'a> Resolved<'a> {
             }
         }
         let [along, about, damped, turned] = all.map(|(_, given, _)| given.unwrap_or_default());
-        Ok(Bushing {
+        Ok(ResolvedBushing {
             ends,
             stiffness: [along, about],
             damping: [damped, turned],

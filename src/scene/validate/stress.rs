@@ -2,7 +2,9 @@
 
 use super::checks::{expected, finite, quoted};
 use crate::scene::Error;
-use crate::scene::resolved::{Marker, Of, Place, PointId, Resolved, SectionPoint};
+use crate::scene::resolved::{
+    OutputTarget, Place, PointId, Resolved, ResolvedMarker, SectionPoint,
+};
 
 /// Most points of a section.
 const MOST_POINTS: usize = 100;
@@ -18,7 +20,7 @@ impl<'a> Resolved<'a> {
         path: &str,
         marker: &'a str,
         points: &'a [Vec<f64>],
-    ) -> Result<Of<'a>, Error> {
+    ) -> Result<OutputTarget<'a>, Error> {
         let place = format!("{path}.marker");
         let marker = match self.scene.dimension {
             2 => self.require_cable_marker(&place, marker)?,
@@ -27,13 +29,16 @@ impl<'a> Resolved<'a> {
         self.section_points(path, marker, (points, false))
     }
 
-    /// Points of the section at a marker of a rod or beam whose section has a shape.
+    /// Resolves the points of the section at a marker of a rod or beam where shear stress of torsion is read.
+    ///
+    /// # Errors
+    /// A marker that does not exist, a section without a shape, or points that are missing, too many or of another dimension.
     pub(super) fn torsion_points(
         &mut self,
         path: &str,
         marker: &'a str,
         points: &'a [Vec<f64>],
-    ) -> Result<Of<'a>, Error> {
+    ) -> Result<OutputTarget<'a>, Error> {
         let marker = self.require_rod_marker(&format!("{path}.marker"), marker)?;
         self.section_points(path, marker, (points, true))
     }
@@ -41,9 +46,9 @@ impl<'a> Resolved<'a> {
     fn section_points(
         &mut self,
         path: &str,
-        marker: Marker<'a>,
+        marker: ResolvedMarker<'a>,
         (points, is_torsion): (&'a [Vec<f64>], bool),
-    ) -> Result<Of<'a>, Error> {
+    ) -> Result<OutputTarget<'a>, Error> {
         let (place, name) = (format!("{path}.marker"), marker.name);
         let Place::Along(cable, at) = marker.place else {
             return Err(expected(&place, "a marker of a cable or rod", quoted(name)));
@@ -86,6 +91,6 @@ impl<'a> Resolved<'a> {
                 point,
             });
         }
-        Ok(Of::Points(marker, PointId(first), points))
+        Ok(OutputTarget::Points(marker, PointId(first), points))
     }
 }

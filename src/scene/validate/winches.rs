@@ -1,8 +1,10 @@
 //! Checks of cables that winches pay out.
 
 use super::checks::{expected, quoted};
-use crate::scene::description::{InitialState, Sections, Shape, Strain};
-use crate::scene::resolved::{Cable, First, Hold, LoadKind, Marker, MotionKind, Place, Resolved};
+use crate::scene::description::{InitialState, LineModel, Shape, Strain};
+use crate::scene::resolved::{
+    Cable, First, Hold, LoadKind, MotionKind, Place, Resolved, ResolvedMarker,
+};
 use crate::scene::{Error, Model};
 
 impl<'a> Resolved<'a> {
@@ -11,14 +13,18 @@ impl<'a> Resolved<'a> {
     /// # Errors
     /// The marker does not exist, is not at the end of a flexible cable, or its cable has stations, another strain or a
     /// curved shape that bends.
-    pub(super) fn require_paid_out(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+    pub(super) fn require_paid_out(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         let wanted = "a marker at an end of a cable that bends and stretches";
         let Place::Along(cable, at) = marker.place else {
             return Err(expected(path, wanted, quoted(name)));
         };
         let body = cable.body;
-        if body.sections != Sections::None || body.model == Model::Rigid {
+        if body.sections != LineModel::Cable || body.model == Model::Rigid {
             return Err(expected(path, wanted, quoted(name)));
         }
         if ![0.0, 1.0].contains(&at) {
@@ -97,15 +103,14 @@ impl<'a> Resolved<'a> {
 
     /// Name of what acts on a cable between its ends, if anything does.
     fn acts_along(&self, cable: Cable<'a>) -> Option<&'a str> {
-        let is_inside = |marker: &Marker<'a>| match marker.place {
+        let is_inside = |marker: &ResolvedMarker<'a>| match marker.place {
             Place::Along(of, at) => of.id == cable.id && ![0.0, 1.0].contains(&at),
             Place::Point(..) => false,
         };
         if let Some(marker) = self.acted_on().into_iter().find(is_inside) {
             return Some(marker.name);
         }
-        let on_it =
-            |marker: &Marker<'a>| matches!(marker.place, Place::Along(of, _) if of.id == cable.id);
+        let on_it = |marker: &ResolvedMarker<'a>| matches!(marker.place, Place::Along(of, _) if of.id == cable.id);
         if let Some(mass) = self.masses.iter().find(|mass| on_it(&mass.marker)) {
             return Some(mass.marker.name);
         }

@@ -3,7 +3,8 @@
 use super::unit::*;
 use super::{AXES, DrivePart, List, PARTS, Source, Unit, component};
 use crate::scene::{
-    ActionKind, Coupling, Incoming, Input, InputKind, Marker, MotionKind, PortKind, Resolved,
+    ActionKind, Coupling, Incoming, Input, InputKind, MotionKind, PortKind, Resolved,
+    ResolvedMarker,
 };
 use crate::system::{Attitude, Drive};
 
@@ -65,7 +66,7 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
 fn add_orientation(
     list: &mut List,
     attitude: Attitude,
-    (of, verb, marker): (&str, &str, &Marker<'_>),
+    (of, verb, marker): (&str, &str, &ResolvedMarker<'_>),
 ) {
     let (first, what) = (
         attitude.first,

@@ -3,8 +3,8 @@
 use super::unit::*;
 use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
 use crate::scene::{
-    Along, AngleId, ConstraintOwnerId, InputKind, LoadId, MarkerId, Of, Output, OutputKind,
-    PointId, Port, PortKind, Resolved, SlideId, Turning,
+    Along, AngleId, ConstraintOwnerId, DirectionSource, InputKind, LoadId, MarkerId, Output,
+    OutputKind, OutputTarget, PointId, PortKind, Resolved, ResolvedPort, SlideId,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -182,7 +182,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
 fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, port: Option<&str>) {
     let (name, place) = words(&output.of);
     let count = match output.of {
-        Of::Spectrum(_, count) => count as usize,
+        OutputTarget::Spectrum(_, count) => count as usize,
         _ => list.dimension,
     };
     for (key, what, unit, shape, read) in rows(output.kind, resolved) {
@@ -196,12 +196,14 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         };
         let shape = match (shape, output.of) {
             // A joint has one axis, in space too.
-            (OutputShape::Turn, Of::Turning(Turning::Pivot(_))) => OutputShape::Scalar,
-            (OutputShape::Vector, Of::Sliding(_)) => OutputShape::Scalar,
+            (OutputShape::Turn, OutputTarget::Turning(DirectionSource::Pivot(_))) => {
+                OutputShape::Scalar
+            }
+            (OutputShape::Vector, OutputTarget::Sliding(_)) => OutputShape::Scalar,
             _ => shape,
         };
         let (name, what) = match (output.along, output.of) {
-            (_, Of::Deflected(_, Some(from))) => {
+            (_, OutputTarget::Deflected(_, Some(from))) => {
                 let from = from.name.rsplit('.').next().unwrap_or_default();
                 (format!("{name}_from_{from}"), what)
             }
@@ -212,7 +214,7 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             ),
         };
         let source = |k| source(read, output, k);
-        if let Of::Points(_, _, points) = output.of {
+        if let OutputTarget::Points(_, _, points) = output.of {
             list.at_points((&name, &what), unit, points, source);
             continue;
         }
@@ -221,41 +223,47 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
 }
 
 /// Returns the name that variables of an output begin with, and its form in descriptions.
-fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
+fn words<'a>(of: &OutputTarget<'a>) -> (&'a str, String) {
     let second = |joint: &str| format!("the second marker of {joint} less that of its first");
     match of {
-        Of::Marker(marker) | Of::Points(marker, ..) => (marker.name, marker.name.into()),
-        Of::Deflected(marker, None) => {
+        OutputTarget::Marker(marker) | OutputTarget::Points(marker, ..) => {
+            (marker.name, marker.name.into())
+        }
+        OutputTarget::Deflected(marker, None) => {
             let what = format!(
                 "{} from the mean of its body, along axes that follow the mean",
                 marker.name
             );
             (marker.name, what)
         }
-        Of::Deflected(marker, Some(from)) => {
+        OutputTarget::Deflected(marker, Some(from)) => {
             let what = format!(
                 "{} from the frame at {}, along axes that follow it",
                 marker.name, from.name
             );
             (marker.name, what)
         }
-        Of::Turning(Turning::Marker(marker)) => {
+        OutputTarget::Turning(DirectionSource::Marker(marker)) => {
             (marker.name, format!("the direction at {}", marker.name))
         }
-        Of::Turning(Turning::Pivot(pivot)) => (pivot.name, second(pivot.name)),
-        Of::Angle(Turning::Marker(marker), _) => (marker.name, format!("at {}", marker.name)),
-        Of::Angle(Turning::Pivot(pivot), _) => (pivot.name, format!("of {}", second(pivot.name))),
-        Of::Slide(joint, _) => (joint, (*joint).into()),
-        Of::Sliding(slider) => {
+        OutputTarget::Turning(DirectionSource::Pivot(pivot)) => (pivot.name, second(pivot.name)),
+        OutputTarget::Angle(DirectionSource::Marker(marker), _) => {
+            (marker.name, format!("at {}", marker.name))
+        }
+        OutputTarget::Angle(DirectionSource::Pivot(pivot), _) => {
+            (pivot.name, format!("of {}", second(pivot.name)))
+        }
+        OutputTarget::Slide(joint, _) => (joint, (*joint).into()),
+        OutputTarget::Sliding(slider) => {
             let what = format!("the second marker of {} along its line", slider.name);
             (slider.name, what)
         }
-        Of::Gear(gear, _) => (gear, (*gear).into()),
-        Of::Load(load, _, on) => {
+        OutputTarget::Gear(gear, _) => (gear, (*gear).into()),
+        OutputTarget::Load(load, _, on) => {
             let on = on.map_or("the body that it acts along", |marker| marker.name);
             (load, format!("{load} on {on}"))
         }
-        Of::Reaction(reaction) => {
+        OutputTarget::Reaction(reaction) => {
             let on = if reaction.is_motion {
                 "what it drives"
             } else {
@@ -263,15 +271,15 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
             };
             (reaction.name, format!("{} on {on}", reaction.name))
         }
-        Of::Scene => ("", String::new()),
-        Of::Spectrum(body, _) => (body.unwrap_or_default(), String::new()),
+        OutputTarget::Scene => ("", String::new()),
+        OutputTarget::Spectrum(body, _) => (body.unwrap_or_default(), String::new()),
     }
 }
 
 /// The body along whose axes components are.
-fn owner(of: &Of<'_>) -> String {
+fn owner(of: &OutputTarget<'_>) -> String {
     match of {
-        Of::Reaction(reaction) => format!("the first body of {}", reaction.name),
+        OutputTarget::Reaction(reaction) => format!("the first body of {}", reaction.name),
         _ => "its body".into(),
     }
 }
@@ -279,34 +287,36 @@ fn owner(of: &Of<'_>) -> String {
 fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
     let along = output.along;
     Source::Output(match (read, &output.of) {
-        (Read::Marker(quantity), Of::Marker(marker)) => quantity(marker.id, k),
-        (Read::Deflected(quantity), Of::Deflected(marker, from)) => {
+        (Read::Marker(quantity), OutputTarget::Marker(marker)) => quantity(marker.id, k),
+        (Read::Deflected(quantity), OutputTarget::Deflected(marker, from)) => {
             quantity(marker.id, from.map(|from| from.id), k)
         }
-        (Read::Turning(quantity, _), Of::Turning(Turning::Marker(marker))) => {
+        (Read::Turning(quantity, _), OutputTarget::Turning(DirectionSource::Marker(marker))) => {
             quantity(marker.id, k, along)
         }
-        (Read::Turning(_, quantity), Of::Turning(Turning::Pivot(pivot))) => quantity(pivot.joint),
-        (Read::Moving(quantity, _), Of::Marker(marker)) => quantity(marker.id, k),
-        (Read::Moving(_, quantity) | Read::Joint(quantity), Of::Sliding(slider)) => {
+        (Read::Turning(_, quantity), OutputTarget::Turning(DirectionSource::Pivot(pivot))) => {
+            quantity(pivot.joint)
+        }
+        (Read::Moving(quantity, _), OutputTarget::Marker(marker)) => quantity(marker.id, k),
+        (Read::Moving(_, quantity) | Read::Joint(quantity), OutputTarget::Sliding(slider)) => {
             quantity(slider.joint)
         }
-        (Read::Joint(quantity), Of::Gear(_, holder)) => quantity(*holder),
-        (Read::Load(quantity), Of::Load(_, load, _)) => quantity(*load, k),
-        (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
-        (Read::Points(quantity), Of::Points(_, first, _)) => quantity(first.after(k)),
-        (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
-        (Read::ConstraintOwner(quantity), Of::Reaction(reaction)) => {
+        (Read::Joint(quantity), OutputTarget::Gear(_, holder)) => quantity(*holder),
+        (Read::Load(quantity), OutputTarget::Load(_, load, _)) => quantity(*load, k),
+        (Read::Counted(quantity), OutputTarget::Angle(_, angle)) => quantity(*angle),
+        (Read::Points(quantity), OutputTarget::Points(_, first, _)) => quantity(first.after(k)),
+        (Read::Slide(quantity), OutputTarget::Slide(_, slide)) => quantity(*slide),
+        (Read::ConstraintOwner(quantity), OutputTarget::Reaction(reaction)) => {
             quantity(reaction.holder, k, along)
         }
-        (Read::Scene(quantity), Of::Scene) => quantity(k),
-        (Read::Spectrum(source), Of::Spectrum(..)) => return source(k),
+        (Read::Scene(quantity), OutputTarget::Scene) => quantity(k),
+        (Read::Spectrum(source), OutputTarget::Spectrum(..)) => return source(k),
         _ => unreachable!("what an output is read at follows from its kind"),
     })
 }
 
 /// Adds the force that a port with an incoming motion exerts on the outside.
-fn add_port_force(list: &mut List, port: &Port<'_>) {
+fn add_port_force(list: &mut List, port: &ResolvedPort<'_>) {
     use Quantity::{CouplingForce, CouplingMoment, MotionForce, MotionMoment};
     let what = format!(
         "of {} on what {} couples it to",

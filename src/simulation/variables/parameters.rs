@@ -4,8 +4,8 @@ use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
 use crate::math::space::spins;
 use crate::scene::{
-    BodyReference, Bushing, By, Cable, Contact, Fluid, Inertia, LoadKind, PortKind, Resolved,
-    Rigid, Scene,
+    BodyReference, Cable, ContactBody, Inertia, LoadKind, PortKind, Resolved, ResolvedBushing,
+    ResolvedContact, ResolvedFluid, Rigid, Scene,
 };
 
 /// Key, meaning, unit, what it stands for, start value.
@@ -201,7 +201,7 @@ fn add_sizes(list: &mut List, rigid: &Rigid<'_>) {
 }
 
 /// Stiffnesses and dampings of a bushing.
-fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
+fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &ResolvedBushing<'_>) {
     use Parameter::*;
     type Make = fn(usize, usize) -> Parameter;
     let [along, about] = bushing.stiffness;
@@ -223,7 +223,12 @@ fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
 }
 
 /// Density and coefficients of a fluid; no added mass along a cable that a winch pays out.
-fn add_fluid(list: &mut List, resolved: &Resolved<'_>, (i, of): (usize, &str), fluid: &Fluid<'_>) {
+fn add_fluid(
+    list: &mut List,
+    resolved: &Resolved<'_>,
+    (i, of): (usize, &str),
+    fluid: &ResolvedFluid<'_>,
+) {
     let [across, along] = fluid.drag;
     #[rustfmt::skip] // a table
     let rows = [
@@ -237,11 +242,11 @@ fn add_fluid(list: &mut List, resolved: &Resolved<'_>, (i, of): (usize, &str), f
 }
 
 /// Stiffness, damping and friction of a contact.
-fn add_contact(list: &mut List, (i, of): (usize, &str), contact: &Contact<'_>) {
+fn add_contact(list: &mut List, (i, of): (usize, &str), contact: &ResolvedContact<'_>) {
     use Parameter::*;
     let (stiffness, unit) = match contact.by {
-        By::Marker(_) => (SpringStiffness(i), NEWTON_PER_METRE),
-        By::Cable(_) => (SpreadStiffness(i), NEWTON_PER_SQUARE_METRE),
+        ContactBody::Marker(_) => (SpringStiffness(i), NEWTON_PER_METRE),
+        ContactBody::Cable(_) => (SpreadStiffness(i), NEWTON_PER_SQUARE_METRE),
     };
     let parameters = [stiffness, StopDamping(i)];
     list.damper(of, [unit, SECOND_PER_METRE], parameters, contact.sizes);
