@@ -12,7 +12,7 @@ pub const LINE: f64 = 16.0;
 /// Height of a letter, and its mean width in the fonts that pages are read with, pixels.
 const LETTER: [f64; 2] = [13.0, 7.6];
 
-/// What keeps texts legible on lines.
+/// Halo that keeps texts legible on lines.
 const HALO: &str =
     "stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
 

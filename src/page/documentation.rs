@@ -11,7 +11,7 @@ use crate::simulation::{Causality, Planned, Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
 
-/// What the page says in the words of a standard. Texts are HTML.
+/// Texts of the page in the words of a standard. Texts are HTML.
 pub struct Interface<'a> {
     /// Name and version of the standard.
     pub standard: &'a str,
@@ -19,7 +19,7 @@ pub struct Interface<'a> {
     pub inputs: &'a str,
     /// The function that takes a tolerance.
     pub tolerance: &'a str,
-    /// What can fail: status, meaning, what to do.
+    /// Rows of what can fail: status, meaning, remedy.
     pub failures: &'a [[&'a str; 3]],
     /// Log categories: name, what is logged.
     pub categories: &'a [[&'a str; 2]],

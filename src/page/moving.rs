@@ -7,7 +7,7 @@ use crate::scene::Scene;
 use crate::simulation::InputTable;
 use crate::view::{Limits, OutputTable, Recording, document, picture, picture_of_table};
 
-/// What a section of a run in motion stands between: it is that of the machine which made the page, the rest of the page is not.
+/// Comments around the section of a run in motion: it is that of the machine which made the page, the rest of the page is not.
 const AROUND: [&str; 2] = ["<!-- motion begins -->\n", "<!-- motion ends -->\n"];
 
 /// The default experiment in motion, as a section of a page; inputs follow a table where one is given. Where it cannot be shown, or not

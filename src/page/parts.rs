@@ -79,7 +79,7 @@ const PORTS: &str = "<p>Connect a port that forces come into with one that motio
     damper belong into the unit that feels them as loads, so that its solver meets their stiffness and \
     not the communication step; without one, give accelerations too, and step short.</p>\n";
 
-/// What comes in and what goes out.
+/// Describes what comes in and what goes out.
 fn crosses(port: &ResolvedPort<'_>, dimension: usize) -> String {
     let given = port.given;
     let (turn, turns) = match (given.turns(), dimension) {
@@ -148,7 +148,7 @@ fn joint_in_words(dimension: usize, joint: &ResolvedJoint<'_>) -> String {
     row(&[&code(joint.name), kind, &ends_in_words(&joint.ends), &holds])
 }
 
-/// What a joint holds.
+/// Describes what a joint holds.
 fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &Hold) -> String {
     let point = at_point(dimension, &joint.ends);
     match hold {
@@ -228,7 +228,7 @@ fn course(motion: &ResolvedMotion<'_>) -> String {
     }
 }
 
-/// What acts, on what, and its size.
+/// Describes a load, its target and its size.
 fn load_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, String) {
     match &load.kind {
         LoadKind::Action {
@@ -295,7 +295,7 @@ fn fluid_in_words(fluid: &ResolvedFluid<'_>) -> String {
     )
 }
 
-/// The same of springs, dampers and stops of joints.
+/// Describes springs, dampers and limits of joints.
 fn spring_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, String) {
     let units = |on: &JointCoordinate<'_>| match on.is_angle() {
         true => ["N m/rad", "N m s/rad", "s/rad", "rad"],
@@ -340,7 +340,7 @@ fn spring_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String
     }
 }
 
-/// The same of a contact.
+/// Describes a contact.
 fn contact_in_words(dimension: usize, contact: &ResolvedContact<'_>) -> (String, String, String) {
     let (by, unit) = match contact.by {
         ContactBody::Marker(marker) => (code(marker.name), "N/m"),

@@ -116,7 +116,7 @@ fn outputs(plan: &Plan) -> String {
     table("Errors estimated", &note, &heads, rows.collect())
 }
 
-/// What a plan does not keep, in red.
+/// Lists what a plan does not keep, in red.
 fn missed(text: &str) -> String {
     format!("<strong style=\"color: #b00020\">{text}</strong>")
 }

@@ -14,7 +14,7 @@ const ARROWS: u32 = 9;
 
 /// Something that acts.
 pub(super) struct MovingAction<'a> {
-    /// Its name, or what it is.
+    /// Name of the action, or its kind.
     pub name: &'a str,
     /// Unit of its components.
     pub unit: &'static str,
@@ -40,15 +40,15 @@ pub(super) enum Where {
     Body(usize),
 }
 
-/// What its components follow from.
+/// Source of the components.
 enum Origin<'a> {
-    /// Its components, and expressions of those that change along a body.
+    /// Components, and expressions of those that change along a body.
     Components(&'a [Signal], &'a [(usize, &'a str)]),
-    /// Of a joint or a motion, one an axis.
+    /// Quantities of a joint or a motion, one an axis.
     Reaction(Vec<Quantity>),
-    /// Of a spring, a stop or a contact, one an axis.
+    /// Quantities of a spring, a joint limit or a contact, one an axis.
     Load(Vec<Quantity>),
-    /// Of a contact along a body.
+    /// Contact along a body.
     Contact(LoadId),
 }
 
@@ -147,7 +147,7 @@ fn exerted<'a>(
         })
 }
 
-/// What a spring, a bushing or a stop does to its second end, a contact to its marker or along its body; nothing of other loads.
+/// Returns the action of a spring, a bushing or a joint limit on its second end, or of a contact on its marker or along its body; none of other loads.
 fn of_spring<'a>(
     id: LoadId,
     load: &'a scene::ResolvedLoad<'a>,
@@ -225,7 +225,10 @@ impl MovingAction<'_> {
         matches!(self.of, Origin::Reaction(_))
     }
 
-    /// Its components now, arrow by arrow.
+    /// Returns the components now, arrow by arrow.
+    ///
+    /// # Errors
+    /// A quantity that cannot be computed in the present state.
     pub fn values(&self, simulation: &mut Simulation) -> Result<Vec<f64>, Error> {
         let (components, along) = match &self.of {
             Origin::Reaction(quantities) | Origin::Load(quantities) => {

@@ -22,7 +22,7 @@ const COLOURS: [[f32; 3]; 6] = [
     [0.06, 0.30, 0.37],
 ];
 
-/// What of the file is written so far.
+/// Part of the file that is written so far.
 #[derive(Default)]
 struct File {
     bytes: Vec<u8>,

@@ -14,7 +14,7 @@ const ALIGNED: usize = 8;
 #[derive(Default)]
 pub(super) struct Numbers {
     bytes: Vec<u8>,
-    /// What the header says of them.
+    /// Entry of the header.
     tracks: Vec<String>,
 }
 
@@ -67,7 +67,7 @@ impl Numbers {
         self.tracks.len() - 1
     }
 
-    /// What the header says of the tracks, and all numbers in base64.
+    /// Entries of the header for the tracks, and all numbers in base64.
     pub fn finish(self) -> (String, String) {
         (self.tracks.join(","), base64(&self.bytes))
     }

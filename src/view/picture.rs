@@ -24,7 +24,7 @@ pub fn picture(recording: &Recording, still: &str) -> String {
     element(header(recording), still)
 }
 
-/// The same of a table of outputs: markers as points, and curves.
+/// Writes a page of a table of outputs: markers as points, and curves.
 pub fn picture_of_table(table: &OutputTable, title: &str) -> String {
     element(table.header(title), "")
 }

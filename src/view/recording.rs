@@ -19,7 +19,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Of a page that is made to look at one run.
+    /// Budget of a page that is made to look at one run.
     pub const PAGE: Self = Self {
         frames: 600,
         values: 1_000_000,
@@ -27,7 +27,7 @@ impl Limits {
         work: f64::INFINITY,
     };
 
-    /// Of the page inside a unit, of 300 kB in the plane and 700 kB in space, of which the program takes 215 kB.
+    /// Budget of the page inside a unit, of 300 kB in the plane and 700 kB in space, of which the program takes 215 kB.
     pub const fn unit(dimension: usize) -> Self {
         Self {
             frames: 300,

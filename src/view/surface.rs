@@ -39,7 +39,7 @@ impl PointWithAxes {
 /// The surface of a body: points, each along the axes of one of the places that move, and polygons between points.
 pub(super) struct BodySurface {
     pub name: String,
-    /// Of every point the place that it belongs to, and its coordinates there, m.
+    /// Place of every point, and its coordinates there, m.
     pub points: Vec<(usize, [f64; 3])>,
     pub faces: Vec<Vec<usize>>,
     /// Element and part of it of every place; none of a rigid body, which has one place.

@@ -24,11 +24,11 @@ class About(Part):
     """
     copyright: StrictStr | None = None
     """
-    Its copyright, such as `(c) 2026 The firm`.
+    Copyright of the model, such as `(c) 2026 The firm`.
     """
     description: StrictStr | None = None
     """
-    What the model is of.
+    Subject of the model.
     """
     license: StrictStr | None = None
     """
@@ -36,7 +36,7 @@ class About(Part):
     """
     version: StrictStr | None = None
     """
-    Its version.
+    Version of the model.
     """
 
 
@@ -44,8 +44,8 @@ Along = TypeAliasType("Along", Literal["global", "body"])
 """
 Axes along which components of an output are.
 
-- `global`: Those of the scene.
-- `body`: Those of the frame of the rigid body; of a joint, of the first body that it joins. Names of such variables end in
+- `global`: Global axes.
+- `body`: Axes of the frame of the rigid body; of a joint, of the first body that it joins. Names of such variables end in
 `_body`, so that both can be read.
 """
 
@@ -60,10 +60,10 @@ The word for a number that is left to the planner.
 
 Axial = TypeAliasType("Axial", Literal["waves", "critically_damped"])
 """
-What becomes of waves of stretching that run along a cable.
+Treatment of axial vibrations of a cable.
 
-- `waves`: They ring as the material says: for ever where it has no damping.
-- `critically_damped`: They settle: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
+- `waves`: Axial vibrations decay as the material says: never where it has no damping.
+- `critically_damped`: Axial vibrations are damped critically: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
 (`damping_time` where that is longer), so that the first axial mode is damped critically. `omega_1` is `pi c / L`,
 or `pi c / (2 L)` where joints or motions hold one end only; `c` the speed of sound. Bending is not touched, nor
 slow stretching; what is lost is counted in `energy.dissipated`. For forces that ring from loads or speeds that
@@ -92,7 +92,7 @@ Ways from a value to another.
 
 ElementsCount = TypeAliasType("ElementsCount", Annotated[StrictInt, Field(ge=0, title="ElementsCount")])
 """
-This many.
+Number of elements.
 """
 
 
@@ -190,7 +190,7 @@ States by name.
 - `static_equilibrium`: The equilibrium under gravity, loads and the start values of the inputs, motions held where they start. It is
 stable where loads have a potential: an unstable one, as that of a straight column above its buckling load, is
 left to where gravity pulls, else up or to the right. Follower forces have none; there it is where all forces balance.
-- `steady`: The same in the motion that all bodies start with, by motions, joints and their own `motion`: a steady turn about
+- `steady`: Equilibrium in the motion that all bodies start with, by motions, joints and their own `motion`: a steady turn about
 one point, in space one axis, with centrifugal forces, or a translation. What turns starts stretched and does not ring.
 """
 
@@ -559,7 +559,7 @@ class MasterInput(Part):
 
     input: Annotated[StrictInt, Field(ge=0, le=2)]
     """
-    What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration. A rate that is never set is 0: a unit whose
+    Rates that the master sets besides the value: 0 none, 1 the rate, 2 rate and acceleration. A rate that is never set is 0: a unit whose
     value moves all the same says so once. Tables of inputs (`flexbody simulate --input`) need no rates: those of the curve are taken.
     """
 
@@ -585,7 +585,7 @@ class Material(Part):
     """
     shear_modulus: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    Of rods and beams: shear modulus, Pa.
+    Shear modulus of rods and beams, Pa.
     """
     youngs_modulus: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
@@ -614,10 +614,10 @@ Model = TypeAliasType("Model", Literal["auto", "flexible", "rigid"])
 """
 Whether a cable bends and stretches.
 
-- `auto`: It does, unless its number of elements is left to the planner, which finds that this changes no output by more than
+- `auto`: Flexible, unless its number of elements is left to the planner, which finds that this changes no output by more than
 the error wanted: then it says `rigid` here.
-- `flexible`: It does.
-- `rigid`: It does not: a rigid rod, uniform along its length. In the plane, straight, and not deforming at the start. Axial
+- `flexible`: Flexible.
+- `rigid`: Rigid: a rod, uniform along its length. In the plane, straight, and not deforming at the start. Axial
 force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
 along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
 """
@@ -1223,7 +1223,7 @@ class NaturalFrequencyOutput(Part):
     """
     body: StrictStr | None = None
     """
-    Of a scene with one body only: name of the body, with which the names of the variables then begin.
+    Name of the body, in a scene with one body only. The names of the variables then begin with it.
     """
 
 
@@ -1244,7 +1244,7 @@ class EigenvalueOutput(Part):
     """
     body: StrictStr | None = None
     """
-    Of a scene with one body only: name of the body, with which the names of the variables then begin.
+    Name of the body, in a scene with one body only. The names of the variables then begin with it.
     """
 
 
@@ -1455,51 +1455,51 @@ class Section(Part):
     """
     axial_coupling: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
     """
-    Of rods: stiffness that couples stretching with twist, with bending about the first axis and with bending about the second, N m; none
+    Stiffness of rods that couples stretching with twist, with bending about the first axis and with bending about the second, N m; none
     where nothing is said. The axial force is the first times the twist, and so on: ropes of wires untwist when they are pulled. An
     elastic centre at `[y, z]` is `[0, E A z, -E A y]`, with second moments about the line and `coupling` `-E A y z` of both bendings.
     """
     coupling: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
     """
-    Of rods of layered or otherwise anisotropic material: stiffness that couples twist with bending about the first axis, twist
+    Stiffness of rods of layered or otherwise anisotropic material that couples twist with bending about the first axis, twist
     with bending about the second, and both bendings, N m^2; none where nothing is said. Torque is the first times the curvature
     about the first axis, and so on.
     """
     inertia: Annotated[list[InertiaItem] | None, Field(max_length=6, min_length=6)] = None
     """
-    Of beams with `stiffness`: mass and inertia per length in the same order: kg/m, kg, kg m. The centre of mass is on the line, and
+    Mass and inertia per length of beams with `stiffness`, in the same order: kg/m, kg, kg m. The centre of mass is on the line, and
     the section lies across it.
     """
     second_moment: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Of cables, and of beams in the plane: second moment of area, m^4; 0 is a cable without bending stiffness.
+    Second moment of area of cables and of planar beams, m^4; 0 is a cable without bending stiffness.
     """
     second_moments: Annotated[list[StrictFloat] | None, Field(max_length=2, min_length=2)] = None
     """
-    Of rods: second moments of area for bending about the first and about the second axis of the section, m^4.
+    Second moments of area of rods and beams in space for bending about the first and about the second axis of the section, m^4.
     """
     shape: Profile | None = None
     """
-    Its shape, from which all numbers follow; or the numbers.
+    Shape of the section, from which all numbers follow. Without it the numbers are given.
     """
     shear_factor: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    Of beams in the plane: the same ratio for shear in the plane.
+    Ratio of the area that carries shear to the area, for beams in the plane.
     """
     shear_factors: Annotated[list[StrictFloat] | None, Field(max_length=2, min_length=2)] = None
     """
-    Of beams in space: ratios of the areas that carry shear along the first and along the second axis to the area. Of a shape, where
+    Ratios, for beams in space, of the areas that carry shear along the first and along the second axis to the area. Of a shape, where
     nothing is said, those of Cowper, which take the material's ratio of Poisson.
     """
     stiffness: Annotated[list[StiffnessItem] | None, Field(max_length=6, min_length=6)] = None
     """
-    Of beams: the whole stiffness of the section, instead of a shape or numbers and of the moduli of the material. Symmetric, in the
+    Whole stiffness matrix of the section of beams, instead of a shape or numbers and of the moduli of the material. Symmetric, in the
     order axial force, shear along the first axis, along the second, torque, moment about the first axis, about the second; N, N m, N m^2.
     In the plane, which the first axis is across, axial force, shear along the second and moment about the first count.
     """
     torsion_constant: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    Of rods: torsion constant of the section (of Saint-Venant), m^4; of a circle its polar second moment.
+    Torsion constant (of Saint-Venant) of rods and beams in space, m^4; of a circle its polar second moment.
     """
 
 
@@ -1633,7 +1633,7 @@ class Station(Part):
     """
     twist: StrictFloat = 0.0
     """
-    Of rods: angle about the tangent by which the section's axes are turned there, without stress, from where they would be
+    Angle of rods and beams about the tangent by which the section's axes are turned there, without stress, from where they would be
     untwisted, rad.
     """
 
@@ -1665,7 +1665,7 @@ class Table(Part):
     """
     interpolation: Interpolation | None = None
     """
-    What happens between the points; of a motion `spline`, of all else `linear` where nothing is said.
+    Curve between the points; by default `spline` for a motion and `linear` for all else.
     """
     slopes: Annotated[list[StrictFloat] | None, Field(max_length=2, min_length=2)] = None
     """
@@ -1725,7 +1725,7 @@ class InitialMotion(Part):
 
 class InputCourse(Part):
     """
-    What an input does in the experiment that is planned for: `value`, or a way `from` one value `to` another.
+    Profile of an input in the experiment that is planned for: `value`, or a ramp `from` one value `to` another.
     """
 
     input: StrictStr
@@ -1751,7 +1751,7 @@ class InputCourse(Part):
     """
     value: Value | None = None
     """
-    Its course in time, beside which no other key stands: a number, an expression in `t`, or a table, straight from point to point unless it
+    Profile in time, beside which no other key stands: a number, an expression in `t`, or a table, straight from point to point unless it
     says `spline`. A driven motion has the rates of this course, where they are inputs without one.
     """
 
@@ -2347,7 +2347,7 @@ class CircleSurface(Part):
     )
     center: Vector
     """
-    Its centre, m.
+    Centre, m.
     """
     radius: StrictFloat
     """
@@ -2365,7 +2365,7 @@ class SphereSurface(Part):
     )
     center: Vector
     """
-    Its centre, m.
+    Centre, m.
     """
     radius: StrictFloat
     """
@@ -2409,7 +2409,7 @@ Surface of the ground that is touched from outside; it stands still.
 
 class Accuracy(Part):
     """
-    What accuracy is asked for: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
+    Accuracy that is requested: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
     """
 
     error: StrictFloat | None = None
@@ -2421,11 +2421,11 @@ class Accuracy(Part):
     """
     input_profiles: Annotated[list[InputCourse], Field(validate_default=True)] = []
     """
-    What inputs do in the experiment that is planned for; those that are not named keep their start values.
+    Profiles of inputs in the experiment that is planned for; inputs that are not named keep their start values.
     """
     notes: list[StrictStr] = []
     """
-    What the planner could not keep and which inputs it held, in words: written by it, told by units when they are instantiated.
+    Notes of the planner on errors that it could not keep and on inputs that it held: written by it, told by units when they are instantiated.
     """
     of: list[StrictStr] = []
     """
@@ -2461,11 +2461,11 @@ class Cable(Part):
     """
     axial: Axial = "waves"
     """
-    What becomes of waves of stretching.
+    Treatment of axial vibrations.
     """
     axis: Vector | None = None
     """
-    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    First axis of the section at the first end of rods and beams in space, of any length; its part along the tangent does not count. From
     there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
     rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
     then along `y`, or along `z` where that is the line.
@@ -2502,7 +2502,7 @@ class Cable(Part):
 
 class Rod(Part):
     """
-    The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
+    Flexible line of which the sections rotate about the tangent: bends about two axes with their own stiffness, and twists; does not
     shear. In space.
     """
 
@@ -2521,11 +2521,11 @@ class Rod(Part):
     """
     axial: Axial = "waves"
     """
-    What becomes of waves of stretching.
+    Treatment of axial vibrations.
     """
     axis: Vector | None = None
     """
-    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    First axis of the section at the first end of rods and beams in space, of any length; its part along the tangent does not count. From
     there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
     rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
     then along `y`, or along `z` where that is the line.
@@ -2562,7 +2562,7 @@ class Rod(Part):
 
 class Beam(Part):
     """
-    The same with sections that lean against the line: shears too, with the rotary inertia of its sections.
+    Flexible line of which the sections rotate freely: shears too, with the rotary inertia of its sections.
     """
 
     element: Literal["beam"] = "beam"
@@ -2580,11 +2580,11 @@ class Beam(Part):
     """
     axial: Axial = "waves"
     """
-    What becomes of waves of stretching.
+    Treatment of axial vibrations.
     """
     axis: Vector | None = None
     """
-    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    First axis of the section at the first end of rods and beams in space, of any length; its part along the tangent does not count. From
     there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
     rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
     then along `y`, or along `z` where that is the line.
@@ -2641,11 +2641,11 @@ class AutoBody(Part):
     """
     axial: Axial = "waves"
     """
-    What becomes of waves of stretching.
+    Treatment of axial vibrations.
     """
     axis: Vector | None = None
     """
-    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    First axis of the section at the first end of rods and beams in space, of any length; its part along the tangent does not count. From
     there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
     rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
     then along `y`, or along `z` where that is the line.
@@ -3097,7 +3097,7 @@ class Scene(Part):
     """
     accuracy: Annotated[Accuracy, Field(validate_default=True)] = {"relative_tolerance": None}
     """
-    What accuracy is asked for.
+    Accuracy that is requested.
     """
     experiment: Annotated[Experiment, Field(validate_default=True)] = {
         "step": 0.01,

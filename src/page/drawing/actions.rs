@@ -15,7 +15,7 @@ const ARROWS: u32 = 7;
 /// A load or an input that is drawn as an arrow.
 pub(super) struct DrawnAction<'a> {
     pub action: &'a scene::Action<'a>,
-    /// What is written beside it.
+    /// Text beside the arrow.
     pub label: &'a str,
     /// Components of a force at the start.
     components: Vec<f64>,
@@ -51,7 +51,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<DrawnAction<'a>> {
 }
 
 /// Components of a force at the start, from those of an input; moments have none.
-/// What changes along a body is taken in the middle.
+/// Values that change along a body are taken in the middle.
 fn at_start(action: &scene::Action<'_>, inputs: &[f64]) -> Vec<f64> {
     if !action.kind.is_force() {
         return Vec::new();

@@ -21,7 +21,7 @@ pub(super) struct MarkerInImage<'a> {
     pub(super) on: On<'a>,
     /// Where it is, pixels.
     pub(super) point: Point,
-    /// Its direction, y downwards.
+    /// Direction of the marker, y downwards.
     pub(super) direction: Point,
 }
 

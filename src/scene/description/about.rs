@@ -8,16 +8,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct About {
-    /// What the model is of.
+    /// Subject of the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
     /// Name and organization of who made it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub author: Option<String>,
-    /// Its version.
+    /// Version of the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
-    /// Its copyright, such as `(c) 2026 The firm`.
+    /// Copyright of the model, such as `(c) 2026 The firm`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub copyright: Option<String>,
     /// The terms under which it may be used.
@@ -26,7 +26,7 @@ pub struct About {
 }
 
 impl About {
-    /// What is said: names of the keys, texts.
+    /// Returns the keys that are given, with their texts.
     pub fn texts(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let all = [
             ("description", &self.description),

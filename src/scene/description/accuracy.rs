@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize, Serializer};
 
-/// What accuracy is asked for: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
+/// Accuracy that is requested: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
@@ -19,7 +19,7 @@ pub struct Accuracy {
     /// Names of the outputs that count, without indices; by default all but energies, work and residuals.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub of: Vec<String>,
-    /// What inputs do in the experiment that is planned for; those that are not named keep their start values.
+    /// Profiles of inputs in the experiment that is planned for; inputs that are not named keep their start values.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub input_profiles: Vec<InputCourse>,
     /// Error in time that a step may make, relative to the length of the body (root mean square
@@ -28,18 +28,18 @@ pub struct Accuracy {
     /// given.
     #[serde(default)]
     pub relative_tolerance: Option<f64>,
-    /// What the planner could not keep and which inputs it held, in words: written by it, told by units when they are instantiated.
+    /// Notes of the planner on errors that it could not keep and on inputs that it held: written by it, told by units when they are instantiated.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
-/// What an input does in the experiment that is planned for: `value`, or a way `from` one value `to` another.
+/// Profile of an input in the experiment that is planned for: `value`, or a ramp `from` one value `to` another.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InputCourse {
     /// Name of the input, with its index where it is a component.
     pub input: String,
-    /// Its course in time, beside which no other key stands: a number, an expression in `t`, or a table, straight from point to point unless it
+    /// Profile in time, beside which no other key stands: a number, an expression in `t`, or a table, straight from point to point unless it
     /// says `spline`. A driven motion has the rates of this course, where they are inputs without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
@@ -85,7 +85,7 @@ pub(super) mod elements {
     pub enum InJson {
         /// As many as the accuracy asks for: found while packaging.
         Auto(Word),
-        /// This many.
+        /// Number of elements.
         Count(u32),
     }
 
@@ -98,11 +98,19 @@ pub(super) mod elements {
         Auto,
     }
 
+    /// Writes a number of elements, or the word for one that is left to the planner.
+    ///
+    /// # Errors
+    /// The serializer fails.
     pub fn serialize<S: Serializer>(count: &Option<u32>, serializer: S) -> Result<S::Ok, S::Error> {
         let value = count.map_or(InJson::Auto(Word::Auto), InJson::Count);
         value.serialize(serializer)
     }
 
+    /// Reads a number of elements, or the word for one that is left to the planner.
+    ///
+    /// # Errors
+    /// Neither a positive integer nor that word.
     pub fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Option<u32>, D::Error> {

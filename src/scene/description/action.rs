@@ -26,7 +26,7 @@ pub enum ActionKind {
     DistributedMoment,
 }
 
-/// What forces and moments act on.
+/// Part that a force or moment acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActsOn {
     /// A marker.
@@ -40,7 +40,7 @@ pub enum ActsOn {
 }
 
 impl ActionKind {
-    /// What it acts on, whether it is a force, what it is called, and its unit.
+    /// Returns the part that it acts on, whether it is a force, its name and its unit.
     fn declaration(self) -> (ActsOn, bool, [&'static str; 2]) {
         match self {
             Self::Force => (ActsOn::Marker, true, ["force", "N"]),
@@ -51,7 +51,7 @@ impl ActionKind {
         }
     }
 
-    /// What it acts on.
+    /// Returns the part that it acts on.
     pub fn acts_on(self) -> ActsOn {
         self.declaration().0
     }
@@ -66,7 +66,7 @@ impl ActionKind {
         self.declaration().1
     }
 
-    /// What it is called, and its unit.
+    /// Returns its name and its unit.
     pub fn words(self) -> [&'static str; 2] {
         self.declaration().2
     }

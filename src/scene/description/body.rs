@@ -18,11 +18,11 @@ pub enum Body {
     /// shear. Where `model` says so, a rigid rod.
     #[schemars(title = "Cable")]
     Cable(LineBody),
-    /// The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
+    /// Flexible line of which the sections rotate about the tangent: bends about two axes with their own stiffness, and twists; does not
     /// shear. In space.
     #[schemars(title = "Rod")]
     Rod(LineBody),
-    /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections.
+    /// Flexible line of which the sections rotate freely: shears too, with the rotary inertia of its sections.
     #[schemars(title = "Beam")]
     Beam(LineBody),
     /// A cable, a rod or a beam, as needed: a cable where nothing asks for its sections; else in space a rod; a beam
@@ -59,10 +59,10 @@ pub struct LineBody {
     /// Strain measure.
     #[serde(default)]
     pub strain: Strain,
-    /// What becomes of waves of stretching.
+    /// Treatment of axial vibrations.
     #[serde(default)]
     pub axial: Axial,
-    /// Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    /// First axis of the section at the first end of rods and beams in space, of any length; its part along the tangent does not count. From
     /// there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
     /// rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
     /// then along `y`, or along `z` where that is the line.
@@ -76,7 +76,7 @@ pub struct LineBody {
     /// Named material coordinates: 0 is the first end, 1 the last.
     #[serde(default)]
     pub markers: BTreeMap<String, f64>,
-    /// What its sections do, as its element says, or was chosen.
+    /// Kinematics of its sections, as its element says or as chosen.
     #[serde(skip)]
     pub sections: LineModel,
     /// Against gravity as the scene was written, of any length; zero without gravity. A parameter that changes gravity later does not turn sections.
@@ -111,13 +111,13 @@ impl LineModel {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Model {
-    /// It does, unless its number of elements is left to the planner, which finds that this changes no output by more than
+    /// Flexible, unless its number of elements is left to the planner, which finds that this changes no output by more than
     /// the error wanted: then it says `rigid` here.
     #[default]
     Auto,
-    /// It does.
+    /// Flexible.
     Flexible,
-    /// It does not: a rigid rod, uniform along its length. In the plane, straight, and not deforming at the start. Axial
+    /// Rigid: a rod, uniform along its length. In the plane, straight, and not deforming at the start. Axial
     /// force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
     /// along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
     Rigid,
@@ -168,7 +168,7 @@ pub struct Material {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub youngs_modulus: Option<f64>,
-    /// Of rods and beams: shear modulus, Pa.
+    /// Shear modulus of rods and beams, Pa.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_modulus: Option<f64>,
@@ -203,14 +203,14 @@ pub enum Strain {
     EngStrainFrenetKappa,
 }
 
-/// What becomes of waves of stretching that run along a cable.
+/// Treatment of axial vibrations of a cable.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Axial {
-    /// They ring as the material says: for ever where it has no damping.
+    /// Axial vibrations decay as the material says: never where it has no damping.
     #[default]
     Waves,
-    /// They settle: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
+    /// Axial vibrations are damped critically: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
     /// (`damping_time` where that is longer), so that the first axial mode is damped critically. `omega_1` is `pi c / L`,
     /// or `pi c / (2 L)` where joints or motions hold one end only; `c` the speed of sound. Bending is not touched, nor
     /// slow stretching; what is lost is counted in `energy.dissipated`. For forces that ring from loads or speeds that
@@ -323,7 +323,7 @@ impl LineBody {
         numbers.any(|numbers| numbers.axial_coupling != [0.0; 3])
     }
 
-    /// Its cross sections: those at stations where there are any, else the one that it has all along.
+    /// Iterates over the cross sections: those at stations, or the one that is uniform.
     pub fn all_sections(&self) -> impl Iterator<Item = &Section> {
         let at_stations = self.stations.iter().map(|station| &station.section);
         at_stations.chain(self.stations.is_empty().then_some(&self.section))
@@ -365,7 +365,7 @@ impl LineBody {
         self.bending_stiffness_of(&self.section_at(0.5))
     }
 
-    /// The same of these numbers.
+    /// Returns the bending stiffness for these numbers of a section, N m^2.
     pub fn bending_stiffness_of(&self, numbers: &SectionNumbers) -> f64 {
         if let Some(given) = &numbers.given {
             return given.stiffness[(4, 4)].max(given.stiffness[(5, 5)]);
@@ -407,7 +407,7 @@ impl LineBody {
         }
     }
 
-    /// Of a rod: torque and moments about both axes by twist and curvatures, N m^2.
+    /// Returns the stiffness of a rod: torque and moments about both axes by twist and curvatures, N m^2.
     pub fn stiffness(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
         let torsion = self.material.shear_modulus.unwrap_or_default() * numbers.torsion_constant;
         let [first, second] = numbers
@@ -417,7 +417,7 @@ impl LineBody {
         Matrix3::from([[torsion, p, q], [p, first, r], [q, r, second]])
     }
 
-    /// The same with the axial force by stretch, first.
+    /// Returns the stiffness of a rod with the axial force by stretch first, then torque and moments by twist and curvatures.
     pub fn coupled_stiffness(&self, numbers: &SectionNumbers) -> Matrix4<f64> {
         let mut stiffness = Matrix4::zeros();
         stiffness[(0, 0)] = self.axial_stiffness_of(numbers);
@@ -429,7 +429,7 @@ impl LineBody {
         stiffness
     }
 
-    /// Of a beam: axial and shear forces, torque and moments by stretch, shear, twist and curvatures, N, N m, N m^2.
+    /// Returns the stiffness of a beam: axial and shear forces, torque and moments by stretch, shear, twist and curvatures, N, N m, N m^2.
     pub fn whole_stiffness(&self, numbers: &SectionNumbers) -> Matrix6<f64> {
         if let Some(given) = &numbers.given {
             return given.stiffness;
@@ -448,7 +448,7 @@ impl LineBody {
         stiffness
     }
 
-    /// The same in the plane, which the first axis of sections is across: axial force, shear force and moment.
+    /// Returns the stiffness of a beam in the plane: axial force, shear force and moment. The first axis of sections is across the plane.
     pub fn planar_stiffness(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
         let whole = self.whole_stiffness(numbers);
         Matrix3::from_fn(|r, c| whole[(2 * r, 2 * c)])

@@ -135,7 +135,7 @@ impl LineBody {
         }
     }
 
-    /// Its cross section, and those at stations.
+    /// Iterates over the cross section and those at stations.
     pub fn sections_mut(&mut self) -> impl Iterator<Item = &mut Section> {
         let at_stations = self.stations.iter_mut();
         let at_stations = at_stations.map(|station| &mut station.section);

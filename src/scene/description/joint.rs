@@ -11,7 +11,7 @@ use super::tagged::{kinds, part};
 pub struct Joint {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
-    /// What the joint holds.
+    /// Kind of the joint.
     #[serde(flatten)]
     pub kind: JointKind,
     /// Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
@@ -270,7 +270,7 @@ impl Freedom {
     }
 }
 
-/// What a joint holds of its second marker, as the first one sees it.
+/// Condition that a joint imposes on its second marker, as seen from the first one.
 #[derive(Clone, Copy, Debug)]
 pub enum Condition<'a> {
     /// The position, at that of the first marker.

@@ -12,7 +12,7 @@ use super::{CoordinateKind, LoadValue, SceneVector, Surface, Value};
 pub struct Load {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
-    /// What acts.
+    /// Kind of the load.
     #[serde(flatten)]
     pub kind: LoadKind,
 }

@@ -109,7 +109,7 @@ pub struct Scene {
     /// Where the simulation starts from.
     #[serde(default)]
     pub initial: Initial,
-    /// What accuracy is asked for.
+    /// Accuracy that is requested.
     #[serde(default)]
     pub accuracy: Accuracy,
     /// Integrator, where the automatic choice is not wanted.

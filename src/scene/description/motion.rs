@@ -11,7 +11,7 @@ use super::tagged::{kinds, part};
 pub struct Motion {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
-    /// What is driven.
+    /// Kind of the motion.
     #[serde(flatten)]
     pub kind: MotionKind,
 }

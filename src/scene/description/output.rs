@@ -270,7 +270,7 @@ pub struct OfScene {}
 /// Natural frequencies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FrequencyOutput {
-    /// Of a scene with one body only: name of the body, with which the names of the variables then begin.
+    /// Name of the body, in a scene with one body only. The names of the variables then begin with it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// Number of natural frequencies, from 1 to 100, lowest first; at most as many as the scene has.
@@ -280,7 +280,7 @@ pub struct FrequencyOutput {
 /// Eigenvalues.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EigenvalueOutput {
-    /// Of a scene with one body only: name of the body, with which the names of the variables then begin.
+    /// Name of the body, in a scene with one body only. The names of the variables then begin with it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// Number of eigenvalues, from 1 to 100, slowest first; at most as many as the scene has.
@@ -291,10 +291,10 @@ pub struct EigenvalueOutput {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Along {
-    /// Those of the scene.
+    /// Global axes.
     #[default]
     Global,
-    /// Those of the frame of the rigid body; of a joint, of the first body that it joins. Names of such variables end in
+    /// Axes of the frame of the rigid body; of a joint, of the first body that it joins. Names of such variables end in
     /// `_body`, so that both can be read.
     Body,
 }

@@ -13,7 +13,7 @@ pub struct Port {
     pub name: String,
     /// Where it is, `body.marker`.
     pub marker: String,
-    /// What comes in and what goes out.
+    /// Kind of the port: quantities that come in and that go out.
     #[serde(flatten)]
     pub kind: PortKind,
 }

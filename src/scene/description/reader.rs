@@ -14,12 +14,12 @@ use serde_json::Value;
 use super::strict::INNER;
 use crate::scene::alike::did_you_mean;
 
-/// What is wrong, and where inside the value.
+/// Mistake in a value, and its place inside the value.
 #[derive(Clone, Debug)]
 pub struct Wrong {
     /// Path inside the value; empty for the value itself.
     pub path: String,
-    /// What was expected and what was found.
+    /// Text of what was expected and what was found.
     pub message: String,
 }
 
@@ -33,12 +33,12 @@ impl Wrong {
         Self { path, message }
     }
 
-    /// What is told of a value that is no object.
+    /// Mistake of a value that is no object.
     pub(super) fn no_object(value: &Value) -> Self {
         Self::here("an object { ... }", found(value))
     }
 
-    /// What is told of a key that an object lacks.
+    /// Mistake of a key that an object lacks.
     pub(super) fn missing(key: &'static str) -> Self {
         let wanted = match key {
             "marker" | "joint" | "body" | "load" | "gear" | "motion" => "a name",
@@ -56,14 +56,14 @@ impl Wrong {
         Self::here(wanted, "nothing").under(key)
     }
 
-    /// What is told of a key that an object does not have.
+    /// Mistake of a key that an object does not have.
     pub(super) fn no_key(key: &str, known: &[&str]) -> Self {
         let wanted = format!("one of the keys {}", known.join(", "));
         let meant = did_you_mean(key, known.iter().copied());
         Self::here(wanted, format!("\"{key}\"{meant}"))
     }
 
-    /// What is told of a value that is none of these names.
+    /// Mistake of a value that is none of these names.
     pub(super) fn no_variant(value: &Value, names: &[&str]) -> Self {
         let known: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
         let meant = value
@@ -73,7 +73,7 @@ impl Wrong {
         Self::here(known.join(" or "), found)
     }
 
-    /// The same, seen from the object that the value stands in.
+    /// Mistake with its place as seen from the object that the value stands in.
     pub(super) fn under(mut self, key: &str) -> Self {
         let joint = if self.path.is_empty() || self.path.starts_with('[') {
             ""
@@ -133,14 +133,14 @@ impl serde::de::Error for Wrong {
     }
 }
 
-/// What is expected where numbers stand.
+/// Expectations where numbers stand.
 const NUMBERS: [&str; 2] = ["a number", "zero or a positive integer"];
 
 fn is_number(text: &str) -> bool {
     text.trim().parse::<f64>().is_ok()
 }
 
-/// What a type says that it expects, in words of JSON.
+/// Expectation of a type, in words of JSON.
 fn expectation(wanted: &str) -> String {
     match wanted {
         "f64" => "a number".into(),
@@ -155,7 +155,7 @@ fn expectation(wanted: &str) -> String {
     }
 }
 
-/// What was found, in words of JSON.
+/// Value that was found, in words of JSON.
 struct FoundValue<'a>(Unexpected<'a>);
 
 impl Display for FoundValue<'_> {

@@ -152,7 +152,7 @@ impl Orientation {
         }
     }
 
-    /// Its numbers.
+    /// Numbers of the value.
     pub fn numbers(&self) -> &[f64] {
         match self {
             Self::RotationVector(numbers) | Self::Cardan(numbers) | Self::Euler(numbers) => numbers,

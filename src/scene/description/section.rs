@@ -10,48 +10,48 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Section {
-    /// Its shape, from which all numbers follow; or the numbers.
+    /// Shape of the section, from which all numbers follow. Without it the numbers are given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Profile>,
     /// Area, m^2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub area: Option<f64>,
-    /// Of cables, and of beams in the plane: second moment of area, m^4; 0 is a cable without bending stiffness.
+    /// Second moment of area of cables and of planar beams, m^4; 0 is a cable without bending stiffness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub second_moment: Option<f64>,
-    /// Of rods: second moments of area for bending about the first and about the second axis of the section, m^4.
+    /// Second moments of area of rods and beams in space for bending about the first and about the second axis of the section, m^4.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_moments: Option<[f64; 2]>,
-    /// Of rods: torsion constant of the section (of Saint-Venant), m^4; of a circle its polar second moment.
+    /// Torsion constant (of Saint-Venant) of rods and beams in space, m^4; of a circle its polar second moment.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub torsion_constant: Option<f64>,
-    /// Of rods of layered or otherwise anisotropic material: stiffness that couples twist with bending about the first axis, twist
+    /// Stiffness of rods of layered or otherwise anisotropic material that couples twist with bending about the first axis, twist
     /// with bending about the second, and both bendings, N m^2; none where nothing is said. Torque is the first times the curvature
     /// about the first axis, and so on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coupling: Option<[f64; 3]>,
-    /// Of rods: stiffness that couples stretching with twist, with bending about the first axis and with bending about the second, N m; none
+    /// Stiffness of rods that couples stretching with twist, with bending about the first axis and with bending about the second, N m; none
     /// where nothing is said. The axial force is the first times the twist, and so on: ropes of wires untwist when they are pulled. An
     /// elastic centre at `[y, z]` is `[0, E A z, -E A y]`, with second moments about the line and `coupling` `-E A y z` of both bendings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axial_coupling: Option<[f64; 3]>,
-    /// Of beams in space: ratios of the areas that carry shear along the first and along the second axis to the area. Of a shape, where
+    /// Ratios, for beams in space, of the areas that carry shear along the first and along the second axis to the area. Of a shape, where
     /// nothing is said, those of Cowper, which take the material's ratio of Poisson.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear_factors: Option<[f64; 2]>,
-    /// Of beams in the plane: the same ratio for shear in the plane.
+    /// Ratio of the area that carries shear to the area, for beams in the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_factor: Option<f64>,
-    /// Of beams: the whole stiffness of the section, instead of a shape or numbers and of the moduli of the material. Symmetric, in the
+    /// Whole stiffness matrix of the section of beams, instead of a shape or numbers and of the moduli of the material. Symmetric, in the
     /// order axial force, shear along the first axis, along the second, torque, moment about the first axis, about the second; N, N m, N m^2.
     /// In the plane, which the first axis is across, axial force, shear along the second and moment about the first count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<[[f64; 6]; 6]>,
-    /// Of beams with `stiffness`: mass and inertia per length in the same order: kg/m, kg, kg m. The centre of mass is on the line, and
+    /// Mass and inertia per length of beams with `stiffness`, in the same order: kg/m, kg, kg m. The centre of mass is on the line, and
     /// the section lies across it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<[[f64; 6]; 6]>,
@@ -107,7 +107,7 @@ pub struct Station {
     pub at: f64,
     /// Cross section there.
     pub section: Section,
-    /// Of rods: angle about the tangent by which the section's axes are turned there, without stress, from where they would be
+    /// Angle of rods and beams about the tangent by which the section's axes are turned there, without stress, from where they would be
     /// untwisted, rad.
     #[serde(default)]
     pub twist: f64,
@@ -144,7 +144,7 @@ pub struct Given {
 }
 
 impl Profile {
-    /// Its lengths by their keys, m.
+    /// Lengths of the shape by their keys, m.
     pub fn lengths(&mut self) -> Vec<(&'static str, &mut f64)> {
         match self {
             Self::Rectangle { width, height } | Self::Ellipse { width, height } => {
@@ -158,7 +158,7 @@ impl Profile {
         }
     }
 
-    /// Its key in a scene.
+    /// Key of the shape in a scene.
     pub fn key(&self) -> &'static str {
         match self {
             Self::Rectangle { .. } => "rectangle",
@@ -262,7 +262,7 @@ impl Section {
         *self == Self::default()
     }
 
-    /// Its numbers: as said, or of its shape.
+    /// Returns the numbers of the section, as given or of its shape.
     pub fn numbers(&self) -> SectionNumbers {
         if let Some(shape) = &self.shape {
             return SectionNumbers {

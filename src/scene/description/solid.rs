@@ -58,7 +58,7 @@ fn third() -> [f64; 3] {
 const POINTS: u32 = 48;
 
 impl Solid {
-    /// Its key in a scene.
+    /// Key of the shape in a scene.
     pub fn key(&self) -> &'static str {
         match self {
             Self::Box { .. } => "box",
@@ -68,7 +68,7 @@ impl Solid {
         }
     }
 
-    /// Its lengths by their keys, those of a list with their place in it, m.
+    /// Lengths of the shape by their keys, m; entries of a list have their place in it.
     pub fn lengths(&mut self) -> Vec<(&'static str, Option<usize>, &mut f64)> {
         match self {
             Self::Box { size } => (size.iter_mut().enumerate())

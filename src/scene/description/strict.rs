@@ -20,7 +20,10 @@ pub fn at(path: &str, message: &str) -> String {
     format!("{path}{INNER}{message}")
 }
 
-/// Reads a type from a value; the error carries its path inside the value.
+/// Reads a type from a value.
+///
+/// # Errors
+/// The value does not fit the type; the error carries its path inside the value.
 pub fn typed<T: DeserializeOwned, E: Error>(value: Value) -> Result<T, E> {
     T::deserialize(Reader(value)).map_err(|wrong| E::custom(at(&wrong.path, &wrong.message)))
 }

@@ -21,7 +21,7 @@ pub enum Surface {
     /// Circle, in the plane.
     #[schemars(title = "CircleSurface")]
     Circle {
-        /// Its centre, m.
+        /// Centre, m.
         center: SceneVector,
         /// Radius, m.
         radius: f64,
@@ -29,7 +29,7 @@ pub enum Surface {
     /// Sphere, in space.
     #[schemars(title = "SphereSurface")]
     Sphere {
-        /// Its centre, m.
+        /// Centre, m.
         center: SceneVector,
         /// Radius, m.
         radius: f64,
@@ -52,7 +52,7 @@ const SIDES: u32 = 48;
 const PARTS: u32 = 8;
 
 impl Surface {
-    /// What it is called.
+    /// Returns the name of the surface.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Plane { .. } => "plane",

@@ -131,6 +131,9 @@ macro_rules! part {
 pub(super) use part;
 
 /// Reads the shared keys of a part and the keys of its kind.
+///
+/// # Errors
+/// No object, an unknown kind, or a key that is missing, unknown or not valid.
 pub(super) fn read<'de, D, S, K>(deserializer: D) -> Result<(S, K), D::Error>
 where
     D: Deserializer<'de>,
@@ -171,7 +174,7 @@ fn parted<S: DeserializeOwned, K: Kinds>(value: Value) -> Result<(S, K), Wrong> 
     Ok((typed(of_all.into())?, (kind.read)(own.into())?))
 }
 
-/// What is told of a key that other kinds take and this one does not.
+/// Mistake of a key that other kinds take and this one does not.
 fn of_another_kind<K: Kinds>(kind: &OneKind<K>, key: &str, all: &[OneKind<K>]) -> Wrong {
     let is_of_all = |key: &&str| all.iter().all(|kind| kind.keys.contains(key));
     let own: Vec<&str> = (kind.keys.iter().copied())

@@ -31,7 +31,7 @@ pub enum Value {
 pub struct Table {
     /// Times (s, increasing) and values.
     pub table: Vec<[f64; 2]>,
-    /// What happens between the points; of a motion `spline`, of all else `linear` where nothing is said.
+    /// Curve between the points; by default `spline` for a motion and `linear` for all else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Rates of a spline at its first and last point, with which it goes on outside, 1/s; 0 where nothing is
@@ -77,7 +77,7 @@ pub enum MotionValue {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MasterInput {
-    /// What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration. A rate that is never set is 0: a unit whose
+    /// Rates that the master sets besides the value: 0 none, 1 the rate, 2 rate and acceleration. A rate that is never set is 0: a unit whose
     /// value moves all the same says so once. Tables of inputs (`flexbody simulate --input`) need no rates: those of the curve are taken.
     #[schemars(range(max = 2))]
     pub input: u8,
@@ -87,7 +87,7 @@ impl Value {
     /// The function of time of a load: tables are piecewise linear unless they say otherwise.
     ///
     /// # Errors
-    /// What is wrong with an expression or a table; never for a valid scene.
+    /// The expression or the table is not valid; never in a valid scene.
     pub fn function(&self) -> Result<Function, String> {
         self.interpolated(Interpolation::Linear)
     }
@@ -95,7 +95,7 @@ impl Value {
     /// The function of time of a motion: tables are splines unless they say otherwise.
     ///
     /// # Errors
-    /// What is wrong with an expression or a table; never for a valid scene.
+    /// The expression or the table is not valid; never in a valid scene.
     pub fn motion_function(&self) -> Result<Function, String> {
         self.interpolated(Interpolation::Spline)
     }
@@ -126,7 +126,7 @@ impl Value {
 }
 
 impl LoadValue {
-    /// Its components.
+    /// Returns the components.
     pub fn components(&self) -> &[Value] {
         match self {
             Self::One(value) => std::slice::from_ref(value),
@@ -136,7 +136,7 @@ impl LoadValue {
 }
 
 impl MotionValue {
-    /// Its components; none if the master sets it.
+    /// Returns the components; none if the master sets them.
     pub fn components(&self) -> &[Value] {
         match self {
             Self::One(value) => std::slice::from_ref(value),
@@ -146,15 +146,15 @@ impl MotionValue {
     }
 }
 
-/// What a JSON value may turn out to be.
+/// Forms that a JSON value may have.
 struct Anything {
-    /// What is told to be expected.
+    /// Words for the forms that are expected.
     wanted: &'static str,
     list: bool,
     input: bool,
 }
 
-/// What a JSON value turned out to be.
+/// Form of a JSON value.
 enum JsonForm {
     One(Value),
     Vector(Vec<Value>),

@@ -12,7 +12,7 @@ use super::strict::{Strict, typed};
 /// Components of a vector or a point: `[x, y]` in the plane, `[x, y, z]` in space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SceneVector {
-    /// Those that are not given are zero.
+    /// Components; those that are not given are zero.
     components: [f64; 3],
     /// How many are given.
     count: usize,
@@ -37,7 +37,7 @@ impl SceneVector {
         self.count == 0
     }
 
-    /// Those that are given.
+    /// Returns the components that are given.
     pub fn given(&self) -> &[f64] {
         &self.components[..self.count]
     }
