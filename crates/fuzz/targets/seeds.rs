@@ -14,7 +14,7 @@ mod support;
 use std::path::PathBuf;
 
 use saved::{SCENES, opened, sealed, written};
-use support::{Instance, State, Status, Unit};
+use support::{Instance, InstanceState, Status, Unit};
 
 fn main() {
     let folder = PathBuf::from(std::env::args().nth(1).expect("a folder to write into"));
@@ -22,11 +22,11 @@ fn main() {
     for (number, text) in (0_u8..).zip(SCENES) {
         let (unit, scene) = (Unit::of(text), written(text));
         for (name, state, steps) in [
-            ("instantiated", State::Instantiated, 0),
-            ("initialization", State::Initialization, 0),
-            ("start", State::StepComplete, 0),
-            ("moving", State::StepComplete, 3),
-            ("terminated", State::Terminated, 0),
+            ("instantiated", InstanceState::Instantiated, 0),
+            ("initialization", InstanceState::Initialization, 0),
+            ("start", InstanceState::StepComplete, 0),
+            ("moving", InstanceState::StepComplete, 3),
+            ("terminated", InstanceState::Terminated, 0),
         ] {
             let instance = Instance::in_state(&unit, state);
             instance.run(0, steps);
