@@ -356,8 +356,10 @@ pub(super) fn at_rest<'a, const D: usize>(
     state: &State,
 ) -> Result<Linearization<'a, D>, SpectrumError> {
     let (q, v) = (&state.coordinates, &state.rates);
-    DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, v);
-    refuse_driven(system, work)?;
+    if !work.drives.is_empty() {
+        DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, v);
+        refuse_driven(system, work)?;
+    }
     let rest = vec![0.0; v.len()];
     DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, &rest);
     refuse_paid_out(system, work, true)?;
