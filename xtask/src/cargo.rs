@@ -149,6 +149,17 @@ impl Workspace {
         Ok(command)
     }
 
+    /// A command that runs the examples in the library's docs, in the very code that is delivered.
+    ///
+    /// # Errors
+    /// Linker or compiler are not there.
+    pub fn examples_of_docs(&self) -> Result<Command> {
+        let mut command = self.tests_of_product()?;
+        // The packages beside it ask for the features that it is compiled with.
+        command.args(["--doc", "--package", PACKAGE]);
+        Ok(command)
+    }
+
     /// A cargo command that compiles for release what runs on any machine of a platform.
     fn for_platform(&self, subcommand: &str, platform: Platform) -> Result<Command> {
         let linker = Linker::prepare(self, platform)?;

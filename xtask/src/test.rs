@@ -18,7 +18,9 @@ use crate::{assembly, describe, fuzz};
 const ALL: &str = "FLEXBODY_ALL";
 
 /// The library's own tests of its parts, and packages that have nothing of it.
-const PARTS: [&str; 8] = [
+const PARTS: [&str; 10] = [
+    "--lib",
+    "--bins",
     "--package",
     "flexbody",
     "--package",
@@ -243,6 +245,7 @@ fn rust_tests(workspace: &Workspace) -> Result<Outcome> {
         let built = delivered.join().expect("a build that does not panic");
         parts.and(built.map(drop))
     })?;
+    run(&mut workspace.examples_of_docs()?)?;
     run(&mut workspace.tests_of_product()?).map(passed)
 }
 
