@@ -100,9 +100,10 @@ fn about(scene: &Scene) -> String {
     let rows: Vec<String> = rows
         .map(|(key, text)| format!("<b>{key}</b> {}", escape(text)))
         .collect();
-    match rows.is_empty() {
-        true => String::new(),
-        false => format!("<p>{}</p>\n", rows.join("<br>\n")),
+    if rows.is_empty() {
+        String::new()
+    } else {
+        format!("<p>{}</p>\n", rows.join("<br>\n"))
     }
 }
 

@@ -236,9 +236,10 @@ fn load_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, 
             values: as_written,
         } => {
             let [what, unit] = action.kind.words();
-            let turning = match action.follower {
-                true => " that turns along (along and across)",
-                false => "",
+            let turning = if action.follower {
+                " that turns along (along and across)"
+            } else {
+                ""
             };
             (
                 format!("{what}{turning}, {unit}"),
@@ -297,9 +298,12 @@ fn fluid_in_words(fluid: &ResolvedFluid<'_>) -> String {
 
 /// Describes springs, dampers and limits of joints.
 fn spring_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, String) {
-    let units = |on: &JointCoordinate<'_>| match on.is_angle() {
-        true => ["N m/rad", "N m s/rad", "s/rad", "rad"],
-        false => ["N/m", "N s/m", "s/m", "m"],
+    let units = |on: &JointCoordinate<'_>| {
+        if on.is_angle() {
+            ["N m/rad", "N m s/rad", "s/rad", "rad"]
+        } else {
+            ["N/m", "N s/m", "s/m", "m"]
+        }
     };
     match &load.kind {
         LoadKind::JointSpring { on, sizes, rest } => {

@@ -20,14 +20,15 @@ fn elements(chosen: &[Chosen]) -> String {
         .map(|of| row(&[&code(&of.name), of.element(), &escape(&of.why)]));
     let note = "<p>A cable is enough where nothing asks how its sections stand, a rod where shear moves no output by more than the \
         error wanted.</p>\n";
-    match chosen.is_empty() {
-        true => String::new(),
-        false => table(
+    if chosen.is_empty() {
+        String::new()
+    } else {
+        table(
             "Elements that were chosen",
             note,
             &["Body", "Element", "Why"],
             rows.collect(),
-        ),
+        )
     }
 }
 
@@ -40,9 +41,10 @@ fn damping(damped: &[Damped]) -> String {
     });
     let note = "<p>A body that a damping ratio is written of has the Kelvin-Voigt time that gives this ratio to the first mode \
         about the start in which at least half of the energy is strain of the body.</p>\n";
-    match damped.is_empty() {
-        true => String::new(),
-        false => table(
+    if damped.is_empty() {
+        String::new()
+    } else {
+        table(
             "Damping by ratios",
             note,
             &[
@@ -53,7 +55,7 @@ fn damping(damped: &[Damped]) -> String {
                 "Damping time, s",
             ],
             rows.collect(),
-        ),
+        )
     }
 }
 
@@ -88,15 +90,14 @@ fn numbers(plan: &Plan) -> String {
 }
 
 fn held(plan: &Plan) -> String {
-    match plan.held.is_empty() {
-        true => String::new(),
-        false => {
-            let names: Vec<String> = plan.held.iter().map(|name| code(name)).collect();
-            format!(
-                " Inputs that kept their start values, by whose linear answers meshes were compared: {}.",
-                names.join(", ")
-            )
-        }
+    if plan.held.is_empty() {
+        String::new()
+    } else {
+        let names: Vec<String> = plan.held.iter().map(|name| code(name)).collect();
+        format!(
+            " Inputs that kept their start values, by whose linear answers meshes were compared: {}.",
+            names.join(", ")
+        )
     }
 }
 

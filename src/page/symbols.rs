@@ -161,9 +161,10 @@ fn rails(canvas: &mut Canvas, at: Point, along: Point, is_grounded: bool, unit: 
         canvas.polyline(&ends, false, line(0.16 * unit));
     };
     rail(canvas, above);
-    match is_grounded {
-        true => ground(canvas, under, along, below, 2.4 * unit, unit),
-        false => rail(canvas, under),
+    if is_grounded {
+        ground(canvas, under, along, below, 2.4 * unit, unit)
+    } else {
+        rail(canvas, under)
     }
 }
 

@@ -112,9 +112,12 @@ fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = MovingActio
     });
     let of =
         move |(name, holder, marker, holds): (&'a str, ConstraintOwnerId, MarkerId, [bool; 2])| {
-            let quantity = move |is_moment, axis| match is_moment {
-                true => Quantity::ReactionMoment(holder, axis, Along::Global),
-                false => Quantity::Reaction(holder, axis, Along::Global),
+            let quantity = move |is_moment, axis| {
+                if is_moment {
+                    Quantity::ReactionMoment(holder, axis, Along::Global)
+                } else {
+                    Quantity::Reaction(holder, axis, Along::Global)
+                }
             };
             exerted((name, marker, dimension), holds, quantity, Origin::Reaction)
         };
@@ -131,9 +134,10 @@ fn exerted<'a>(
     let both = [(is_there[0], false), (is_there[1], true)].into_iter();
     both.filter(|(is_there, _)| *is_there)
         .map(move |(_, is_moment)| {
-            let axes = match is_moment {
-                true => spins(dimension),
-                false => 0..dimension,
+            let axes = if is_moment {
+                spins(dimension)
+            } else {
+                0..dimension
             };
             MovingAction {
                 name,
@@ -153,9 +157,12 @@ fn of_spring<'a>(
     load: &'a scene::ResolvedLoad<'a>,
     dimension: usize,
 ) -> Vec<MovingAction<'a>> {
-    let quantity = move |is_moment, axis| match is_moment {
-        true => Quantity::LoadMoment(id, axis),
-        false => Quantity::LoadForce(id, axis),
+    let quantity = move |is_moment, axis| {
+        if is_moment {
+            Quantity::LoadMoment(id, axis)
+        } else {
+            Quantity::LoadForce(id, axis)
+        }
     };
     if let Some(marker) = load.kind.exerts_on() {
         let at = (load.name, marker.id, dimension);

@@ -221,9 +221,10 @@ impl File {
                  \"doubleSided\":true}}"
             )
         });
-        let skins = match self.skins.is_empty() {
-            true => String::new(),
-            false => format!("\"skins\":[{}],", self.skins.join(",")),
+        let skins = if self.skins.is_empty() {
+            String::new()
+        } else {
+            format!("\"skins\":[{}],", self.skins.join(","))
         };
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let json = format!(

@@ -137,9 +137,10 @@ fn row(pose: &Pose, (dimension, is_chain): (usize, bool), held: &mut [Quaternion
 
 /// Material coordinates of nodes.
 pub(super) fn mesh(resolved: &Resolved<'_>, cable: Cable<'_>) -> Vec<f64> {
-    match cable.is_rigid() {
-        true => vec![0.0, 1.0],
-        false => resolved.nodes(cable).unwrap_or_else(|_| vec![0.0, 1.0]),
+    if cable.is_rigid() {
+        vec![0.0, 1.0]
+    } else {
+        resolved.nodes(cable).unwrap_or_else(|_| vec![0.0, 1.0])
     }
 }
 

@@ -171,9 +171,10 @@ fn chain(
             (element, (ring - element * parts) as f64 / parts as f64)
         })
         .collect();
-    let rim: Vec<[f64; 2]> = match corners {
-        true => vec![[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]],
-        false => circle(1.0),
+    let rim: Vec<[f64; 2]> = if corners {
+        vec![[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
+    } else {
+        circle(1.0)
     };
     let width = rim.len();
     let mut points = Vec::new();
@@ -241,9 +242,12 @@ impl Built {
                 ring.map(|[y, z]| <[f64; 3]>::from(axis * *along + across * y + beside * z)),
             );
         }
-        let at = |ring: usize, k: usize| match rings[ring][0] > 0.0 {
-            true => starts[ring] + k % width,
-            false => starts[ring],
+        let at = |ring: usize, k: usize| {
+            if rings[ring][0] > 0.0 {
+                starts[ring] + k % width
+            } else {
+                starts[ring]
+            }
         };
         let count = if is_closed {
             rings.len()

@@ -166,12 +166,11 @@ impl<'a> Picture<'a> {
         for arrow in 0..arrows {
             let s = (f64::from(arrow) + 0.5) / f64::from(arrows);
             let at = self.at(cable.body.shape.point(s));
-            let tail = match is_vector {
-                true => symbols::force(&mut self.canvas, at, along, 0.6 * self.unit),
-                false => {
-                    symbols::turn(&mut self.canvas, at, 0.6 * self.unit, symbols::LOAD);
-                    moved(at, along.map(|part| -part), self.unit)
-                }
+            let tail = if is_vector {
+                symbols::force(&mut self.canvas, at, along, 0.6 * self.unit)
+            } else {
+                symbols::turn(&mut self.canvas, at, 0.6 * self.unit, symbols::LOAD);
+                moved(at, along.map(|part| -part), self.unit)
             };
             if arrow == arrows / 2 {
                 self.name_force(tail, along, label);

@@ -88,9 +88,10 @@ impl Picture<'_> {
 
     /// A pin, on the ground if one end is.
     fn foot(&mut self, ends: &Ends<'_>, at: Point) {
-        match ends.is_grounded() {
-            true => symbols::revolute(&mut self.canvas, at, self.unit),
-            false => symbols::pin(&mut self.canvas, at, self.unit),
+        if ends.is_grounded() {
+            symbols::revolute(&mut self.canvas, at, self.unit)
+        } else {
+            symbols::pin(&mut self.canvas, at, self.unit)
         }
     }
 

@@ -156,9 +156,12 @@ fn parted<S: DeserializeOwned, K: Kinds>(value: Value) -> Result<(S, K), Wrong> 
     let shared = known::<S>();
     let is_of_a_kind = |key: &str| all.iter().any(|kind| kind.keys.contains(&key));
     // Null in place of a key of any kind says nothing; neither does false in place of one of another kind.
-    keys.retain(|key, value| match kind.keys.contains(&&**key) {
-        true => !value.is_null(),
-        false => !(is_of_a_kind(key) && (value.is_null() || *value == Value::Bool(false))),
+    keys.retain(|key, value| {
+        if kind.keys.contains(&&**key) {
+            !value.is_null()
+        } else {
+            !(is_of_a_kind(key) && (value.is_null() || *value == Value::Bool(false)))
+        }
     });
     let is_known = |key: &&String| shared.contains(&&***key) || kind.keys.contains(&&***key);
     let mut strange = keys.keys().filter(|key| !is_known(key));
@@ -180,15 +183,17 @@ fn of_another_kind<K: Kinds>(kind: &OneKind<K>, key: &str, all: &[OneKind<K>]) -
     let own: Vec<&str> = (kind.keys.iter().copied())
         .filter(|key| !is_of_all(key))
         .collect();
-    let has = match own.is_empty() {
-        true => "none beside those of all".into(),
-        false => own.join(", "),
+    let has = if own.is_empty() {
+        "none beside those of all".into()
+    } else {
+        own.join(", ")
     };
     let takers = all.iter().filter(|kind| kind.keys.contains(&key));
     let takers: Vec<&str> = takers.map(|kind| kind.name).collect();
-    let load = match K::PART == "Joint" && OF_LOADS.contains(&key) {
-        true => " and of a load of kind joint_spring",
-        false => "",
+    let load = if K::PART == "Joint" && OF_LOADS.contains(&key) {
+        " and of a load of kind joint_spring"
+    } else {
+        ""
     };
     let takers = takers.join(", ");
     Wrong::here(

@@ -24,9 +24,10 @@ impl Profile {
                 let edges = [0.5 * width, 0.5 * height];
                 let [y, z] = [y.abs(), z.abs()];
                 // The series runs in the coordinate that is closer to its edge: it converges the faster.
-                match y * edges[1] >= z * edges[0] {
-                    true => of_rectangle(edges, [y, z]) / constant,
-                    false => of_rectangle([edges[1], edges[0]], [z, y]) / constant,
+                if y * edges[1] >= z * edges[0] {
+                    of_rectangle(edges, [y, z]) / constant
+                } else {
+                    of_rectangle([edges[1], edges[0]], [z, y]) / constant
                 }
             }
         }

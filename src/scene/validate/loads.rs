@@ -111,9 +111,10 @@ impl<'a> Resolved<'a> {
         let at = |key: &str| format!("{path}.{key}");
         let on = match kind.acts_on() {
             // A direction is what a moment turns and what a follower turns with.
-            ActsOn::Marker => LoadTarget::Marker(match follower || !kind.is_force() {
-                true => self.require_spinning(&at("marker"), on)?,
-                false => self.require_marker(&at("marker"), on)?,
+            ActsOn::Marker => LoadTarget::Marker(if follower || !kind.is_force() {
+                self.require_spinning(&at("marker"), on)?
+            } else {
+                self.require_marker(&at("marker"), on)?
             }),
             ActsOn::Joint => LoadTarget::Joint(self.require_pivot(&at("joint"), on)?),
             ActsOn::Cable => LoadTarget::Cable(self.require_cable(&at("body"), on)?),

@@ -246,13 +246,10 @@ impl<'a> Resolved<'a> {
         };
         let [_, second] = &gear.coordinates;
         if second.is_angle() != is_torque {
-            let wanted = match second.is_angle() {
-                true => {
-                    "a gear whose second coordinate is a displacement; gear_torque reads angles"
-                }
-                false => {
-                    "a gear whose second coordinate is an angle; gear_force reads displacements"
-                }
+            let wanted = if second.is_angle() {
+                "a gear whose second coordinate is a displacement; gear_torque reads angles"
+            } else {
+                "a gear whose second coordinate is an angle; gear_force reads displacements"
             };
             return Err(expected(path, wanted, quoted(name)));
         }

@@ -44,9 +44,10 @@ impl<'a> Resolved<'a> {
 
     fn joint_spring(&self, path: &str, load: &'a JointSpringLoad) -> Result<LoadKind<'a>, Error> {
         let on = self.coordinate(path, &load.joint, load.coordinate)?;
-        let units = match on.is_angle() {
-            true => ["N m/rad", "N m s/rad"],
-            false => ["N/m", "N s/m"],
+        let units = if on.is_angle() {
+            ["N m/rad", "N m s/rad"]
+        } else {
+            ["N/m", "N s/m"]
         };
         if let Some(rest) = load.rest {
             finite(&format!("{path}.rest"), rest)?;
@@ -61,9 +62,10 @@ impl<'a> Resolved<'a> {
 
     fn stop(&self, path: &str, load: &'a JointLimitLoad) -> Result<LoadKind<'a>, Error> {
         let on = self.coordinate(path, &load.joint, load.coordinate)?;
-        let units = match on.is_angle() {
-            true => ["N m/rad", "s/rad"],
-            false => ["N/m", "s/m"],
+        let units = if on.is_angle() {
+            ["N m/rad", "s/rad"]
+        } else {
+            ["N/m", "s/m"]
         };
         positive(&format!("{path}.stiffness"), units[0], load.stiffness)?;
         let damping = load.damping.unwrap_or(0.0);
