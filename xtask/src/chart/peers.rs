@@ -71,6 +71,14 @@ impl Peers {
         Ok(largest_distance(path, &self.reference) / number(&self.setting["length"])?)
     }
 
+    /// Returns the error that a plan is asked for, a part of the largest displacement of the marker, for a distance of `wanted` times the
+    /// length.
+    fn planned_error(&self, wanted: f64) -> Result<f64> {
+        let start = *self.reference.first().context("expected a reference")?;
+        let largest = largest_distance(&vec![start; self.reference.len()], &self.reference);
+        Ok(wanted * number(&self.setting["length"])? / largest)
+    }
+
     /// Returns the error of the marker's motion against the reference.
     fn error_of(&self, ran: &Ran) -> Result<f64> {
         self.error(&ran.table.marker(text(&self.setting["marker"])?)?)
@@ -109,7 +117,10 @@ impl Peers {
     fn measure(&self, bench: &Bench, exudyn: &mut Server, csv: &mut Csv) -> Result<()> {
         let points = self.setting["points"].as_array();
         let points = points.context("expected points")?;
-        let choices = ERRORS.map(|wanted| chosen(&self.case.plan(bench, wanted)?));
+        let choices = ERRORS.map(|wanted| {
+            let error = self.planned_error(wanted)?;
+            chosen(&self.case.plan(bench, error)?)
+        });
         let choices = choices.into_iter().collect::<Result<Vec<Choice>>>()?;
         let runs = choices.iter().map(|choice| self.case.run(choice));
         let runs = runs.collect::<Result<Vec<_>>>()?;
