@@ -10,6 +10,9 @@ use super::planned::{self, Case, Choice, ERRORS, SETTINGS, chosen};
 use super::server::{EXUDYN, Server};
 use crate::table::Table;
 
+/// Loosest error that a scene may ask for.
+const LOOSEST: f64 = 0.1;
+
 /// Rounds of timed runs.
 const ROUNDS: usize = 7;
 
@@ -72,11 +75,12 @@ impl Peers {
     }
 
     /// Returns the error that a plan is asked for, a part of the largest displacement of the marker, for a distance of `wanted` times the
-    /// length.
+    /// length; at most the loosest that a scene may ask for.
     fn planned_error(&self, wanted: f64) -> Result<f64> {
         let start = *self.reference.first().context("expected a reference")?;
         let largest = largest_distance(&vec![start; self.reference.len()], &self.reference);
-        Ok(wanted * number(&self.setting["length"])? / largest)
+        let error = wanted * number(&self.setting["length"])? / largest;
+        Ok(error.min(LOOSEST))
     }
 
     /// Returns the error of the marker's motion against the reference.
