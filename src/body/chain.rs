@@ -147,6 +147,18 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         self.element(j, x) * shape::curvatures(xi, self.elements[j].length())
     }
 
+    /// Tangents of element `j` at its ends and three points between, equally spaced.
+    pub fn tangents<N: Number>(&self, j: usize, x: &[Node<D, N>]) -> [SVector<N, D>; 5] {
+        let (e, length) = (self.element(j, x), self.elements[j].length());
+        std::array::from_fn(|k| e * shape::slopes(N::of(k as f64 / 4.0), length))
+    }
+
+    /// Whether element `j` folds back on itself: its tangent rotates by more than a right angle over a quarter of the element.
+    pub fn is_folded(&self, j: usize, x: &[Node<D>]) -> bool {
+        let tangents = self.tangents(j, x);
+        tangents.windows(2).any(|pair| pair[0].dot(&pair[1]) < 0.0)
+    }
+
     /// Length along the chain to the nearest of a few points of every element, m.
     pub fn near(&self, point: &SVector<f64, D>, x: &[Node<D>]) -> f64 {
         let (mut best, mut distance, mut start) = (0.0, f64::INFINITY, 0.0);

@@ -418,11 +418,11 @@ fn a_force_beyond_the_plan_is_told() {
     assert_eq!(told(5e5), Some("beam".to_owned()));
 }
 
-/// A chain without bending stiffness that is drawn along the bed may be found folded in an equilibrium under a current: elements of which
-/// slopes point backwards carry tension. Either the tension at the top is the one of shooting (9595.4 N), or the mesh is told of.
+/// A chain without bending stiffness that is drawn along the bed: under a current there are equilibria in which an element folds back on
+/// itself and carries tension, of up to 13.7 kN at the top. The tension of the chain is that of shooting, 9595.4 N.
 #[test]
-fn a_folded_equilibrium_is_told() {
-    for elements in [30, 40, 48, 60] {
+fn no_element_is_folded_in_an_equilibrium() {
+    for elements in [20, 30, 40, 48, 60] {
         let scene = json!({"name": "mooring", "dimension": 2, "gravity": [0, -9.81],
             "bodies": [{"name": "chain", "element": "cable", "elements": elements,
                 "material": {"youngs_modulus": 6e10, "density": 7800, "damping_time": 0.01},
@@ -442,10 +442,8 @@ fn a_folded_equilibrium_is_told() {
             "experiment": {"stop_time": 1, "step": 0.5}});
         let mut simulation = started(&scene);
         let tension = read(&mut simulation, "chain.top.axial_force");
-        simulation.step(0.5).expect("a step");
-        let is_told = simulation.next_unresolved().is_some();
         let off = (tension / 9595.4 - 1.0).abs();
-        assert!(is_told || off < 1e-2, "{elements} elements: {tension} N");
+        assert!(off < 1e-3, "{elements} elements: {tension} N");
     }
 }
 

@@ -18,14 +18,12 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 
 use crate::body::Node;
-use crate::elements::{Element, shape};
+use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::math::rotation::rotation_vector;
 use crate::math::space::{Vector, components};
 use crate::system::{Evaluation, LineChain, System};
 
-/// Parts of an element between which its tangents are compared: more than half a turn is seen.
-const PARTS: u32 = 4;
 /// An element that is bent uniformly by `w` rad is bent too far by about `w^5 / 240`.
 const STIFFENING: f64 = 1.0 / 240.0;
 
@@ -116,19 +114,12 @@ fn bent_too_far<const D: usize, N: Number>(
 /// Rotation vector by which the tangent of an element turns from its first end to its last, rad. Of an element that folds back on itself it
 /// is as long as all rotations on the way together, which have opposite directions there.
 fn bend<const D: usize, N: Number>(chain: &LineChain<D>, j: usize, x: &[Node<D, N>]) -> Vector3<N> {
-    let (e, length) = (chain.element(j, x), chain.element_length(j));
-    let tangent = |k: u32| {
-        let xi = N::of(f64::from(k) / f64::from(PARTS));
-        Vector3::from(components(&Vector::<D, N>::from(
-            e * shape::slopes(xi, length),
-        )))
-    };
+    let tangents = (chain.tangents(j, x)).map(|tangent| Vector3::from(components(&tangent)));
     let (mut sum, mut way, mut folds) = (Vector3::zeros(), N::of(0.0), false);
-    let mut before = tangent(0);
-    for k in 1..=PARTS {
-        let next = tangent(k);
+    for pair in tangents.windows(2) {
+        let (before, next) = (&pair[0], &pair[1]);
         let size = (before.norm_squared() * next.norm_squared()).root();
-        let (cosine, sine) = (before.dot(&next), before.cross(&next));
+        let (cosine, sine) = (before.dot(next), before.cross(next));
         // The quaternion of the smallest rotation; none where tangents are opposite or there is none.
         let whole = (size * N::of(2.0) * (size + cosine)).root();
         let turn = if whole.plain() > 0.0 {
@@ -144,7 +135,6 @@ fn bend<const D: usize, N: Number>(chain: &LineChain<D>, j: usize, x: &[Node<D, 
         } else if turn.norm_squared().plain() > 0.0 {
             way += turn.norm_squared().root();
         }
-        before = next;
     }
     // Which way it folds nobody can tell: across the plane.
     if folds { Vector3::z() * way } else { sum }

@@ -13,6 +13,7 @@ mod balance;
 mod motion;
 mod newton;
 mod predict;
+mod unfold;
 mod unsymmetric;
 
 use std::cell::Cell;
@@ -166,6 +167,7 @@ pub fn find<const D: usize>(
     };
     let before = state.clone();
     let found = path.follow(way, work, state);
+    let found = found.map(|found| path.unfold(&held, found, &before, work, state));
     match turning {
         // A turn that nothing drives is neutral, and the tangent singular.
         Some(SteadyRotation { rate, .. }) if found.is_err() => {
@@ -194,10 +196,7 @@ pub(super) fn close<const D: usize>(
     held.unload();
     let ropes = held.clone();
     // A rope without bending stiffness would fold from element to element.
-    for chain in &mut held.chains {
-        let stiffness = BENT * chain.axial_stiffness() * chain.length().powi(2);
-        chain.stiffen(stiffness, described);
-    }
+    held.stiffen(1.0, described);
     let way = |fraction: f64, _: &Workspace<D>| {
         let mut part = held.clone();
         part.open(open, 1.0 - fraction);
@@ -211,13 +210,19 @@ pub(super) fn close<const D: usize>(
         swings: true,
         left: Cell::new(f64::INFINITY),
     };
-    closing.follow(way, work, state)?;
+    let found = closing.follow(way, work, state)?;
+    let bent = state.clone();
     let last = Path {
         first: 1.0,
         predicts: false,
         ..closing
     };
-    last.follow(|_, _| ropes.clone(), work, state)
+    let relaxed = last.follow(|_, _| ropes.clone(), work, state);
+    if relaxed.is_ok() && ropes.is_folded(state, work) {
+        state.copy_from(&bent);
+        return Ok(found);
+    }
+    relaxed
 }
 
 impl<const D: usize> System<D> {
