@@ -2,7 +2,7 @@
 
 use super::canvas::escape;
 use super::drawing::drawing;
-use super::number::number;
+use super::number::{number, rounded};
 use super::parts::parts;
 use super::plan::plan;
 use super::table::{code, row, table};
@@ -114,8 +114,7 @@ fn body_in_words(body: &Body) -> String {
     let name = escape(body.name());
     match body {
         Body::Cable(cable) | Body::Rod(cable) | Body::Beam(cable) | Body::Auto(cable) => {
-            // A length along an arc need not be a short number; four digits are enough to read.
-            let length = number((cable.shape.length() * 1e4).round() / 1e4);
+            let length = rounded(cable.shape.length());
             let kind = cable.sections.element();
             let elements = match (cable.model, cable.elements) {
                 (Model::Rigid, _) => {
@@ -133,7 +132,7 @@ fn body_in_words(body: &Body) -> String {
             } else {
                 "particle"
             };
-            format!("the {kind} <em>{name}</em> of {} kg", number(rigid.mass()))
+            format!("the {kind} <em>{name}</em> of {} kg", rounded(rigid.mass()))
         }
     }
 }
@@ -227,7 +226,7 @@ fn parameters(variables: &[Variable]) -> String {
         let start = variable.start.map(number).unwrap_or_default();
         row(&[
             &code(&variable.name),
-            unit(variable),
+            &unit(variable),
             &start,
             &range(variable),
             &meaning(variable),
@@ -242,7 +241,7 @@ fn inputs(variables: &[Variable], course: &str) -> String {
         let start = variable.start.map(number).unwrap_or_default();
         row(&[
             &code(&variable.name),
-            unit(variable),
+            &unit(variable),
             &start,
             &meaning(variable),
         ])
@@ -277,7 +276,7 @@ fn outputs(variables: &[Variable]) -> String {
         };
         Some(row(&[
             &code(&variable.name),
-            unit(variable),
+            &unit(variable),
             follows,
             &meaning(variable),
         ]))
@@ -339,8 +338,8 @@ fn of(variables: &[Variable], causality: Causality) -> impl Iterator<Item = &Var
         .filter(move |variable| Causality::of(variable) == causality)
 }
 
-fn unit(variable: &Variable) -> &'static str {
-    variable.unit.map_or("", |unit| unit.name)
+fn unit(variable: &Variable) -> String {
+    variable.unit.map_or(String::new(), |unit| unit.symbol())
 }
 
 fn meaning(variable: &Variable) -> String {

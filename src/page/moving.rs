@@ -5,7 +5,7 @@ use super::drawing::drawing;
 use super::number::number;
 use crate::scene::Scene;
 use crate::simulation::InputTable;
-use crate::view::{Limits, OutputTable, Recording, document, picture, picture_of_table};
+use crate::view::{HeldInput, Limits, OutputTable, Recording, document, picture, picture_of_table};
 
 /// Comments around the section of a run in motion: it is that of the machine which made the page, the rest of the page is not.
 const AROUND: [&str; 2] = ["<!-- motion begins -->\n", "<!-- motion ends -->\n"];
@@ -18,13 +18,8 @@ pub fn motion(
     told: &mut dyn FnMut(u64, u64),
 ) -> String {
     let course = match inputs {
-        Some(_) => "Inputs move meanwhile as the scene says for planning.",
-        None => "Inputs keep their start values meanwhile.",
-    };
-    let course = if scene.resolved().numbers > 0 {
-        course
-    } else {
-        ""
+        Some(_) => " Inputs move meanwhile as the scene says for planning.",
+        None => "",
     };
     let shown = match Recording::new(scene, inputs, &Limits::unit(scene.dimension), told) {
         Ok(run) => {
@@ -37,7 +32,8 @@ pub fn motion(
                 picture(&run, "")
             );
             format!(
-                "<p>The default experiment. {course}{}</p>\n{figure}",
+                "<p>The default experiment.{course}{}{}</p>\n{figure}",
+                held_in_words(run.held()).map_or(String::new(), |held| format!(" {held}.")),
                 end.unwrap_or_default()
             )
         }
@@ -56,11 +52,66 @@ pub fn moving(scene: &Scene, run: &Recording) -> String {
     if let Some(reason) = run.stopped() {
         note += &format!("; the run ended there: {}", escape(reason));
     }
+    if let Some(held) = held_in_words(run.held()) {
+        note += &format!("<br>{}", escape(&held));
+    }
     document(&escape(&scene.name), &note, &picture(run, &drawing(scene)))
+}
+
+/// Most inputs that are told one by one.
+const MOST_INPUTS: usize = 6;
+
+/// Inputs that nothing moves, with their values; components of a vector together. Nothing where there is none.
+fn held_in_words(held: &[HeldInput]) -> Option<String> {
+    let mut found: Vec<(&str, Vec<String>, &str)> = Vec::new();
+    for input in held {
+        let name = input.name.split('[').next().unwrap_or_default();
+        match found.last_mut() {
+            Some((last, values, _)) if *last == name => values.push(number(input.value)),
+            _ => found.push((name, vec![number(input.value)], &input.unit)),
+        }
+    }
+    let shown = found.iter().take(MOST_INPUTS);
+    let mut texts: Vec<String> = shown
+        .map(|(name, values, unit)| match &values[..] {
+            [value] => format!("{name} = {value} {unit}"),
+            values => format!("{name} = ({}) {unit}", values.join(", ")),
+        })
+        .map(|text| text.trim_end().to_owned())
+        .collect();
+    if let Some(others @ 1..) = found.len().checked_sub(MOST_INPUTS) {
+        texts.push(format!("{others} more"));
+    }
+    (!texts.is_empty()).then(|| format!("Inputs held: {}", texts.join(", ")))
 }
 
 /// The page of a table of outputs.
 pub fn moving_table(title: &str, table: &OutputTable) -> String {
     let note = "outputs alone: markers whose positions are among them";
     document(&escape(title), note, &picture_of_table(table, title))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_are_told_by_vectors_and_not_all_of_many() {
+        let held = |names: &[&str]| -> Option<String> {
+            let inputs = names.iter().map(|name| HeldInput {
+                name: (*name).into(),
+                value: 0.5,
+                unit: "N".into(),
+            });
+            held_in_words(&inputs.collect::<Vec<_>>())
+        };
+        assert_eq!(held(&[]), None);
+        let told = held(&["a.force[1]", "a.force[2]", "b.torque"]).expect("inputs");
+        assert_eq!(
+            told,
+            "Inputs held: a.force = (0.5, 0.5) N, b.torque = 0.5 N"
+        );
+        let told = held(&["a", "b", "c", "d", "e", "f", "g", "h"]).expect("inputs");
+        assert!(told.ends_with("f = 0.5 N, 2 more"), "{told}");
+    }
 }

@@ -11,9 +11,29 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// Text of a number to four digits, as many as a computed mass or length is read with.
+pub fn rounded(value: f64) -> String {
+    format!("{value:.3e}")
+        .parse()
+        .map_or_else(|_| number(value), number)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use super::{number, rounded};
+
+    #[test]
+    fn computed_numbers_are_rounded_to_four_digits() {
+        let pairs = [
+            (12.566_370_6, "12.57"),
+            (0.1 + 0.2, "0.3"),
+            (2.1e11, "2.1e11"),
+            (0.0, "0"),
+        ];
+        for (value, text) in pairs {
+            assert_eq!(rounded(value), text);
+        }
+    }
 
     #[test]
     fn numbers_read_back_as_they_were() {

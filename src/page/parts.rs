@@ -66,7 +66,7 @@ pub(super) fn parts(scene: &Scene) -> String {
         table(
             "Masses at markers",
             "",
-            &["At", "Mass, kg", "Inertia, kg m2"],
+            &["At", "Mass, kg", "Inertia, kg·m²"],
             masses.collect(),
         ),
     ]
@@ -98,7 +98,7 @@ fn crosses(port: &ResolvedPort<'_>, dimension: usize) -> String {
             format!("position, velocity, acceleration{turns} in; force{turn} on the outside out")
         }
         PortKind::Coupling { .. } => {
-            let units = ["N/m", "N s/m", "N m/rad", "N m s/rad"];
+            let units = ["N/m", "N·s/m", "N·m/rad", "N·m·s/rad"];
             let springs = given.springs().into_iter().zip(units);
             let sizes = springs.filter_map(|(size, unit)| {
                 let size = size?;
@@ -185,7 +185,7 @@ fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &Hold) -> St
         } => {
             let [k, c] = [*stiffness, *damping].map(number);
             let rest = given(", at rest at", *rest, "rad");
-            format!("{k} N m/rad and {c} N m s/rad against rotation{rest}")
+            format!("{k} N·m/rad and {c} N·m·s/rad against rotation{rest}")
         }
     }
 }
@@ -254,7 +254,7 @@ fn load_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, 
             let length = spring.given.map_or(String::new(), |length| {
                 format!(", length at rest {} m", value(length))
             });
-            let size = format!("{k} N/m, {c} N s/m{length}");
+            let size = format!("{k} N/m, {c} N·s/m{length}");
             (
                 "spring and damper".into(),
                 format!("{}{point}, {}", code(first), code(second)),
@@ -287,11 +287,11 @@ fn fluid_in_words(fluid: &ResolvedFluid<'_>) -> String {
         ("added mass", fluid.added_mass),
     ];
     let coefficients = coefficients.map(|(what, of)| format!(", {what} {}", number(of)));
-    let lengths = given(", diameter", fluid.diameter, "m") + &given(", area", fluid.area, "m2");
+    let lengths = given(", diameter", fluid.diameter, "m") + &given(", area", fluid.area, "m²");
     let lifts = if fluid.buoyancy { "" } else { ", no buoyancy" };
     let density = number(fluid.density);
     format!(
-        "{density} kg/m3, {current}{}{lengths}{lifts}",
+        "{density} kg/m³, {current}{}{lengths}{lifts}",
         coefficients.concat()
     )
 }
@@ -300,9 +300,9 @@ fn fluid_in_words(fluid: &ResolvedFluid<'_>) -> String {
 fn spring_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, String) {
     let units = |on: &JointCoordinate<'_>| {
         if on.is_angle() {
-            ["N m/rad", "N m s/rad", "s/rad", "rad"]
+            ["N·m/rad", "N·m·s/rad", "s/rad", "rad"]
         } else {
-            ["N/m", "N s/m", "s/m", "m"]
+            ["N/m", "N·s/m", "s/m", "m"]
         }
     };
     match &load.kind {
@@ -326,7 +326,7 @@ fn spring_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String
             )
         }
         LoadKind::Bushing(bushing) => {
-            let units = [["N/m", "N m/rad"], ["N s/m", "N m s/rad"]];
+            let units = [["N/m", "N·m/rad"], ["N·s/m", "N·m·s/rad"]];
             let sizes = [bushing.stiffness, bushing.damping];
             let sizes = sizes.iter().zip(units).flat_map(|(sizes, units)| {
                 let sizes = sizes.iter().zip(units);

@@ -175,17 +175,10 @@ pub fn stop(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
     canvas.polyline(&ends, false, line(0.3 * unit));
 }
 
-/// Two wheels that turn each other.
-pub fn gear(canvas: &mut Canvas, [from, to]: [Point; 2], unit: f64) {
-    let way = [to[0] - from[0], to[1] - from[1]];
-    let reach = way[0].hypot(way[1]);
-    let radius = if reach > 2.0 * unit {
-        0.5 * reach
-    } else {
-        unit
-    };
-    canvas.polyline(&[from, to], false, line(0.06 * unit));
-    for at in [from, to] {
+/// Wheels of a gear with their radii, and the line between them.
+pub fn gear(canvas: &mut Canvas, ends: [Point; 2], radii: [f64; 2], unit: f64) {
+    canvas.polyline(&ends, false, line(0.06 * unit));
+    for (at, radius) in ends.into_iter().zip(radii) {
         canvas.circle(at, radius, line(0.06 * unit));
     }
 }

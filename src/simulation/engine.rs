@@ -348,6 +348,16 @@ impl<const D: usize> Engine<D> {
         (&self.assembled, &self.evaluation)
     }
 
+    /// The system, and how it moves in a state, with its accelerations.
+    pub(super) fn moving(
+        &mut self,
+        state: &State,
+        inputs: &Inputs,
+    ) -> (&Assembled<D>, &Evaluation<D>) {
+        self.evaluate(Evaluated::Dynamics, state, inputs);
+        (&self.assembled, &self.evaluation)
+    }
+
     /// Force per reference length of a contact along a body, N/m.
     pub(super) fn contact(
         &mut self,

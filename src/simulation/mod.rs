@@ -236,15 +236,21 @@ impl Simulation {
         let Some(engine) = &self.engine else {
             return (0.0, Vec::new());
         };
-        let natural = |variable: &Variable| match variable.source {
-            Source::Output(quantity) => engine.natural(quantity).unwrap_or(0.0),
-            _ => 0.0,
-        };
         let computed = self
             .variables
             .iter()
             .filter(|variable| variable.is_computed());
-        (engine.size(), computed.map(natural).collect())
+        let natural = computed.map(|variable| self.natural_size(variable));
+        (engine.size(), natural.collect())
+    }
+
+    /// Size of a variable where the scene moves at its natural rate, in the unit of the variable; 0 of a variable that is not compared
+    /// with that, and before initialization.
+    pub fn natural_size(&self, variable: &Variable) -> f64 {
+        match (&self.engine, variable.source) {
+            (Some(engine), Source::Output(quantity)) => engine.natural(quantity).unwrap_or(0.0),
+            _ => 0.0,
+        }
     }
 
     /// Sets a real parameter or an input.

@@ -1,5 +1,7 @@
 //! Where bodies are, for pictures.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
 use super::engine::Engine;
@@ -108,6 +110,30 @@ impl Simulation {
         Ok(engine.poses(&self.state, &self.inputs))
     }
 
+    /// How all bodies stand where the scene draws them, in the order of the bodies.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn drawn_poses(&mut self) -> Result<Vec<Pose>, Error> {
+        self.refresh()?;
+        let engine = self.engine.as_ref();
+        Ok(engine
+            .map(|engine| engine.drawn_poses())
+            .unwrap_or_default())
+    }
+
+    /// Axial force (N) and bending moments about both axes of the section (N m) at the nodes of every flexible body now, in the order of
+    /// the bodies; none of a rigid one. Of a cable and in the plane the first moment is the size of the moment, the second is 0.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn section_forces(&mut self) -> Result<Vec<Vec<[f64; 3]>>, Error> {
+        self.refresh()?;
+        let engine = self.engine.as_mut();
+        let forces = engine.map(|engine| engine.section_forces(&self.state, &self.inputs));
+        Ok(forces.unwrap_or_default())
+    }
+
     /// The value of a quantity now, whether it is an output or not.
     ///
     /// # Errors
@@ -196,11 +222,42 @@ impl<const D: usize> Engine<D> {
     /// How all bodies stand.
     pub(super) fn poses(&mut self, state: &State, inputs: &Inputs) -> Vec<Pose> {
         let (assembled, Evaluation { x, .. }) = self.placed(state, inputs);
-        let bodies = assembled.system.bodies().iter().enumerate();
-        bodies
-            .map(|(body, nodes)| pose(assembled, body, nodes.start, x))
-            .collect()
+        poses(assembled, x)
     }
+
+    /// How all bodies stand where the scene draws them.
+    pub(super) fn drawn_poses(&self) -> Vec<Pose> {
+        poses(&self.assembled, &self.assembled.nodes)
+    }
+
+    /// Axial force and bending moments at the nodes of all flexible bodies.
+    pub(super) fn section_forces(&mut self, state: &State, inputs: &Inputs) -> Vec<Vec<[f64; 3]>> {
+        let (assembled, values) = self.moving(state, inputs);
+        let system = &assembled.system;
+        let at = |marker: &Marker| values.section_forces(system, marker);
+        let bodies = system.bodies().iter().enumerate();
+        let of = |(body, nodes): (usize, &Range<usize>)| {
+            let chain = system
+                .chains()
+                .iter()
+                .find(|c| c.nodes(0)[0] == nodes.start);
+            let Some(chain) = chain else {
+                return Vec::new();
+            };
+            let count = chain.elements().len();
+            let start = |element| at(&Marker::inside(body, chain, element, 0.0));
+            let last = at(&Marker::inside(body, chain, count - 1, 1.0));
+            (0..count).map(start).chain([last]).collect()
+        };
+        bodies.map(of).collect()
+    }
+}
+
+fn poses<const D: usize>(assembled: &Assembled<D>, x: &[Node<D>]) -> Vec<Pose> {
+    let bodies = assembled.system.bodies().iter().enumerate();
+    bodies
+        .map(|(body, nodes)| pose(assembled, body, nodes.start, x))
+        .collect()
 }
 
 /// Returns the value of a position, an angle or a direction in the configuration that the scene draws. Other quantities
@@ -360,16 +417,63 @@ mod tests {
         Simulation::new(Scene::from_json(&text).expect("a valid scene"))
     }
 
+    const ALL: [(usize, &str); 5] = [
+        (2, "cable"),
+        (2, "beam"),
+        (3, "cable"),
+        (3, "rod"),
+        (3, "beam"),
+    ];
+
+    #[test]
+    fn section_forces_are_those_of_a_cantilever() {
+        for (dimension, element) in ALL {
+            let force = 1e-3;
+            let mut simulation = cantilever(dimension, element, force);
+            simulation.initialize(0.0).expect("an equilibrium");
+            let found = simulation.section_forces().expect("a state");
+            assert_eq!(found[0].len(), 7);
+            for (node, [axial, first, second]) in found[0].iter().enumerate() {
+                let wanted = force * LENGTH * (1.0 - node as f64 / 6.0);
+                let miss = (first.hypot(*second) - wanted).abs() / (force * LENGTH);
+                assert!(
+                    miss < 1e-3,
+                    "{dimension} {element} {node}: {first} {second} {wanted}"
+                );
+                assert!(
+                    axial.abs() < 1e-3 * force,
+                    "{dimension} {element} {node}: {axial}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn bodies_are_drawn_where_the_scene_says() {
+        for (dimension, element) in ALL {
+            let mut simulation = cantilever(dimension, element, 1.0);
+            simulation.initialize(0.0).expect("an equilibrium");
+            let drawn = simulation.drawn_poses().expect("a state");
+            for (node, [position, slope]) in drawn[0].nodes.iter().enumerate() {
+                let part = node as f64 / 6.0;
+                let wanted = [1.0 + 1.2 * part, 2.0 + 1.6 * part, 0.0, 0.6, 0.8, 0.0];
+                let found = position.iter().chain(slope).zip(wanted);
+                assert!({ found }.all(|(a, b)| (a - b).abs() < 1e-12), "{drawn:?}");
+            }
+            assert_eq!(drawn[0].axes.is_empty(), element == "cable");
+            for axes in &drawn[0].axes {
+                let along = [0.6, 0.8, 0.0];
+                assert!(
+                    (0..3).all(|k| (axes[0][k] - along[k]).abs() < 1e-12),
+                    "{axes:?}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn elastic_displacement_is_that_of_a_cantilever() {
-        let all = [
-            (2, "cable"),
-            (2, "beam"),
-            (3, "cable"),
-            (3, "rod"),
-            (3, "beam"),
-        ];
-        for (dimension, element) in all {
+        for (dimension, element) in ALL {
             let force = 1e-3;
             let mut simulation = cantilever(dimension, element, force);
             simulation.initialize(0.0).expect("an equilibrium");

@@ -141,7 +141,7 @@ fn exerted<'a>(
             };
             MovingAction {
                 name,
-                unit: if is_moment { "N m" } else { "N" },
+                unit: if is_moment { "N·m" } else { "N" },
                 is_moment,
                 follower: false,
                 components: axes.len(),

@@ -3,11 +3,12 @@
 use super::actions::{MovingAction, Where, actions};
 use super::numbers::{Numbers, list, quoted};
 use super::recording::Recording;
-use super::sections::{has_corners, sections};
+use super::sections::{SectionStress, has_corners, sections};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
 use crate::scene::{
-    BodyReference, Cable, Ends, First, Hold, JointCoordinate, LineBody, LoadKind, Place, PortKind,
-    Resolved, ResolvedJoint, ResolvedLoad, ResolvedMarker, Rigid, Solid, Symbol,
+    BodyReference, Cable, Ends, First, Hold, Inertia, JointCoordinate, LineBody, LoadKind, Place,
+    PortKind, Resolved, ResolvedJoint, ResolvedLoad, ResolvedMarker, Rigid, RigidBody, Solid,
+    Symbol,
 };
 use crate::simulation::Pose;
 
@@ -56,12 +57,22 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
     });
     let stops = resolved.loads.iter().filter_map(of_stop);
     let gears = resolved.gears.iter().map(|gear| {
-        let joints = gear.coordinates.map(|of| joint_of(&of));
-        format!("{{\"name\":{},\"joints\":{joints:?}}}", quoted(gear.name))
+        format!(
+            "{{\"name\":{},\"joints\":{:?},\"angles\":{:?},\"ratio\":{:?}}}",
+            quoted(gear.name),
+            gear.coordinates.map(|of| joint_of(&of)),
+            gear.coordinates.map(|of| of.is_angle()),
+            gear.ratio
+        )
     });
     let surfaces = list(of_surfaces(recording, &resolved), |text| text);
-    let outputs = list(&recording.outputs, |(name, unit)| {
-        format!("{{\"name\":{},\"unit\":{}}}", quoted(name), quoted(unit))
+    let outputs = list(&recording.outputs, |output| {
+        format!(
+            "{{\"name\":{},\"unit\":{},\"roundoff\":{:e}}}",
+            quoted(&output.name),
+            quoted(&output.unit),
+            output.roundoff
+        )
     });
     let (tracks, encoded) = numbers.finish();
     let header = format!(
@@ -93,24 +104,48 @@ fn of_body(
     let (nodes, turns) = (first.nodes.len(), !first.axes.is_empty());
     let is_chain = matches!(body, BodyReference::Cable(_));
     let mut held = vec![NO_TURN; first.axes.len()];
+    let kind = (recording.scene.dimension, is_chain);
+    // Quaternions of frames are to be near those that bodies are drawn with.
+    let drawn = row(&recording.drawn[place], kind, &mut held);
     let rows: Vec<Vec<f64>> = (recording.poses.iter())
-        .map(|poses| {
-            row(
-                &poses[place],
-                (recording.scene.dimension, is_chain),
-                &mut held,
-            )
-        })
+        .map(|poses| row(&poses[place], kind, &mut held))
         .collect();
-    let track = numbers.stepped(&rows);
+    let (track, drawn) = (numbers.stepped(&rows), numbers.stepped(&[drawn]));
     let shape = match body {
-        BodyReference::Cable(cable) => of_cable(resolved, cable),
+        BodyReference::Cable(cable) => {
+            let stresses = SectionStress::of(cable.body, &mesh(resolved, cable));
+            of_cable(resolved, cable) + &of_forces(recording, place, &stresses, numbers)
+        }
         BodyReference::Rigid(rigid) => of_rigid(rigid),
     };
     format!(
-        "{{\"name\":{},\"nodes\":{nodes},\"turns\":{turns},\"track\":{track},{shape}}}",
+        "{{\"name\":{},\"nodes\":{nodes},\"turns\":{turns},\"track\":{track},\"drawn\":{drawn},{shape}}}",
         quoted(body.name())
     )
+}
+
+/// Axial force, bending moment and largest normal stress at the nodes of a flexible body, in every frame.
+fn of_forces(
+    recording: &Recording,
+    place: usize,
+    stresses: &[SectionStress],
+    numbers: &mut Numbers,
+) -> String {
+    let at = |(forces, stress): (&[f64; 3], &SectionStress)| {
+        [
+            forces[0],
+            forces[1].hypot(forces[2]),
+            stress.largest(*forces),
+        ]
+    };
+    let row =
+        |forces: &Vec<Vec<[f64; 3]>>| forces[place].iter().zip(stresses).flat_map(at).collect();
+    let rows: Vec<Vec<f64>> = recording.forces.iter().map(row).collect();
+    if rows[0].is_empty() {
+        String::new()
+    } else {
+        format!(",\"forces\":{}", numbers.stepped(&rows))
+    }
 }
 
 /// Numbers of a body in one frame, node by node: position, slope but of rigid bodies in space, how sections or frames stand.
@@ -199,7 +234,27 @@ fn of_rigid(rigid: Rigid<'_>) -> String {
     let corners = body.shape.map(|shape| shape.points()).unwrap_or_default();
     let far = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
     let radius = corners.into_iter().map(far).fold(0.0, f64::max);
-    format!("\"points\":{points:?},\"solid\":{solid},\"radius\":{radius:?}")
+    // A body that nothing else tells the size of is drawn by its inertia.
+    let inertial = if body.shape.is_none() && points.len() < 2 {
+        inertial(body)
+    } else {
+        [0.0; 3]
+    };
+    let radius = inertial.into_iter().fold(radius, f64::max);
+    format!(
+        "\"points\":{points:?},\"solid\":{solid},\"radius\":{radius:?},\"inertial\":{inertial:?}"
+    )
+}
+
+/// Half axes of the uniform ellipsoid with the mass and the moments of inertia of a body, along the axes of its frame, m. 0 of a particle.
+fn inertial(body: &RigidBody) -> [f64; 3] {
+    let moments = match body.inertia() {
+        Inertia::Number(moment) => [moment; 3],
+        Inertia::Moments(moments) => moments,
+        Inertia::Tensor(rows) => [0, 1, 2].map(|axis| rows[axis][axis]),
+    };
+    let sum: f64 = moments.iter().sum();
+    moments.map(|moment| (2.5 * (sum - 2.0 * moment).max(0.0) / body.mass()).sqrt())
 }
 
 fn of_marker(resolved: &Resolved<'_>, marker: &ResolvedMarker<'_>) -> String {
@@ -334,4 +389,25 @@ fn of_action(
         action.follower,
         action.components
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_box_and_the_ellipsoid_of_its_inertia_have_the_same_moments() {
+        let text = r#"{ "name": "one", "dimension": 3, "bodies": [ { "name": "brick", "element": "rigid", "mass": 3.0,
+          "inertia": [1.3, 1.0, 0.5], "position": [0.0, 0.0, 0.0] } ] }"#;
+        let scene = Scene::from_json(text).expect("a valid scene");
+        let resolved = scene.resolved();
+        let [BodyReference::Rigid(rigid)] = &resolved.bodies[..] else {
+            panic!("a rigid body");
+        };
+        let [a, b, c] = inertial(rigid.body).map(|half| 3.0 / 5.0 * half * half);
+        for (found, wanted) in [(b + c, 1.3), (c + a, 1.0), (a + b, 0.5)] {
+            assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+        }
+    }
 }

@@ -17,6 +17,6 @@ mod vtk;
 pub use bundle::{LICENSE, SOURCES, bundle};
 pub use gltf::gltf;
 pub use picture::{document, picture, picture_of_table};
-pub use recording::{Limits, Recording};
+pub use recording::{HeldInput, Limits, Recording};
 pub use table::OutputTable;
 pub use vtk::vtk;

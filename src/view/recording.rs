@@ -2,7 +2,7 @@
 
 use super::actions::{MovingAction, actions};
 use crate::scene::Scene;
-use crate::simulation::{Causality, InputTable, Pose, Signals, Simulation};
+use crate::simulation::{Causality, InputTable, Pose, Signals, Simulation, Variable};
 
 /// How much of a run is kept, and how long it may take.
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +38,30 @@ impl Limits {
     }
 }
 
+/// Part of its natural size that is roundoff of an output.
+const ROUNDOFF: f64 = 1e-9;
 /// Fewest frames of a picture that moves.
 const FEWEST_FRAMES: usize = 25;
+
+/// An output of a run.
+pub(super) struct RecordedOutput {
+    /// Name of the variable.
+    pub name: String,
+    /// Unit, for people.
+    pub unit: String,
+    /// Largest change that is roundoff, in the unit.
+    pub roundoff: f64,
+}
+
+/// An input that keeps its value.
+pub struct HeldInput {
+    /// Name of the variable.
+    pub name: String,
+    /// Value.
+    pub value: f64,
+    /// Unit, for people.
+    pub unit: String,
+}
 
 /// A run of a scene.
 pub struct Recording {
@@ -53,8 +75,14 @@ pub struct Recording {
     pub(super) acting: Vec<Vec<Vec<f64>>>,
     /// Where markers are at the start, m.
     pub(super) markers: Vec<[f64; 3]>,
-    /// Names and units of outputs.
-    pub(super) outputs: Vec<(String, &'static str)>,
+    /// How all bodies stand where the scene draws them.
+    pub(super) drawn: Vec<Pose>,
+    /// Axial force (N) and bending moments (N m) at the nodes of all bodies, in every frame.
+    pub(super) forces: Vec<Vec<Vec<[f64; 3]>>>,
+    /// Outputs.
+    pub(super) outputs: Vec<RecordedOutput>,
+    /// Inputs that nothing moves.
+    held: Vec<HeldInput>,
     /// Times (s) and values of outputs.
     pub(super) row_times: Vec<f64>,
     pub(super) rows: Vec<Vec<f64>>,
@@ -86,7 +114,7 @@ impl Recording {
         }
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| error.to_string())?;
-        let mut run = UnfinishedRecording::new(scene.clone(), simulation)?;
+        let mut run = UnfinishedRecording::new(scene.clone(), simulation, signals.as_ref())?;
         let actions = actions(&resolved);
         run.frame(&actions)?;
         let steps = scene.experiment.steps() as u64;
@@ -123,6 +151,11 @@ impl Recording {
         &self.times
     }
 
+    /// Inputs that nothing moves, in the order of the variables.
+    pub fn held(&self) -> &[HeldInput] {
+        &self.held
+    }
+
     /// Why the run ended before its experiment, if it did.
     pub fn stopped(&self) -> Option<&str> {
         self.stopped.as_deref()
@@ -138,19 +171,45 @@ struct UnfinishedRecording {
 }
 
 impl UnfinishedRecording {
-    fn new(scene: Scene, mut simulation: Simulation) -> Result<Self, String> {
-        let variables = simulation.variables().iter().enumerate();
-        let outputs = variables.filter(|(_, v)| Causality::of(v) == Causality::Output);
-        let outputs: Vec<(usize, (String, &'static str))> = outputs
-            .map(|(index, v)| (index, (v.name.clone(), v.unit.map_or("", |unit| unit.name))))
-            .collect();
-        let (columns, outputs) = outputs.into_iter().unzip();
+    fn new(
+        scene: Scene,
+        mut simulation: Simulation,
+        signals: Option<&Signals>,
+    ) -> Result<Self, String> {
+        let unit = |variable: &Variable| variable.unit.map_or(String::new(), |u| u.symbol());
+        let with = |causality| {
+            let variables = simulation.variables().iter().enumerate();
+            variables.filter(move |(_, variable)| Causality::of(variable) == causality)
+        };
+        let output = |(index, variable): (usize, &Variable)| {
+            let curve = RecordedOutput {
+                name: variable.name.clone(),
+                unit: unit(variable),
+                roundoff: ROUNDOFF * simulation.natural_size(variable),
+            };
+            (index, curve)
+        };
+        let (columns, outputs) = with(Causality::Output).map(output).unzip();
+        let held = with(Causality::Input)
+            .filter(|(index, _)| signals.is_none_or(|signals| !signals.holds(*index)))
+            .map(|(index, variable)| HeldInput {
+                name: variable.name.clone(),
+                value: simulation.setting(index),
+                unit: unit(variable),
+            });
+        let held = held.collect();
         let markers = simulation.markers().map_err(|error| error.to_string())?;
+        let drawn = simulation
+            .drawn_poses()
+            .map_err(|error| error.to_string())?;
         Ok(Self {
             simulation,
             columns,
             recording: Recording {
                 scene,
+                drawn,
+                forces: Vec::new(),
+                held,
                 times: Vec::new(),
                 poses: Vec::new(),
                 acting: Vec::new(),
@@ -169,7 +228,8 @@ impl UnfinishedRecording {
         let poses = recording.poses[0].iter();
         let numbers = |pose: &Pose| 6 * pose.nodes.len() + 4 * pose.axes.len();
         let stepped: usize = poses.map(numbers).sum::<usize>()
-            + recording.acting[0].iter().map(Vec::len).sum::<usize>();
+            + recording.acting[0].iter().map(Vec::len).sum::<usize>()
+            + 3 * recording.forces[0].iter().map(Vec::len).sum::<usize>();
         let exact = self.columns.len() + 2;
         let fit = limits.bytes / (2 * stepped + 8 * exact);
         if fit < FEWEST_FRAMES {
@@ -204,12 +264,16 @@ impl UnfinishedRecording {
 
     fn frame(&mut self, actions: &[MovingAction<'_>]) -> Result<(), String> {
         let poses = self.simulation.poses().map_err(|error| error.to_string())?;
+        let forces = self.simulation.section_forces();
         let values = actions
             .iter()
             .map(|action| action.values(&mut self.simulation));
         let values: Result<Vec<Vec<f64>>, _> = values.collect();
         self.recording.times.push(self.simulation.time());
         self.recording.poses.push(poses);
+        self.recording
+            .forces
+            .push(forces.map_err(|error| error.to_string())?);
         self.recording
             .acting
             .push(values.map_err(|error| error.to_string())?);
@@ -262,6 +326,32 @@ mod tests {
         let gaps = run.times.windows(2).map(|pair| pair[1] - pair[0]);
         assert!({ gaps }.all(|gap| gap > 0.029 && gap < 0.041));
         assert_eq!(run.stopped(), None);
+    }
+
+    #[test]
+    fn inputs_without_a_column_are_held_and_roundoff_follows_the_scene() {
+        let mut text: serde_json::Value = serde_json::from_str(&scene().to_json()).expect("JSON");
+        text["inputs"] = serde_json::json!([{ "kind": "torque", "joint": "pin", "start": 0.25 }]);
+        let scene = Scene::from_json(&text.to_string()).expect("a valid scene");
+        let held = |inputs: Option<&InputTable>| -> Vec<(String, f64)> {
+            let run = Recording::new(&scene, inputs, &Limits::PAGE, &mut |_, _| ());
+            let run = run.expect("a run");
+            let roundoff: Vec<f64> = run.outputs.iter().map(|output| output.roundoff).collect();
+            assert!(
+                roundoff.iter().all(|least| (1e-10..1e-8).contains(least)),
+                "{roundoff:?}"
+            );
+            run.held()
+                .iter()
+                .map(|input| (input.name.clone(), input.value))
+                .collect()
+        };
+        assert_eq!(held(None), [("pin.torque".to_owned(), 0.25)]);
+        let table = InputTable {
+            text: "time,pin.torque\n0,1\n1,2\n".into(),
+            curve: crate::scene::Interpolation::Linear,
+        };
+        assert_eq!(held(Some(&table)), []);
     }
 
     #[test]

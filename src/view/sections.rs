@@ -39,10 +39,94 @@ pub(super) fn sections(body: &LineBody, mesh: &[f64]) -> Vec<[[f64; 2]; 2]> {
         .collect()
 }
 
+/// How the largest normal stress of a section follows from what acts in it.
+pub(super) struct SectionStress {
+    /// By axial force, 1/m^2.
+    by_force: f64,
+    /// By bending moments about the first and the second axis, 1/m^3.
+    by_moments: [f64; 2],
+    /// Whether both moments are largest at one point, a corner.
+    has_corners: bool,
+}
+
+impl SectionStress {
+    /// Those of the sections at material coordinates; none where a section's stiffness is given as a whole.
+    pub fn of(body: &LineBody, mesh: &[f64]) -> Vec<Self> {
+        let at = |s: &f64| {
+            let numbers = body.section_after(*s);
+            let [along_first, along_second] = halves(&numbers);
+            let [first, second] = numbers.second_moments;
+            let found = [
+                1.0 / numbers.area,
+                along_second / first,
+                along_first / second,
+            ];
+            let [by_force, by_first, by_second] = found.map(|by| {
+                if numbers.given.is_none() && by.is_finite() {
+                    by
+                } else {
+                    0.0
+                }
+            });
+            Self {
+                by_force,
+                by_moments: [by_first, by_second],
+                has_corners: has_corners(body),
+            }
+        };
+        mesh.iter().map(at).collect()
+    }
+
+    /// Largest size of the normal stress under an axial force (N) and two bending moments (N m), Pa.
+    pub fn largest(&self, [force, first, second]: [f64; 3]) -> f64 {
+        let bending = [first * self.by_moments[0], second * self.by_moments[1]].map(f64::abs);
+        let both = if self.has_corners {
+            bending[0] + bending[1]
+        } else {
+            bending[0].hypot(bending[1])
+        };
+        force.abs() * self.by_force + both
+    }
+}
+
 /// Whether sections have corners.
 pub(super) fn has_corners(body: &LineBody) -> bool {
     matches!(
         body.section_after(0.0).shape,
         Some(Profile::Rectangle { .. })
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Body, Scene};
+
+    fn stress(section: &str) -> f64 {
+        let text = format!(
+            r#"{{ "name": "one", "dimension": 3, "gravity": [0.0, 0.0, 0.0], "bodies": [ {{ "name": "bar", "element": "rod", "elements": 1,
+              "material": {{ "youngs_modulus": 1e9, "shear_modulus": 4e8, "density": 1000.0 }}, "section": {{ {section} }},
+              "shape": {{ "line": {{ "from": [0.0, 0.0, 0.0], "to": [1.0, 0.0, 0.0] }} }} }} ] }}"#
+        );
+        let scene = Scene::from_json(&text).expect("a valid scene");
+        let body = scene.bodies.iter().find_map(Body::flexible).expect("a rod");
+        SectionStress::of(body, &[0.0, 1.0])[0].largest([-6.0, 3.0, -4.0])
+    }
+
+    #[test]
+    fn stress_is_largest_at_a_corner_or_across_the_whole_moment() {
+        let [width, height] = [0.2, 0.1];
+        let rectangle = stress(r#""shape": { "rectangle": { "width": 0.2, "height": 0.1 } }"#);
+        let wanted = 6.0 / (width * height)
+            + 3.0 / (width * height * height / 6.0)
+            + 4.0 / (height * width * width / 6.0);
+        assert!(
+            (rectangle / wanted - 1.0).abs() < 1e-12,
+            "{rectangle} {wanted}"
+        );
+        let circle = stress(r#""shape": { "circle": { "radius": 0.1 } }"#);
+        let area = std::f64::consts::PI * 0.01;
+        let wanted = 6.0 / area + 5.0 / (area * 0.1 / 4.0);
+        assert!((circle / wanted - 1.0).abs() < 1e-12, "{circle} {wanted}");
+    }
 }

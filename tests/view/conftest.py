@@ -101,6 +101,12 @@ class Pages:
             xtask("view", self.scene(name), "--output", page, "--no-open")
         return page
 
+    def made(self, scene):
+        """The page of a scene of a test."""
+        path = self.folder / f"{scene['name']}.json"
+        path.write_text(json.dumps(scene), encoding="utf-8")
+        return self(scene["name"])
+
     def table(self, name, *options):
         """Outputs of the same scene as they are simulated."""
         path = self.folder / f"{name}.csv"

@@ -4,8 +4,8 @@ use super::picture::{MarkerInImage, Picture};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{
-    Ends, First, Hold, JointCoordinate, LoadKind, MotionKind, Place as On, PortKind, ResolvedJoint,
-    Symbol,
+    Ends, First, Hold, JointCoordinate, LoadKind, MotionKind, Place as On, PortKind, ResolvedGear,
+    ResolvedJoint, Symbol,
 };
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
@@ -143,7 +143,25 @@ impl Picture<'_> {
             let both = gear
                 .coordinates
                 .map(|of| self.at(of.ends().second.position));
-            symbols::gear(&mut self.canvas, both, self.unit);
+            let radii = self.wheels(gear, both);
+            symbols::gear(&mut self.canvas, both, radii, self.unit);
+        }
+    }
+
+    /// Radii of the wheels of a gear, pixels: in the ratio of two angles, in mesh where these are opposite; of a wheel on a rack as it is;
+    /// 0 of a displacement.
+    fn wheels(&self, gear: &ResolvedGear<'_>, [from, to]: [Point; 2]) -> [f64; 2] {
+        let size = gear.ratio.abs();
+        match gear.coordinates.map(|of| of.is_angle()) {
+            [true, true] => {
+                let reach = (to[0] - from[0]).hypot(to[1] - from[1]);
+                let mesh = if gear.ratio < 0.0 { 1.0 } else { 0.6 };
+                let second = mesh * reach.max(2.0 * self.unit) / (1.0 + size);
+                [second * size, second]
+            }
+            [true, false] => [self.pixels(size), 0.0],
+            [false, true] => [0.0, self.pixels(1.0 / size)],
+            [false, false] => [0.0; 2],
         }
     }
 

@@ -91,6 +91,7 @@ impl Picture<'_> {
         if self.names {
             self.name_all();
             self.gravity();
+            self.axes();
         }
         self.canvas
             .finish(&format!("Drawing of the scene {}", self.scene.name))
@@ -121,6 +122,47 @@ mod tests {
             assert!(picture.contains(&format!(">{name}</text>")), "{name}");
         }
         assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    }
+
+    #[test]
+    fn axes_are_named_and_wheels_have_the_ratio_of_their_gear() {
+        let wheel = |name: &str, x: f64| {
+            format!(
+                r#"{{ "name": "{name}", "element": "rigid", "mass": 1.0, "inertia": 0.1, "position": [{x:?}, 0.0], "markers": {{ "centre": [0.0, 0.0] }} }}"#
+            )
+        };
+        let text = format!(
+            r#"{{ "name": "gears", "dimension": 2, "bodies": [ {}, {} ],
+              "joints": [ {{ "name": "left", "kind": "revolute", "markers": ["ground", "a.centre"] }},
+                          {{ "name": "right", "kind": "revolute", "markers": ["ground", "b.centre"] }} ],
+              "gears": [ {{ "name": "mesh", "joints": ["left", "right"], "ratio": -3.0 }} ] }}"#,
+            wheel("a", 0.0),
+            wheel("b", 1.0)
+        );
+        let picture = drawing(&Scene::from_json(&text).expect("a valid scene"));
+        for name in ["x", "y", "a.centre"] {
+            assert!(picture.contains(&format!(">{name}</text>")), "{name}");
+        }
+        assert!(!picture.contains(">z</text>"));
+        let document = roxmltree::Document::parse(&picture).expect("a valid drawing");
+        let number = |node: roxmltree::Node<'_, '_>, name: &str| -> f64 {
+            let text = node.attribute(name).expect("an attribute");
+            text.parse().expect("a number")
+        };
+        let circles = document
+            .descendants()
+            .filter(|node| node.has_tag_name("circle"));
+        let mut wheels: Vec<[f64; 2]> = circles
+            .map(|node| [number(node, "cx"), number(node, "r")])
+            .collect();
+        wheels.sort_by(|a, b| b[1].total_cmp(&a[1]));
+        let [[first, large], [second, small], ..] = wheels[..] else {
+            panic!("two wheels");
+        };
+        // They touch, and the second turns three times as fast.
+        assert!(
+            (large - 3.0 * small).abs() < 0.3 && (large + small - (second - first)).abs() < 0.3
+        );
     }
 
     /// Edges of the texts of a drawing, from what stands in it: letters of 13 pixels are some 7.2 wide.

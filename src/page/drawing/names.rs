@@ -1,5 +1,7 @@
 //! Names beside what they name.
 
+use std::borrow::Cow;
+
 use super::actions::actions;
 use super::bodies::rigid_outline;
 use super::picture::{BODY, FAINT, INK, Picture, seen};
@@ -14,13 +16,14 @@ const MOST_BODIES: usize = 32;
 struct Label<'a> {
     at: Point,
     side: Point,
-    lines: Vec<(&'a str, &'static str)>,
+    lines: Vec<(Cow<'a, str>, &'static str)>,
     /// Whether a symbol needs room between the point and the names.
     is_far: bool,
 }
 
 impl<'a> Label<'a> {
-    fn add(&mut self, text: &'a str, colour: &'static str) {
+    fn add(&mut self, text: impl Into<Cow<'a, str>>, colour: &'static str) {
+        let text = text.into();
         if !self.lines.iter().any(|(other, _)| *other == text) {
             self.lines.push((text, colour));
         }
@@ -34,7 +37,9 @@ impl<'a> Picture<'a> {
         }
         for label in self.labels() {
             let distance = if label.is_far { 2.8 } else { 1.5 };
-            self.write(label.at, label.side, distance * self.unit, &label.lines);
+            let lines = label.lines.iter().map(|(text, colour)| (&**text, *colour));
+            let lines: Vec<(&str, &'static str)> = lines.collect();
+            self.write(label.at, label.side, distance * self.unit, &lines);
         }
         self.name_bodies();
         self.name_links();
@@ -65,7 +70,7 @@ impl<'a> Picture<'a> {
                 && let [point] = rigid_outline(rigid.body, self.scene.dimension)[..]
                 && let Some(label) = self.label_at(labels, self.at(point))
             {
-                label.lines.insert(0, (body.name(), BODY));
+                label.lines.insert(0, (body.name().into(), BODY));
             }
         }
     }
@@ -75,12 +80,16 @@ impl<'a> Picture<'a> {
         let mut labels: Vec<Label<'a>> = Vec::new();
         for marker in &self.resolved.markers {
             let point = self.at(marker.position);
+            let name: Cow<'a, str> = match self.scene.bodies.len() {
+                1 => marker.name.into(),
+                _ => format!("{}.{}", marker.place.body().name(), marker.name).into(),
+            };
             match self.label_at(&mut labels, point) {
-                Some(label) => label.add(marker.name, INK),
+                Some(label) => label.add(name, INK),
                 None => labels.push(Label {
                     at: point,
                     side: self.side(marker.place),
-                    lines: vec![(marker.name, INK)],
+                    lines: vec![(name, INK)],
                     is_far: false,
                 }),
             }

@@ -66,8 +66,11 @@ impl<'a> Picture<'a> {
             centre: [0.5 * size[0], 0.5 * size[1]],
             unit,
             names,
-            // Of gravity, whose arrow is in the upper right corner.
-            written: vec![[size[0] - 5.0 * unit, 0.0, size[0], 5.2 * unit]],
+            // Of gravity, whose arrow is in the upper right corner, and of the axes in the lower left one.
+            written: vec![
+                [size[0] - 5.0 * unit, 0.0, size[0], 5.2 * unit],
+                [0.0, size[1] - 6.0 * unit, 6.0 * unit, size[1]],
+            ],
         }
     }
 
@@ -78,6 +81,11 @@ impl<'a> Picture<'a> {
             self.centre[0] + self.scale * (across - self.middle[0]),
             self.centre[1] - self.scale * (up - self.middle[1]),
         ]
+    }
+
+    /// A length in the image, pixels.
+    pub(super) fn pixels(&self, length: f64) -> f64 {
+        self.scale * length
     }
 
     /// Where a point or a vector is seen, m: as it is in the plane, in an isometric view of space.
@@ -124,6 +132,29 @@ impl<'a> Picture<'a> {
         let side = [-along[1].abs(), along[0].abs()];
         let at = moved(corner, side, 0.8 * self.unit);
         self.canvas.texts(at, side, &[("g", FAINT)]);
+    }
+}
+
+impl Picture<'_> {
+    /// The global axes with their names, in the lower left corner.
+    pub(super) fn axes(&mut self) {
+        let style = Style {
+            stroke: FAINT,
+            width: 0.12 * self.unit,
+            fill: "none",
+        };
+        let corner = [2.6 * self.unit, self.canvas.height() - 2.6 * self.unit];
+        for (axis, name) in ["x", "y", "z"]
+            .iter()
+            .enumerate()
+            .take(self.scene.dimension)
+        {
+            let along = self.way(std::array::from_fn(|k| f64::from(u8::from(k == axis))));
+            let tip = moved(corner, along, 2.0 * self.unit);
+            self.canvas.arrow(corner, tip, 0.5 * self.unit, style);
+            let at = moved(corner, along, 2.2 * self.unit);
+            self.canvas.texts(at, along, &[(name, FAINT)]);
+        }
     }
 }
 

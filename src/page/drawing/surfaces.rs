@@ -1,9 +1,12 @@
 //! Surfaces of the ground that bodies touch.
 
 use super::bodies::outline;
-use super::picture::{FAINT, Picture};
+use super::picture::Picture;
 use crate::page::canvas::{Point, Style};
 use crate::scene::{LoadKind, Resolved, Surface};
+
+/// Colour of surfaces, lighter than all that touches them.
+const BED: &str = "#d3dae1";
 
 /// Everything of all surfaces that is told by points around the bodies, m.
 fn each(
@@ -29,8 +32,8 @@ pub(super) fn outlines(resolved: &Resolved<'_>) -> Vec<[f64; 3]> {
 impl Picture<'_> {
     pub(super) fn surfaces(&mut self) {
         let style = Style {
-            stroke: FAINT,
-            width: 0.05 * self.unit,
+            stroke: BED,
+            width: 0.08 * self.unit,
             fill: "none",
         };
         let dimension = self.scene.dimension;

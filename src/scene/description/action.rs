@@ -44,10 +44,10 @@ impl ActionKind {
     fn declaration(self) -> (ActsOn, bool, [&'static str; 2]) {
         match self {
             Self::Force => (ActsOn::Marker, true, ["force", "N"]),
-            Self::Moment => (ActsOn::Marker, false, ["moment", "N m"]),
-            Self::Torque => (ActsOn::Joint, false, ["torque", "N m"]),
+            Self::Moment => (ActsOn::Marker, false, ["moment", "N·m"]),
+            Self::Torque => (ActsOn::Joint, false, ["torque", "N·m"]),
             Self::DistributedForce => (ActsOn::Cable, true, ["distributed force", "N/m"]),
-            Self::DistributedMoment => (ActsOn::Sections, false, ["distributed moment", "N m/m"]),
+            Self::DistributedMoment => (ActsOn::Sections, false, ["distributed moment", "N·m/m"]),
         }
     }
 

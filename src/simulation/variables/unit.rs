@@ -9,6 +9,20 @@ pub struct Unit {
     pub exponents: [i32; 4],
 }
 
+impl Unit {
+    /// Writes the unit for people: `m/s²`, `N·m`.
+    pub fn symbol(&self) -> String {
+        let letters = self.name.chars().map(|letter| match letter {
+            '.' => '·',
+            '2' => '²',
+            '3' => '³',
+            '4' => '⁴',
+            other => other,
+        });
+        letters.collect()
+    }
+}
+
 const fn unit(name: &'static str, kg: i32, m: i32, s: i32, rad: i32) -> Unit {
     Unit {
         name,
@@ -44,3 +58,21 @@ pub(super) const NEWTON_METRE_SECOND: Unit = unit("N.m.s", 1, 2, -1, 0);
 pub(super) const NEWTON_METRE_PER_RADIAN: Unit = unit("N.m/rad", 1, 2, -2, -1);
 pub(super) const NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", 1, 2, -1, -1);
 pub(super) const JOULE: Unit = unit("J", 1, 2, -2, 0);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_those_of_print() {
+        let found = [
+            METRE_PER_SECOND_2,
+            NEWTON_METRE_PER_RADIAN,
+            INERTIA,
+            METRE_4,
+            DENSITY,
+        ];
+        let symbols = found.map(|unit| unit.symbol());
+        assert_eq!(symbols, ["m/s²", "N·m/rad", "kg·m²", "m⁴", "kg/m³"]);
+    }
+}

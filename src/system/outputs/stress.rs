@@ -36,6 +36,20 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             + second.dot(&moment) * by_second
     }
 
+    /// Axial force (N) in a section, and bending moments about both its axes (N m); of a section without axes the size of the moment is
+    /// the first.
+    pub fn section_forces(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
+        let (force, moment) = self.cut(system, marker);
+        let [normal, first, second] = self.section_axes(system, marker);
+        let (force, moment) = (Vector3::from(components(&force)), Vector3::from(moment));
+        let axial = normal.dot(&force);
+        if D == 3 && marker.is_framed() {
+            return [axial, first.dot(&moment), second.dot(&moment)];
+        }
+        let across = moment - normal * normal.dot(&moment);
+        [axial, across.norm(), N::of(0.0)]
+    }
+
     /// Shear stress by torsion at a point of a section, Pa.
     pub fn torsion_stress(&self, system: &System<D>, point: &StressPoint) -> N {
         let (_, moment) = self.cut(system, &point.marker);

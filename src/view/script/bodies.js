@@ -1,7 +1,7 @@
 // Bodies as surfaces: of chains rings of vertices along their lines, of rigid bodies their shape.
 
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, Group, LatheGeometry, LineBasicMaterial,
+  BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, EdgesGeometry, Group, LatheGeometry, Line, LineBasicMaterial,
   LineSegments, Mesh, MeshLambertMaterial, Quaternion, SphereGeometry, Vector2, Vector3,
 } from 'three';
 import { ConvexGeometry } from 'three/examples/jsm/geometries/ConvexGeometry.js';
@@ -12,6 +12,9 @@ const AROUND = 16;
 const ALONG = 72;
 /** Half the width of what is thinner, pixels. */
 const THIN = 1.6;
+/** Half the width from which on lines show how sections stand, pixels. */
+const WIDE = 3;
+const EDGES = { color: '#24292f', transparent: true, opacity: 0.55 };
 
 function material(number) {
   const colour = COLOURS[number % COLOURS.length];
@@ -51,9 +54,26 @@ class Chain {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * (rings + 2) * width), 3));
     geometry.setAttribute('normal', new BufferAttribute(new Float32Array(3 * (rings + 2) * width), 3));
+    geometry.setAttribute('color', new BufferAttribute(new Float32Array(3 * (rings + 2) * width), 3));
     geometry.setIndex(index);
     this.object = new Mesh(geometry, material(body.number));
     this.object.frustumCulled = false;
+    if (body.corners || (body.turns && body.dimension === 3)) this.addEdges(rings, width);
+  }
+
+  /** Lines along the body: edges of what has corners, four around what is round and can twist. */
+  addEdges(rings, width) {
+    const index = [];
+    for (let ring = 0; ring + 1 < rings; ring += 1) {
+      for (let k = 0; k < width - 1; k += this.body.corners ? 2 : AROUND / 4) index.push(ring * width + k, (ring + 1) * width + k);
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', this.object.geometry.attributes.position);
+    geometry.setIndex(index);
+    this.edges = new LineSegments(geometry, new LineBasicMaterial(EDGES));
+    this.edges.frustumCulled = false;
+    this.object.add(this.edges);
+    Object.assign(this.object.material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 });
   }
 
   /** Half widths of the section at a place of an element. */
@@ -63,12 +83,15 @@ class Chain {
     return [0, 1].map((k) => Math.max(a[k] + (b[k] - a[k]) * xi, least));
   }
 
-  update(pixel) {
-    const { position, normal } = this.object.geometry.attributes;
+  update(pixel, paint) {
+    const { position, normal, color } = this.object.geometry.attributes;
     const width = this.rim.length;
     const [point, out] = [new Vector3(), new Vector3()];
+    if (this.edges) this.edges.visible = Math.max(...this.halves(0, 0, 0)) > WIDE * pixel;
     let before;
+    const painted = new Color();
     const put = (at, section, halves, [y, z], direction) => {
+      if (paint) color.setXYZ(at, painted.r, painted.g, painted.b);
       point.set(0, y * halves[0], z * halves[1]).applyQuaternion(section.stance).add(section.point);
       position.setXYZ(at, point.x, point.y, point.z);
       out.copy(direction).applyQuaternion(section.stance);
@@ -80,6 +103,7 @@ class Chain {
       const section = this.body.section(element, xi, before);
       const halves = this.halves(element, xi, THIN * pixel);
       before = section.stance;
+      if (paint) painted.set(paint.colour(this.body, element, xi));
       this.rim.forEach(([y, z], k) => put(ring * width + k, section, halves, [y, z], this.outward(k, halves)));
       if (ring === 0 || ring === this.rings - 1) {
         const lid = (this.rings + (ring === 0 ? 0 : 1)) * width;
@@ -87,8 +111,14 @@ class Chain {
         this.rim.forEach(([y, z], k) => put(lid + k, section, halves, [y, z], ahead));
       }
     }
-    position.needsUpdate = true;
-    normal.needsUpdate = true;
+    for (const changed of [position, normal, color]) changed.needsUpdate = true;
+  }
+
+  /** Shows colours of vertices, or that of the body. */
+  paint(isPainted) {
+    const { material } = this.object;
+    Object.assign(material, { vertexColors: isPainted, needsUpdate: true });
+    material.color.set(isPainted ? '#fff' : colourOf(this.body.number));
   }
 
   outward(k, halves) {
@@ -120,7 +150,10 @@ function shape(body, least) {
     const corners = [[inner, low], [radius, low], [radius, low], [radius, high], [radius, high], [inner, high], [inner, high], [inner, low]];
     return turned(new LatheGeometry(corners.map((corner) => new Vector2(...corner)), 48), axis);
   }
-  if (body.points.length < 2) return new SphereGeometry(1.6 * least, 32, 16);
+  if (body.points.length < 2) {
+    // The ellipsoid that has the same inertia, as large as can be seen.
+    return new SphereGeometry(1, 32, 16).scale(...body.inertial.map((half) => Math.max(half, 1.6 * least)));
+  }
   // What its markers and its centre of mass span, as thick as can be seen.
   const directions = new SphereGeometry(least, 8, 6).attributes.position;
   const around = [];
@@ -147,7 +180,7 @@ class Rigid {
     this.object.add(surface);
     if (body.solid && !body.solid.sphere) {
       const edges = new EdgesGeometry(geometry, 40);
-      this.object.add(new LineSegments(edges, new LineBasicMaterial({ color: '#24292f', transparent: true, opacity: 0.55 })));
+      this.object.add(new LineSegments(edges, new LineBasicMaterial(EDGES)));
     }
     if (body.solid?.cylinder || body.solid?.sphere || body.solid?.tube) this.addSpokes(body.solid);
   }
@@ -172,7 +205,7 @@ class Rigid {
       points.push(new Vector3(1.001 * radius, -0.5 * length, 0), new Vector3(1.001 * radius, 0.5 * length, 0));
     }
     const geometry = new BufferGeometry().setFromPoints(points.map((point) => point.applyQuaternion(turn)));
-    this.object.add(new LineSegments(geometry, new LineBasicMaterial({ color: '#24292f', transparent: true, opacity: 0.7 })));
+    this.object.add(new LineSegments(geometry, new LineBasicMaterial(EDGES)));
   }
 
   update() {
@@ -184,6 +217,14 @@ class Rigid {
 /** The surfaces of all bodies. */
 export function surfaces(motion, size) {
   return motion.bodies.map((body) => (body.lengths ? new Chain(body) : new Rigid(body, size)));
+}
+
+/** Lines of what bodies touch, lighter than these. */
+export function beds(motion) {
+  return (motion.surfaces ?? []).flatMap(({ lines }) => lines.map((line) => {
+    const geometry = new BufferGeometry().setFromPoints(line.map((point) => new Vector3(...point)));
+    return new Line(geometry, new LineBasicMaterial({ color: '#d3dae1' }));
+  }));
 }
 
 /** The colour of a body's name. */

@@ -1,50 +1,95 @@
 // Curves of outputs against time. Values are those of the table, as `flexbody simulate` writes them.
 
-import { digits, element, roundUp, set, through } from './svg.js';
+import { element, roundUp, rounded, set, through } from './svg.js';
 
 const COLOURS = ['#4a78b5', '#c2571a', '#2e7d4f', '#8f4f9e', '#8c8048', '#b3246b', '#4795a3', '#6b737c', '#24292f'];
 const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [150, 58, 10, 10, 32];
+/** Height where components have axes of their own. */
+const LOW = 100;
+/** Least part of an axis that a component takes which moves. */
+const LEAST = 0.1;
+/** Part of its largest value that is roundoff of a column. */
+const ROUNDOFF = 1e-9;
+/** Part of the largest component that is roundoff of the others. */
+const ROUNDOFF_OF_OTHERS = 1e-12;
+/** Quantities whose numbers are no components along x, y and z. */
+const NO_VECTOR = /_body$|^deflection|stress$|^quaternion$|^orientation$|^natural_frequency$/;
 /** Most points of a line; of more, the least and the largest of as many parts are drawn. */
 const MOST_POINTS = 1200;
 
 /** Outputs by what they are read at and by what is read: `rope.middle`, `position`, then the columns. */
 export function groups(outputs) {
   const found = new Map();
-  outputs.forEach(({ name, unit }, column) => {
+  outputs.forEach(({ name, unit, roundoff }, column) => {
     const whole = name.replace(/(\[\d+\])+$/, '');
     const cut = whole.lastIndexOf('.');
     const [of, quantity] = cut < 0 ? ['', whole] : [whole.slice(0, cut), whole.slice(cut + 1)];
     if (!found.has(of)) found.set(of, new Map());
     const quantities = found.get(of);
     const key = of === 'energy' || of === 'work' ? of : quantity;
-    if (!quantities.has(key)) quantities.set(key, { unit, lines: [] });
-    const label = of === 'energy' || of === 'work' ? quantity : name.slice(whole.length) || quantity;
-    quantities.get(key).lines.push({ name, column, label });
+    if (!quantities.has(key)) quantities.set(key, { unit, lines: [], isSum: key === of });
+    const index = name.slice(whole.length);
+    const axis = NO_VECTOR.test(quantity) ? undefined : { '[1]': 'x', '[2]': 'y', '[3]': 'z' }[index];
+    const label = key === of ? quantity : axis ?? (index || quantity);
+    quantities.get(key).lines.push({ name, column, label, roundoff: roundoff ?? 0 });
   });
   return found;
 }
 
-/** Round values between two. */
+/** Round values between two, each with its text. */
 function ticks(low, high, most) {
   const step = roundUp((high - low) / most);
   const found = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(k * step);
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push([k * step, rounded(k * step, step)]);
+  return found.length < 2 && most < 32 ? ticks(low, high, 2 * most) : found;
+}
+
+/** Values of a column. */
+function columnOf({ rows, width, values }, column) {
+  return Array.from({ length: rows }, (_, row) => values[row * width + column]);
+}
+
+/** Lines of a quantity with their least and largest values; of those that only roundoff moves with the value that they keep. */
+function measured(lines, table) {
+  const found = lines.map((line) => {
+    const finite = columnOf(table, line.column).filter(Number.isFinite);
+    if (!finite.length) return { ...line, low: 0, high: 0 };
+    return { ...line, low: finite.reduce((a, b) => Math.min(a, b)), high: finite.reduce((a, b) => Math.max(a, b)) };
+  });
+  const sizeOf = ({ low, high }) => Math.max(Math.abs(low), Math.abs(high));
+  const whole = Math.max(...found.map(sizeOf));
+  return found.map((line) => {
+    const [size, least] = [sizeOf(line), Math.max(line.roundoff, ROUNDOFF_OF_OTHERS * whole)];
+    if (line.high - line.low > Math.max(least, ROUNDOFF * size)) return line;
+    const constant = size > least ? line.low : 0;
+    return { ...line, low: constant, high: constant, constant };
+  });
+}
+
+/** Lines in groups that share an axis: on it each that moves is seen to move. */
+function sharing(lines) {
+  const found = [];
+  const fits = (lines) => {
+    const span = Math.max(...lines.map(({ high }) => high)) - Math.min(...lines.map(({ low }) => low));
+    return lines.every(({ constant, low, high }) => constant !== undefined || high - low >= LEAST * span);
+  };
+  for (const line of lines) {
+    const group = found.find((group) => fits([...group, line]));
+    if (group) group.push(line);
+    else found.push([line]);
+  }
   return found;
 }
 
 /** One set of axes. */
 class Chart {
-  constructor(parent, motion, title, { unit, lines }) {
-    Object.assign(this, { motion, lines });
+  constructor(parent, motion, title, lines, height) {
+    Object.assign(this, { motion, lines, height });
     this.box = document.createElement('div');
     this.box.className = 'chart';
     parent.append(this.box);
-    const head = document.createElement('div');
-    head.className = 'title';
-    head.textContent = unit ? `${title} [${unit}]` : title;
-    this.box.append(head);
     this.width = Math.max(parent.clientWidth - 4, 240);
-    this.svg = element(this.box, 'svg', { width: this.width, height: HEIGHT, role: 'img', 'aria-label': `${title} against time` });
+    this.svg = element(this.box, 'svg', { width: this.width, height, role: 'img', 'aria-label': `${title} against time` });
     this.legend = document.createElement('div');
     this.legend.className = 'legend';
     this.box.append(this.legend);
@@ -58,54 +103,53 @@ class Chart {
 
   y(value) {
     const [low, high] = this.range;
-    return HEIGHT - BOTTOM - ((value - low) / (high - low)) * (HEIGHT - TOP - BOTTOM);
+    return this.height - BOTTOM - ((value - low) / (high - low)) * (this.height - TOP - BOTTOM);
   }
 
   column(column) {
-    const { rows, width, values } = this.motion.table;
-    return Array.from({ length: rows }, (_, row) => values[row * width + column]);
+    return columnOf(this.motion.table, column);
   }
 
   draw() {
-    const { motion } = this;
-    const series = this.lines.map((line) => this.column(line.column));
-    const finite = series.flat().filter(Number.isFinite);
-    let low = finite.reduce((a, b) => Math.min(a, b), Infinity);
-    let high = finite.reduce((a, b) => Math.max(a, b), -Infinity);
-    // What roundoff alone moves is a straight line.
-    const least = 1e-9 * Math.max(Math.abs(low), Math.abs(high)) || 1;
-    if (!(high - low > least)) [low, high] = [low - 0.5 * (Math.abs(low) || 1), high + 0.5 * (Math.abs(high) || 1)];
+    const { motion, height } = this;
+    let low = Math.min(...this.lines.map((line) => line.low));
+    let high = Math.max(...this.lines.map((line) => line.high));
+    if (!(high - low > ROUNDOFF * Math.max(Math.abs(low), Math.abs(high)))) {
+      [low, high] = [low - 0.5 * (Math.abs(low) || 1), high + 0.5 * (Math.abs(high) || 1)];
+    }
     const room = 0.06 * (high - low);
     this.range = [low - room, high + room];
     const grid = element(this.svg, 'g', { stroke: '#e4e8ec' });
     const texts = element(this.svg, 'g', { fill: '#57606a', 'font-size': 10.5 });
-    for (const value of ticks(...this.range, 4)) {
+    for (const [value, text] of ticks(...this.range, 4)) {
       const y = this.y(value);
       element(grid, 'path', { d: through([[LEFT, y], [this.width - RIGHT, y]]) });
-      element(texts, 'text', { x: LEFT - 6, y: y + 3.5, 'text-anchor': 'end' }, digits(Math.abs(value) < 1e-9 * (high - low) ? 0 : value, 3));
+      element(texts, 'text', { x: LEFT - 6, y: y + 3.5, 'text-anchor': 'end' }, text);
     }
-    for (const time of ticks(motion.start, motion.end, 6)) {
+    for (const [time, text] of ticks(motion.start, motion.end, 6)) {
       const x = this.x(time);
-      element(grid, 'path', { d: through([[x, TOP], [x, HEIGHT - BOTTOM]]) });
-      element(texts, 'text', { x, y: HEIGHT - BOTTOM + 13, 'text-anchor': 'middle' }, digits(time, 3));
+      element(grid, 'path', { d: through([[x, TOP], [x, height - BOTTOM]]) });
+      element(texts, 'text', { x, y: height - BOTTOM + 13, 'text-anchor': 'middle' }, text);
     }
-    element(texts, 'text', { x: (LEFT + this.width - RIGHT) / 2, y: HEIGHT - 4, 'text-anchor': 'middle' }, 't [s]');
-    this.lines.forEach((line, number) => {
-      line.colour = COLOURS[number % COLOURS.length];
+    element(texts, 'text', { x: (LEFT + this.width - RIGHT) / 2, y: height - 4, 'text-anchor': 'middle' }, 't [s]');
+    for (const line of this.lines) {
       line.path = element(this.svg, 'path', {
-        d: this.path(series[number]), fill: 'none', stroke: line.colour, 'stroke-width': 1.5, 'stroke-linejoin': 'round', 'data-output': line.name,
+        d: this.path(line), fill: 'none', stroke: line.colour, 'stroke-width': 1.5, 'stroke-linejoin': 'round', 'data-output': line.name,
       });
       const entry = document.createElement('span');
       entry.style.color = line.colour;
+      entry.title = line.name;
       line.value = document.createElement('b');
       entry.append(`${line.label} `, line.value);
       this.legend.append(entry);
-    });
+    }
     this.cursor = element(this.svg, 'path', { stroke: '#24292f', 'stroke-width': 1, 'stroke-opacity': 0.6 });
     this.svg.style.cursor = 'pointer';
   }
 
-  path(values) {
+  path({ column, constant }) {
+    const values = this.column(column);
+    if (constant !== undefined) values.fill(constant);
     const times = this.motion.rowTimes;
     const point = (row) => [this.x(times[row]), this.y(values[row])];
     if (values.length <= MOST_POINTS) return through(values.map((_, row) => point(row)));
@@ -122,8 +166,11 @@ class Chart {
   update() {
     const { motion } = this;
     const x = this.x(motion.time);
-    set(this.cursor, { d: through([[x, TOP], [x, HEIGHT - BOTTOM]]) });
-    for (const line of this.lines) line.value.textContent = digits(motion.row[line.column], 5);
+    set(this.cursor, { d: through([[x, TOP], [x, this.height - BOTTOM]]) });
+    const step = 1e-3 * (this.range[1] - this.range[0]);
+    for (const { value, column, constant } of this.lines) {
+      value.textContent = constant === undefined ? rounded(motion.row[column], step) : `${rounded(constant, 1e-4 * Math.abs(constant))} constant`;
+    }
   }
 }
 
@@ -176,8 +223,20 @@ export class Curves {
       return;
     }
     this.choice.value = name;
-    for (const [title, quantity] of quantities) {
-      const chart = new Chart(this.panel, this.motion, title.replaceAll('_', ' '), quantity);
+    for (const [key, quantity] of quantities) this.add(key.replaceAll('_', ' '), quantity);
+    this.update();
+  }
+
+  /** Charts of a quantity: one, or more where its components differ much in size. */
+  add(title, { unit, lines, isSum }) {
+    const head = document.createElement('div');
+    head.className = 'title';
+    head.textContent = unit ? `${title} [${unit}]` : title;
+    this.panel.append(head);
+    const all = measured(lines, this.motion.table).map((line, number) => ({ ...line, colour: COLOURS[number % COLOURS.length] }));
+    const groups = isSum ? [all] : sharing(all);
+    for (const group of groups) {
+      const chart = new Chart(this.panel, this.motion, title, group, groups.length > 1 ? LOW : HEIGHT);
       chart.svg.addEventListener('click', (event) => {
         const { start, end } = this.motion;
         const part = (event.offsetX - LEFT) / (chart.width - LEFT - RIGHT);
@@ -185,7 +244,6 @@ export class Curves {
       });
       this.charts.push(chart);
     }
-    this.update();
   }
 
   update() {

@@ -2,19 +2,22 @@
 
 import { DirectionalLight, GridHelper, HemisphereLight, MOUSE, OrthographicCamera, Scene, TOUCH, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { surfaces } from './bodies.js';
+import { beds, surfaces } from './bodies.js';
 import { Curves } from './curves.js';
 import { Marks } from './marks.js';
 import { Motion, bytesOf } from './motion.js';
-import { digits, element, roundUp } from './svg.js';
+import { Paint } from './paint.js';
+import { digits, roundUp } from './svg.js';
 
 /** Speeds that are offered: how many seconds of the scene go by in one of the clock. */
 const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 /** How long a run is shown for at first, about, s. */
 const SHOWN = 8;
+/** Factors on deflections that are offered. */
+const FACTORS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
 
 const LAYOUT = `
-<div class="stage"><canvas></canvas><svg class="marks"></svg><svg class="corner"></svg></div>
+<div class="stage"><canvas></canvas><svg class="marks"></svg><svg class="corner"></svg><svg class="scale"></svg></div>
 <div class="side"><label class="of">Curves of <select class="choice"></select></label><div class="curves"></div></div>
 <div class="steer">
 <button class="play" title="Play or pause (space bar)"></button>
@@ -22,6 +25,8 @@ const LAYOUT = `
 <output class="now"></output>
 <label>Speed <select class="speed"></select></label>
 <span class="shown"></span>
+<label class="of-paint">Colour <select class="paint"><option value="">bodies</option></select></label>
+<label class="of-factor" title="Factor on displacements from the undeformed place">Deflection <input class="factor" type="range" min="0" max="9" step="1" value="0"> <b>1\u00d7</b></label>
 <button class="fit" title="Show everything, from where it was seen at first">Reset view</button>
 </div>`;
 
@@ -67,7 +72,8 @@ class Player {
     light.position.set(-0.6, 1.1, 1.2);
     this.camera.add(light);
     this.scene.add(this.camera);
-    if (motion.dimension === 3) this.addFloor();
+    if (motion.dimension === 3 && !motion.surfaces?.length) this.addFloor();
+    for (const bed of beds(motion)) this.scene.add(bed);
     this.surfaces = surfaces(motion, this.size);
     for (const surface of this.surfaces) this.scene.add(surface.object);
     this.controls = new OrbitControls(this.camera, this.stage);
@@ -114,6 +120,8 @@ class Player {
         this.toggle();
       }
     });
+    this.addPaint();
+    this.addFactor();
     const has = { names: true, paths: motion.markers.length, joints: motion.joints.length + motion.springs.length };
     for (const [group, isReaction] of [['loads', false], ['reactions', true]]) {
       has[group] = this.marks.inWords(isReaction);
@@ -133,6 +141,34 @@ class Player {
       shown.append(label);
       if (!box.checked) this.marks.groups[name].style.display = 'none';
     }
+  }
+
+  /** What bodies may be coloured by. */
+  addPaint() {
+    const choice = this.part('paint');
+    const names = Paint.offered(this.motion);
+    if (!names.length) this.part('of-paint').remove();
+    for (const name of names) choice.append(new Option(name, name));
+    choice.addEventListener('change', () => {
+      this.paint = choice.value ? new Paint(this.motion, choice.value) : undefined;
+      for (const surface of this.surfaces) surface.paint?.(Boolean(this.paint));
+      this.isViewNew = true;
+      this.draw();
+    });
+  }
+
+  /** The factor on displacements of bodies. */
+  addFactor() {
+    const [label, slider] = ['of-factor', 'factor'].map(this.part);
+    if (!this.motion.bodies.some((body) => body.drawn)) label.remove();
+    slider.addEventListener('input', () => {
+      this.motion.factor = FACTORS[slider.value];
+      label.querySelector('b').textContent = `${this.motion.factor}\u00d7`;
+      this.motion.seek(this.motion.time);
+      this.marks.ways = this.marks.wayOfMarkers();
+      this.isViewNew = true;
+      this.draw();
+    });
   }
 
   toggle() {
@@ -216,13 +252,15 @@ class Player {
     if (!this.extent) return;
     const pixel = this.basePixel / this.camera.zoom;
     this.camera.updateMatrixWorld();
-    for (const surface of this.surfaces) surface.update(pixel);
+    for (const surface of this.surfaces) surface.update(pixel, this.paint);
     this.renderer.render(this.scene, this.camera);
     Object.assign(this.marks, { pixel, room: this.extent });
     if (this.isViewNew) {
       this.isViewNew = false;
       this.marks.updatePaths();
       this.marks.orientation(this.part('corner'), this.extent[1]);
+      if (this.paint) this.paint.legend(this.part('scale'), this.extent[0]);
+      else this.part('scale').replaceChildren();
     }
     this.marks.update();
     this.curves.update();

@@ -7,10 +7,14 @@ import { digits, element, roundUp, set, through } from './svg.js';
 const [INK, FAINT, GROUND, LOAD, MOTION, SPRING, REACTION] = ['#24292f', '#8a929b', '#3a3f45', '#c2571a', '#2e7d4f', '#6f4a9e', '#b3246b'];
 /** Length of the longest arrow, pixels. */
 const LONGEST = 72;
+/** Part of the largest reaction below which one is none. */
+const NONE = 1e-6;
 /** With more markers than this, their names are left to the pointer. */
 const MOST_NAMES = 16;
 /** Ways from a point that its name is tried at, best first. */
-const SIDES = [[1, -1], [1, 1], [-1, -1], [-1, 1], [0, -1.5], [0, 1.6], [1.2, 0], [-1.2, 0]];
+const SIDES = [
+  [1, -1], [1, 1], [-1, -1], [-1, 1], [0, -1.5], [0, 1.6], [1.2, 0], [-1.2, 0], [1, -2.4], [1, 2.4], [-1, -2.4], [-1, 2.4], [0, -3], [0, 3],
+];
 
 const moved = ([x, y], [a, b], by) => [x + a * by, y + b * by];
 const unit = ([x, y]) => (Math.hypot(x, y) > 1e-9 ? [x / Math.hypot(x, y), y / Math.hypot(x, y)] : [0, 1]);
@@ -24,6 +28,12 @@ function ground(centre, along, behind, half) {
     lines.push(through([top, moved(moved(top, behind, 5), along, -4)]));
   }
   return lines.join('');
+}
+
+/** A support on the ground under a point. */
+function foot(at) {
+  const base = moved(at, [0, 1], 13);
+  return through([at, moved(base, [1, 0], -8), moved(base, [1, 0], 8)], true) + ground(base, [1, 0], [0, 1], 11);
 }
 
 function zigzag(from, to) {
@@ -53,11 +63,21 @@ function circle(centre, radius) {
   }), true);
 }
 
-/** Two wheels that turn each other. */
-function wheels(from, to) {
+/** Two wheels with radii in the ratio of their rates: in mesh where they turn opposite ways, else with a belt. */
+function wheels([from, to], ratio) {
   const reach = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const radius = reach > 16 ? reach / 2 : 8;
-  return through([from, to]) + circle(from, radius) + circle(to, radius);
+  const sum = (reach > 16 ? reach : 16) * (ratio < 0 ? 1 : 0.6);
+  const second = sum / (1 + Math.abs(ratio));
+  const radii = [sum - second, second];
+  const found = circle(from, radii[0]) + circle(to, radii[1]);
+  if (ratio < 0 || reach <= 16) return found;
+  const along = unit([to[0] - from[0], to[1] - from[1]]);
+  const sine = (radii[0] - radii[1]) / reach;
+  const belt = [1, -1].map((side) => {
+    const out = [along[0] * sine - side * along[1] * Math.sqrt(1 - sine * sine), along[1] * sine + side * along[0] * Math.sqrt(1 - sine * sine)];
+    return through([moved(from, out, radii[0]), moved(to, out, radii[1])]);
+  });
+  return found + belt.join('');
 }
 
 /** Everything over the picture. */
@@ -65,20 +85,19 @@ export class Marks {
   constructor(motion, layer, project) {
     Object.assign(this, { motion, project, layer });
     this.groups = {};
-    for (const name of ['surfaces', 'paths', 'joints', 'loads', 'reactions', 'markers', 'names']) {
+    for (const name of ['paths', 'joints', 'loads', 'reactions', 'markers', 'names']) {
       this.groups[name] = element(layer, 'g', { class: name });
     }
     this.paths = motion.markers.map((marker) => element(this.groups.paths, 'path', {
       fill: 'none', stroke: colourOf(marker.body ?? 0), 'stroke-width': 1.2, 'stroke-opacity': 0.55,
     }));
-    this.surfaces = (motion.surfaces ?? []).map((surface) => {
-      const path = element(this.groups.surfaces, 'path', { fill: 'none', stroke: FAINT, 'stroke-width': 1 });
-      element(path, 'title', {}, surface.name);
-      return path;
-    });
     this.ways = this.wayOfMarkers();
     this.joints = motion.joints.map((joint) => this.jointParts(joint));
-    this.springs = motion.springs.map(() => element(this.groups.joints, 'path', { fill: 'none', stroke: SPRING, 'stroke-width': 1.7 }));
+    this.springs = motion.springs.map((spring) => {
+      const [foot, coil] = [[FAINT, 1.3], [SPRING, 1.7]].map(([stroke, width]) => element(this.groups.joints, 'path', { fill: 'none', stroke, 'stroke-width': width }));
+      element(coil, 'title', {}, spring.name);
+      return { foot, coil };
+    });
     const marks = (list, stroke, width) => list.map((of) => {
       const mark = element(this.groups.joints, 'path', { fill: 'none', stroke, 'stroke-width': width });
       element(mark, 'title', {}, of.name);
@@ -98,19 +117,21 @@ export class Marks {
       dot.style.cursor = 'pointer';
       return dot;
     });
-    this.names = this.namesOf();
+    this.values = motion.actions.map((action) => action.is_reaction && this.valueOf(action));
+    this.names = [...this.values.filter(Boolean), ...this.namesOf()];
     this.selected = -1;
   }
 
   /** Where markers go, in space. */
   wayOfMarkers() {
     const { motion } = this;
+    const now = motion.time;
     const ways = motion.markers.map(() => []);
     for (const time of motion.times) {
       motion.seek(time);
       ways.forEach((way, number) => way.push(motion.place(number)));
     }
-    motion.seek(motion.start);
+    motion.seek(now);
     return ways;
   }
 
@@ -145,6 +166,12 @@ export class Marks {
     return { back: line(joint.is_motion ? MOTION : FAINT, 1.3), spring: line(SPRING, 1.3), front: line(GROUND, 1.6) };
   }
 
+  /** The size of a reaction, to be written at the tip of its arrow. */
+  valueOf(action) {
+    const label = element(this.groups.reactions, 'text', { fill: REACTION, 'font-size': 12 });
+    return { label, side: 0, place: () => this.motion.place(action.marker), text: '' };
+  }
+
   namesOf() {
     const { motion } = this;
     const named = [];
@@ -160,19 +187,19 @@ export class Marks {
       const middle = () => motion.endOf(spring.ends[0]).add(motion.endOf(spring.ends[1])).multiplyScalar(0.5);
       add(spring.name, SPRING, middle, 3);
     });
+    (motion.surfaces ?? []).forEach(({ name, lines }) => {
+      const line = lines[lines.length >> 1];
+      add(name, FAINT, () => new Vector3(...line[line.length >> 1]), 3);
+    });
     const markers = motion.markers.map((marker, number) => ({ marker, number }));
     if (markers.length <= MOST_NAMES) {
-      for (const { marker, number } of markers) add(marker.label, INK, () => motion.place(number), 2);
+      for (const { marker, number } of markers) add(motion.bodies.length > 1 ? marker.name : marker.label, INK, () => motion.place(number), 2);
     }
     return named.sort((a, b) => a.rank - b.rank);
   }
 
   /** Draws anew what stands still: after the view has changed. */
   updatePaths() {
-    this.surfaces.forEach((path, number) => {
-      const lines = this.motion.surfaces[number].lines.map((line) => through(line.map((point) => this.project(new Vector3(...point)))));
-      set(path, { d: lines.join('') });
-    });
     this.ways.forEach((way, number) => {
       const points = [];
       for (const place of way) {
@@ -191,15 +218,16 @@ export class Marks {
       const chosen = number === this.selected;
       set(this.dots[number], { cx: x.toFixed(1), cy: y.toFixed(1), r: chosen ? 6 : 3.2, fill: chosen ? LOAD : INK });
     });
+    this.feet = [];
     motion.joints.forEach((joint, number) => this.updateJoint(joint, this.joints[number]));
     motion.springs.forEach((spring, number) => {
       const [from, to] = spring.ends.map((end) => this.project(motion.endOf(end)));
-      set(this.springs[number], { d: zigzag(from, to) });
+      set(this.springs[number].coil, { d: zigzag(from, to) });
+      set(this.springs[number].foot, { d: spring.ends[0].point ? this.foot(from) : '' });
     });
     motion.stops.forEach((stop, number) => set(this.stops[number], { d: this.bars(stop) }));
     motion.gears.forEach((gear, number) => {
-      const [from, to] = gear.joints.map((joint) => this.project(motion.endOf(motion.joints[joint].ends[1])));
-      set(this.gears[number], { d: wheels(from, to) });
+      set(this.gears[number], { d: this.gear(gear) });
     });
     motion.actions.forEach((action, number) => this.updateAction(action, number));
     this.placeNames();
@@ -212,15 +240,11 @@ export class Marks {
     const at = isGrounded && joint.symbol !== 'slider' && joint.symbol !== 'prismatic' ? first : second;
     const along = this.along(joint, second);
     let [drawn, behind, filled] = ['', '', 'none'];
-    const foot = () => {
-      const base = moved(at, [0, 1], 13);
-      return through([at, moved(base, [1, 0], -8), moved(base, [1, 0], 8)], true) + ground(base, [1, 0], [0, 1], 11);
-    };
     if (joint.symbol === 'pin' || joint.symbol === 'spiral') {
       drawn = circle(at, 4);
       filled = '#fff';
-      if (isGrounded && motion.dimension === 2) behind = foot();
-      if (joint.along) behind = through([moved(at, along.way, -22 * along.size), moved(at, along.way, 22 * along.size)]);
+      if (isGrounded) behind = this.foot(at);
+      if (joint.along) behind += through([moved(at, along.way, -22 * along.size), moved(at, along.way, 22 * along.size)]);
       if (joint.symbol === 'spiral') set(spring, { d: spiral(at) });
     } else if (joint.symbol === 'weld') {
       const side = across(along.way);
@@ -234,6 +258,7 @@ export class Marks {
       behind = this.rail(joint, first, second, along.way);
     } else if (joint.symbol === 'link') {
       drawn = through([first, second]) + circle(first, 3.4) + circle(second, 3.4);
+      if (isGrounded) behind = this.foot(first);
     } else if (joint.symbol === 'ring') {
       drawn = circle(second, 7);
     } else if (joint.symbol === 'motion') {
@@ -243,6 +268,20 @@ export class Marks {
     }
     set(back, { d: behind });
     set(front, { d: drawn, fill: filled });
+  }
+
+  /** Wheels of a gear between two angles; of one between an angle and a way the wheel that rolls along it; a line between two ways. */
+  gear({ joints, angles, ratio }) {
+    const ends = joints.map((joint) => this.project(this.motion.endOf(this.motion.joints[joint].ends[1])));
+    if (angles[0] && angles[1]) return wheels(ends, ratio);
+    const radius = Math.abs(angles[0] ? ratio : 1 / ratio) / this.pixel;
+    return through(ends) + (angles[0] || angles[1] ? circle(ends[angles[0] ? 0 : 1], radius) : '');
+  }
+
+  /** A support on the ground, whose place no name takes. */
+  foot([x, y]) {
+    this.feet.push([x - 11, y + 3, x + 11, y + 19]);
+    return foot([x, y]);
   }
 
   /** Bars of a stop: of a way where the marker is when it meets them, of an angle beside it. */
@@ -300,6 +339,20 @@ export class Marks {
       element(parts.at(-1), 'title', {}, action.name);
     }
     found.forEach(({ at, vector }, k) => set(parts[k], { d: this.arrow(action, at, vector, longest) }));
+    const value = this.values[number];
+    if (value) this.write(value, found[0], action, longest);
+  }
+
+  /** Writes how large a reaction is. */
+  write(value, found, action, longest) {
+    const size = found?.vector.length() ?? 0;
+    const text = size > NONE * longest ? `${digits(size, 3)}\u2009${action.unit}` : '';
+    if (text !== value.text) {
+      Object.assign(value, { text, width: undefined });
+      value.label.textContent = text;
+    }
+    const reach = action.is_moment && this.motion.dimension === 2 ? 0 : (this.pixel * LONGEST) / longest;
+    if (text) value.place = () => found.at.clone().addScaledVector(found.vector, reach);
   }
 
   arrow(action, place, vector, longest) {
@@ -331,11 +384,11 @@ export class Marks {
 
   /** Names beside what they name, where they cover no other. */
   placeNames() {
-    if (this.groups.names.style.display === 'none') return;
-    const taken = this.points.map(([x, y]) => [x - 4, y - 4, x + 4, y + 4]);
+    const taken = [...this.points.map(([x, y]) => [x - 4, y - 4, x + 4, y + 4]), ...this.feet];
     const isFree = (box) => taken.every(([a, b, c, d]) => box[2] < a || box[0] > c || box[3] < b || box[1] > d);
     const [width, height] = this.room ?? [1e9, 1e9];
-    for (const name of this.names) {
+    const isShown = ({ label, text }) => text && label.parentNode.style.display !== 'none';
+    for (const name of this.names.filter(isShown)) {
       const [x, y] = this.project(name.place());
       name.width ??= name.label.getComputedTextLength();
       const box = (side) => {

@@ -64,12 +64,21 @@ class Body {
     this.now = new Float32Array(this.track.width);
     this.each = this.track.width / described.nodes;
     this.radius ??= 0;
+    this.drawn = described.drawn === undefined ? undefined : tracks[described.drawn].values;
+    if (described.forces !== undefined) {
+      this.forces = tracks[described.forces];
+      this.force = new Float32Array(this.forces.width);
+    }
     this.starts = [0];
     for (const length of this.lengths ?? []) this.starts.push(this.starts.at(-1) + length);
   }
 
-  seek(place) {
-    between(this.track, place, this.now);
+  /** Puts the body where it is at a place among the frames, its displacement from where the scene draws it times a factor. */
+  seek(place, factor) {
+    const { now, drawn } = this;
+    between(this.track, place, now);
+    if (this.forces) between(this.forces, place, this.force);
+    if (drawn && factor !== 1) drawn.forEach((value, k) => { now[k] = value + factor * (now[k] - value); });
   }
 
   vector(node, part) {
@@ -152,6 +161,7 @@ export class Motion {
     this.rowTimes = tracks[header.row_times].values;
     this.bodies = header.bodies.map((body, number) => new Body(body, number, tracks, header.dimension));
     this.row = new Float64Array(this.table.width);
+    this.factor = 1;
     this.acting = header.actions.map((action) => new Float32Array(tracks[action.track].width));
     this.seek(this.times[0]);
     this.fixAxes();
@@ -170,7 +180,7 @@ export class Motion {
   seek(time) {
     this.time = Math.min(Math.max(time, this.start), this.end);
     const place = placeOf(this.times, this.time);
-    for (const body of this.bodies) body.seek(place);
+    for (const body of this.bodies) body.seek(place, this.factor);
     this.actions.forEach((action, number) => between(this.tracks[action.track], place, this.acting[number]));
     between(this.table, placeOf(this.rowTimes, this.time), this.row);
   }

@@ -38,3 +38,11 @@ export function digits(value, count = 4) {
   const text = isPlain ? String(Number(value.toPrecision(count))) : value.toExponential(count - 1).replace(/\.?0+e/, 'e').replace('e+', 'e');
   return text.replaceAll('-', '\u2212');
 }
+
+/** A number to the last digit that a step changes. */
+export function rounded(value, step) {
+  const size = Math.abs(value);
+  if (!(size > 0.5 * step)) return '0';
+  const count = Math.floor(Math.log10(size) + 1e-9) - Math.floor(Math.log10(step) + 1e-9) + 1;
+  return digits(value, Math.min(Math.max(count, 1), 9));
+}
