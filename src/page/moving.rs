@@ -2,7 +2,7 @@
 
 use super::canvas::escape;
 use super::drawing::drawing;
-use super::number::number;
+use super::number::{number, rounded};
 use crate::scene::Scene;
 use crate::simulation::InputTable;
 use crate::view::{HeldInput, Limits, OutputTable, Recording, document, picture, picture_of_table};
@@ -67,8 +67,8 @@ fn held_in_words(held: &[HeldInput]) -> Option<String> {
     for input in held {
         let name = input.name.split('[').next().unwrap_or_default();
         match found.last_mut() {
-            Some((last, values, _)) if *last == name => values.push(number(input.value)),
-            _ => found.push((name, vec![number(input.value)], &input.unit)),
+            Some((last, values, _)) if *last == name => values.push(rounded(input.value)),
+            _ => found.push((name, vec![rounded(input.value)], &input.unit)),
         }
     }
     let shown = found.iter().take(MOST_INPUTS);
@@ -100,7 +100,7 @@ mod tests {
         let held = |names: &[&str]| -> Option<String> {
             let inputs = names.iter().map(|name| HeldInput {
                 name: (*name).into(),
-                value: 0.5,
+                value: 0.500_012,
                 unit: "N".into(),
             });
             held_in_words(&inputs.collect::<Vec<_>>())

@@ -50,7 +50,7 @@ pub(super) struct SectionStress {
 }
 
 impl SectionStress {
-    /// Those of the sections at material coordinates; none where a section's stiffness is given as a whole.
+    /// Computes the factors of sections at material coordinates; 0 where a section's stiffness is given as a whole.
     pub fn of(body: &LineBody, mesh: &[f64]) -> Vec<Self> {
         let at = |s: &f64| {
             let numbers = body.section_after(*s);

@@ -12,8 +12,17 @@ return flexbody.curves.charts.map((chart) => ({
   range: chart.range,
   ticks: [...chart.svg.querySelectorAll('text[text-anchor=end]')].map((text) => text.textContent),
   legend: chart.legend.textContent,
+  base: chart.svg.querySelector('.base').textContent,
   lines: chart.lines.map((line) => ({ name: line.name, path: line.path.getAttribute('d'), constant: line.constant ?? null })),
 }));
+"""
+# Texts of charts that go over the edge.
+CUT = """
+return flexbody.curves.charts.flatMap(({ svg }) => {
+  const { left, right } = svg.getBoundingClientRect();
+  const isCut = (box) => box.left < left || box.right > right;
+  return [...svg.querySelectorAll('text')].filter((text) => isCut(text.getBoundingClientRect())).map((text) => text.textContent);
+});
 """
 TITLES = "return [...document.querySelectorAll('.curves .title')].map((title) => title.textContent)"
 CHOOSE = "const c = document.querySelector(arguments[0]); c.value = arguments[1]; c.dispatchEvent(new Event(arguments[2]))"
@@ -106,11 +115,68 @@ def test_roundoff_is_drawn_as_constant(browser, pages):
     assert "x 0 constant" in "".join(chart["legend"] for chart in browser.run(CHARTS))
 
 
-@pytest.mark.parametrize("name", ["cable_net", "boom", "propeller_shaft", "wind_blade"])
-def test_values_at_an_axis_differ(browser, pages, name):
+@pytest.mark.parametrize("name", ["cable_net", "boom", "propeller_shaft", "wind_blade", "car_suspension"])
+def test_values_at_an_axis_differ_and_have_room(browser, pages, name):
     browser.load(pages(name))
     for chart in browser.run(CHARTS):
         assert len(set(chart["ticks"])) == len(chart["ticks"]) > 1
+    assert browser.run(CUT) == []
+
+
+def test_values_far_from_zero_are_written_less_a_common_one(browser, pages):
+    browser.load(pages.made(bar(2) | {"name": "far"}))
+    browser.run("""
+    const { table, outputs } = flexbody.motion;
+    const column = outputs.findIndex(({ name }) => name === 'bar.tip.position[1]');
+    for (let row = 0; row < table.rows; row += 1) table.values[row * table.width + column] = 1234.567 + 1e-4 * row;
+    flexbody.choose('bar.tip');
+    """)
+    chart = next(chart for chart in browser.run(CHARTS) if chart["lines"][0]["name"] == "bar.tip.position[1]")
+    base = float(chart["base"].removesuffix(" +"))
+    low, high = chart["range"]
+    values = [base + float(tick.replace("\u2212", "-")) for tick in chart["ticks"]]
+    assert all(low <= value <= high for value in values) and len(values) > 1
+    assert browser.run(CUT) == []
+
+
+# States of a page: names alone, with sizes of reactions, coloured, with deflections enlarged.
+REACTIONS = "const box = document.querySelector('.shown .reactions'); if (box && box.checked !== arguments[0]) box.click();"
+COVERED = """
+const stage = document.querySelector('.stage').getBoundingClientRect();
+const texts = [...document.querySelectorAll('.stage text')].filter((text) => text.textContent && text.getClientRects().length);
+const boxes = texts.map((text) => text.getBoundingClientRect());
+const found = [];
+texts.forEach((text, k) => {
+  const { left, top, right, bottom } = boxes[k];
+  if (left < stage.left || right > stage.right || top < stage.top || bottom > stage.bottom) found.push(`${text.textContent} is cut off`);
+  boxes.slice(0, k).forEach((box, other) => {
+    const isApart = right <= box.left || box.right <= left || bottom <= box.top + 2 || box.bottom <= top + 2;
+    if (!isApart) found.push(`${text.textContent} covers ${texts[other].textContent}`);
+  });
+});
+if (document.documentElement.scrollWidth > innerWidth) found.push('the page is wider than its window');
+return found;
+"""
+
+
+@pytest.mark.parametrize("name", ["kite_tether", "cable_net", "robot_cable", "crane"])
+@pytest.mark.parametrize("window", [(1400, 900), (420, 800)])
+def test_no_text_covers_another(browser, pages, name, window):
+    """Names, sizes of reactions, axes and scales, in wide and narrow windows."""
+    size = {"width": window[0], "height": window[1], "deviceScaleFactor": 1, "mobile": False}
+    browser.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        browser.load(pages(name))
+        for quantity in ("", "axial force"):
+            browser.run(CHOOSE, "select.paint", quantity, "change")
+            for shown in (False, True):
+                browser.run(REACTIONS, shown)
+                for part in (0.0, 0.43):
+                    paused(browser, part)
+                    assert browser.run(COVERED) == []
+        assert browser.run(CUT) == []
+    finally:
+        browser.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
 def test_units_are_written_as_in_print(browser, pages):
@@ -123,7 +189,7 @@ def test_units_are_written_as_in_print(browser, pages):
 def test_the_page_tells_inputs_that_nothing_moves(browser, pages):
     browser.load(pages.made(gears()))
     assert "Inputs held: third.centre.force = (0.5, 0) N" in browser.run("return document.querySelector('header p').textContent")
-    browser.load(pages("pendulum"))
+    browser.load(pages("crane"))
     assert "Inputs" not in browser.run("return document.querySelector('header p').textContent")
 
 
@@ -188,6 +254,31 @@ def test_deflections_can_be_enlarged(browser, pages, dimension):
     assert places[2] == places[0]
 
 
+def test_motions_of_whole_bodies_are_not_enlarged(browser, pages):
+    """A crank that goes round keeps its length, and joints of stiff bodies stay closed."""
+    browser.load(pages("four_bar"))
+    browser.run(SEEK, 0.43)
+    place = "const { motion } = flexbody; return arguments[0].map((name) => motion.place(motion.markers.findIndex((m) => m.name === name)).toArray())"
+    names = ["crank.root", "crank.pin", "coupler.first"]
+    before = browser.run(place, names)
+    browser.run(CHOOSE, "input.factor", "3", "input")
+    assert browser.run("return flexbody.motion.factor") == 10
+    root, pin, coupler = browser.run(place, names)
+    length = math.dist(before[0], before[1])
+    assert math.dist(root, pin) == pytest.approx(length, rel=0.02)
+    assert math.dist(pin, before[1]) < 0.05 * length
+    assert math.dist(pin, coupler) < 0.05 * length
+    browser.run(CHOOSE, "input.factor", "0", "input")
+    assert browser.run(place, names) == before
+
+
+def test_what_is_zero_all_along_is_no_colour(browser, pages):
+    """A rope without bending stiffness has no moment."""
+    browser.load(pages("hoist"))
+    offered = browser.run("return [...document.querySelector('select.paint').options].map((option) => option.value)")
+    assert "bending moment" not in offered and "axial force" in offered
+
+
 def test_lines_show_how_sections_stand(browser, pages):
     """Of what can twist: not of cables."""
     edges = "return flexbody.surfaces.map((surface) => Boolean(surface.edges?.visible))"
@@ -216,3 +307,13 @@ def test_a_body_without_a_shape_is_as_large_as_its_inertia(browser, pages):
     # Of a ball 2/5 m r^2.
     assert browser.run(script) == pytest.approx([0.3] * 3, rel=1e-3)
     assert math.isfinite(browser.run("return flexbody.size"))
+    # It stands for an inertia, and hides nothing.
+    assert browser.run("return flexbody.surfaces[0].object.children[0].material.opacity") < 0.5
+
+
+def test_a_measured_body_may_have_a_shape_to_draw(browser, pages):
+    part = {"name": "part", "element": "rigid", "mass": 2.0, "inertia": [0.3, 0.4, 0.5], "shape": {"box": {"size": [0.4, 0.2, 0.6]}}, "position": [0.0, 0.0, 0.0]}
+    scene = {"name": "part", "dimension": 3, "gravity": [0.0, 0.0, 0.0], "bodies": [part], "experiment": {"stop_time": 0.1, "step": 0.1}}
+    browser.load(pages.made(scene))
+    script = "const { geometry } = flexbody.surfaces[0].object.children[0]; geometry.computeBoundingBox(); return geometry.boundingBox.max.toArray()"
+    assert browser.run(script) == pytest.approx([0.2, 0.1, 0.3])

@@ -1591,8 +1591,7 @@ Solid = TypeAliasType(
     "Solid", Annotated[Box | Cylinder | Sphere | TubeSolid, under_one_of("box", "cylinder", "sphere", "tube")]
 )
 """
-Shape of a rigid body of uniform density, its centre at the origin of the body's frame. Lists have three components, in the
-plane too.
+Shape of a rigid body, its centre at the origin of the body's frame. Lists have three components, in the plane too.
 """
 
 
@@ -2700,7 +2699,7 @@ class RigidBody(Part):
     """
     density: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    Density of that shape, kg/m^3.
+    Density of that shape, kg/m^3, instead of `mass` and `inertia`.
     """
     inertia: Inertia | None = None
     """
@@ -2725,7 +2724,7 @@ class RigidBody(Part):
     """
     shape: Solid | None = None
     """
-    Shape of a body of uniform density, instead of `mass` and `inertia`, which follow.
+    Shape. With `density` it gives mass and inertia. Beside `mass` and `inertia` it is drawn only.
     """
 
 

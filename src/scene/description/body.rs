@@ -137,10 +137,10 @@ pub struct RigidBody {
     /// frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not turn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<Inertia>,
-    /// Shape of a body of uniform density, instead of `mass` and `inertia`, which follow.
+    /// Shape. With `density` it gives mass and inertia. Beside `mass` and `inertia` it is drawn only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Solid>,
-    /// Density of that shape, kg/m^3.
+    /// Density of that shape, kg/m^3, instead of `mass` and `inertia`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: Option<f64>,
@@ -481,9 +481,9 @@ impl RigidBody {
 
     /// Inertia about the centre of mass as said or of its shape.
     pub fn inertia(&self) -> Inertia {
-        match self.shape {
-            Some(shape) => shape.inertia(self.mass()),
-            None => self.inertia.unwrap_or_default(),
+        match (self.shape, self.density) {
+            (Some(shape), Some(_)) => shape.inertia(self.mass()),
+            _ => self.inertia.unwrap_or_default(),
         }
     }
 }

@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Inertia;
 
-/// Shape of a rigid body of uniform density, its centre at the origin of the body's frame. Lists have three components, in the
-/// plane too.
+/// Shape of a rigid body, its centre at the origin of the body's frame. Lists have three components, in the plane too.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Solid {

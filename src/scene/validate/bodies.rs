@@ -202,20 +202,26 @@ impl RigidBody {
 }
 
 impl RigidBody {
-    /// Mass and inertia, or a shape and its density.
+    /// Mass and inertia, with or without a shape that is drawn; or a shape and its density.
     fn validate_substance(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
-        let instead = "or `shape` and `density`";
-        let Some(shape) = &self.shape else {
-            if self.density.is_some() {
-                let wanted = "`shape` beside `density`, or `mass` instead of both";
-                return Err(expected(&at("shape"), wanted, "nothing"));
+        if let Some(shape) = &self.shape {
+            shape.validate(&at("shape"))?;
+        }
+        let Some(density) = self.density else {
+            if self.shape.is_some() && self.mass.is_none() {
+                let wanted = "a positive number (kg/m^3) beside `shape`, or `mass` instead";
+                return Err(expected(&at("density"), wanted, "nothing"));
             }
-            let what = format!("a positive number (kg), {instead}");
-            let mass = needed(path, "mass", &what, self.mass)?;
+            let what = "a positive number (kg), or `shape` and `density`";
+            let mass = needed(path, "mass", what, self.mass)?;
             positive(&at("mass"), "kg", mass)?;
             return self.validate_inertia(&at("inertia"), dimension);
         };
+        if self.shape.is_none() {
+            let wanted = "`shape` beside `density`, or `mass` instead of both";
+            return Err(expected(&at("shape"), wanted, "nothing"));
+        }
         let said = [
             ("mass", self.mass.is_some()),
             ("inertia", self.inertia.is_some()),
@@ -224,10 +230,7 @@ impl RigidBody {
             let wanted = "nothing beside `shape` and `density`, from which it follows";
             return Err(expected(&at(key), wanted, "a value"));
         }
-        let what = "a positive number (kg/m^3) beside `shape`";
-        let density = needed(path, "density", what, self.density)?;
         positive(&at("density"), "kg/m^3", density)?;
-        shape.validate(&at("shape"))?;
         let mass = self.mass();
         if !mass.is_normal()
             || !self

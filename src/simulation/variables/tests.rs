@@ -178,6 +178,22 @@ fn sizes_of_shapes_and_of_bushings_are_parameters() {
     assert_eq!(list.iter().filter(sizes).count(), 3 + 2 + 1 + 3);
 }
 
+#[test]
+fn a_shape_beside_a_mass_is_drawn_only() {
+    let body = |shape: &str| {
+        let text = format!(
+            r#"{{ "name": "measured", "dimension": 3, "bodies": [ {{ "name": "part", "element": "rigid", "mass": 2.0,
+              "inertia": [0.3, 0.4, 0.5], "position": [0.0, 0.0, 0.0]{shape} }} ] }}"#
+        );
+        let list = variables(&Scene::from_json(&text).expect("a valid scene"));
+        let start = |v: &Variable| (v.name.clone(), v.start);
+        list.iter().map(start).collect::<Vec<_>>()
+    };
+    let drawn = body(r#", "shape": { "sphere": { "radius": 0.2 } }"#);
+    assert_eq!(drawn, body(""));
+    assert!(drawn.contains(&("part.inertia[2]".into(), Some(0.4))));
+}
+
 /// Radii of a tube are set one after another, through values that fit together only in the end.
 #[test]
 fn radii_of_a_tube_are_checked_together() {

@@ -14,6 +14,8 @@ const ALONG = 72;
 const THIN = 1.6;
 /** Half the width from which on lines show how sections stand, pixels. */
 const WIDE = 3;
+/** Half the width of the thinnest rigid body, in sizes of the scene. */
+const LEAST = 0.011;
 const EDGES = { color: '#24292f', transparent: true, opacity: 0.55 };
 
 function material(number) {
@@ -169,13 +171,14 @@ function shape(body, least) {
 class Rigid {
   constructor(body, size) {
     this.body = body;
-    const geometry = shape(body, 0.011 * size);
+    const geometry = shape(body, LEAST * size);
     this.object = new Group();
     const surface = new Mesh(geometry, material(body.number));
     if (!body.solid) {
       surface.material.flatShading = body.points.length < 2 ? false : true;
-      surface.material.transparent = body.points.length > 2;
-      surface.material.opacity = body.points.length > 2 ? 0.82 : 1;
+      // What stands for an inertia, which may be wide, hides nothing.
+      const opacity = Math.max(...body.inertial) > 1.6 * LEAST * size ? 0.3 : body.points.length > 2 ? 0.82 : 1;
+      Object.assign(surface.material, { opacity, transparent: opacity < 1, depthWrite: opacity > 0.5 });
     }
     this.object.add(surface);
     if (body.solid && !body.solid.sphere) {

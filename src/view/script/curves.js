@@ -3,9 +3,11 @@
 import { element, roundUp, rounded, set, through } from './svg.js';
 
 const COLOURS = ['#4a78b5', '#c2571a', '#2e7d4f', '#8f4f9e', '#8c8048', '#b3246b', '#4795a3', '#6b737c', '#24292f'];
-const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [150, 58, 10, 10, 32];
+const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [150, 58, 10, 12, 32];
 /** Height where components have axes of their own. */
 const LOW = 100;
+/** Most letters of a value beside an axis. */
+const MOST_LETTERS = 7;
 /** Least part of an axis that a component takes which moves. */
 const LEAST = 0.1;
 /** Part of its largest value that is roundoff of a column. */
@@ -36,12 +38,17 @@ export function groups(outputs) {
   return found;
 }
 
-/** Round values between two, each with its text. */
+/** Round values between two, each with its text; where these are long, less a common value, whose text is the second result. */
 function ticks(low, high, most) {
   const step = roundUp((high - low) / most);
-  const found = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push([k * step, rounded(k * step, step)]);
-  return found.length < 2 && most < 32 ? ticks(low, high, 2 * most) : found;
+  const values = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) values.push(k * step);
+  if (values.length < 2 && most < 32) return ticks(low, high, 2 * most);
+  const less = (base) => values.map((value) => [value, rounded(value - base, step)]);
+  const whole = less(0);
+  if (whole.every(([, text]) => text.length <= MOST_LETTERS)) return [whole, ''];
+  const middle = values.length >> 1;
+  return [less(values[middle]), `${whole[middle][1]} +`];
 }
 
 /** Values of a column. */
@@ -121,12 +128,14 @@ class Chart {
     this.range = [low - room, high + room];
     const grid = element(this.svg, 'g', { stroke: '#e4e8ec' });
     const texts = element(this.svg, 'g', { fill: '#57606a', 'font-size': 10.5 });
-    for (const [value, text] of ticks(...this.range, 4)) {
+    const [values, base] = ticks(...this.range, 4);
+    element(texts, 'text', { x: LEFT + 2, y: TOP - 2, class: 'base' }, base);
+    for (const [value, text] of values) {
       const y = this.y(value);
       element(grid, 'path', { d: through([[LEFT, y], [this.width - RIGHT, y]]) });
       element(texts, 'text', { x: LEFT - 6, y: y + 3.5, 'text-anchor': 'end' }, text);
     }
-    for (const [time, text] of ticks(motion.start, motion.end, 6)) {
+    for (const [time, text] of ticks(motion.start, motion.end, 6)[0]) {
       const x = this.x(time);
       element(grid, 'path', { d: through([[x, TOP], [x, height - BOTTOM]]) });
       element(texts, 'text', { x, y: height - BOTTOM + 13, 'text-anchor': 'middle' }, text);

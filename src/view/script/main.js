@@ -26,7 +26,7 @@ const LAYOUT = `
 <label>Speed <select class="speed"></select></label>
 <span class="shown"></span>
 <label class="of-paint">Colour <select class="paint"><option value="">bodies</option></select></label>
-<label class="of-factor" title="Factor on displacements from the undeformed place">Deflection <input class="factor" type="range" min="0" max="9" step="1" value="0"> <b>1\u00d7</b></label>
+<label class="of-factor">Deflection <input class="factor" type="range" min="0" max="9" step="1" value="0"> <b>1\u00d7</b></label>
 <button class="fit" title="Show everything, from where it was seen at first">Reset view</button>
 </div>`;
 
@@ -160,11 +160,14 @@ class Player {
   /** The factor on displacements of bodies. */
   addFactor() {
     const [label, slider] = ['of-factor', 'factor'].map(this.part);
-    if (!this.motion.bodies.some((body) => body.drawn)) label.remove();
+    const { motion } = this;
+    if (!motion.bodies.some((body) => body.drawn && body.lengths)) label.remove();
+    motion.isCarried = motion.bodies.some((body) => body.drawn && body.movesFar(this.size));
+    label.title = `Factor on displacements from where bodies are drawn in the scene${motion.isCarried ? ', each carried by its mean motion' : ''}`;
     slider.addEventListener('input', () => {
-      this.motion.factor = FACTORS[slider.value];
-      label.querySelector('b').textContent = `${this.motion.factor}\u00d7`;
-      this.motion.seek(this.motion.time);
+      motion.factor = FACTORS[slider.value];
+      label.querySelector('b').textContent = `${motion.factor}\u00d7`;
+      motion.seek(motion.time);
       this.marks.ways = this.marks.wayOfMarkers();
       this.isViewNew = true;
       this.draw();
@@ -217,14 +220,19 @@ class Player {
     camera.zoom = 1;
     controls.target.copy(middle);
     this.resize();
+    const lowered = axes[1].clone().multiplyScalar(-(this.lift ?? 0) * (this.basePixel ?? 0));
+    camera.position.add(lowered);
+    controls.target.add(lowered);
+    this.resize();
   }
 
   resize() {
     const [width, height] = [this.stage.clientWidth, this.stage.clientHeight];
     if (!width || !height) return;
-    // Room for names, and in the corner for axes.
-    const room = [Math.min(70, 0.16 * width), Math.min(58, 0.16 * height)];
-    const pixel = Math.max(this.half[0] / (width / 2 - room[0]), this.half[1] / (height / 2 - room[1]), 1e-9);
+    // Room for names, and below for axes.
+    const [beside, above, below] = [Math.min(80, 0.16 * width), Math.min(60, 0.14 * height), Math.min(90, 0.22 * height)];
+    this.lift = (below - above) / 2;
+    const pixel = Math.max(this.half[0] / (width / 2 - beside), (2 * this.half[1]) / (height - above - below), 1e-9);
     const { camera } = this;
     [camera.left, camera.right, camera.top, camera.bottom] = [-width, width, height, -height].map((pixels) => (pixels / 2) * pixel);
     this.basePixel = pixel;
@@ -258,8 +266,8 @@ class Player {
     if (this.isViewNew) {
       this.isViewNew = false;
       this.marks.updatePaths();
-      this.marks.orientation(this.part('corner'), this.extent[1]);
-      if (this.paint) this.paint.legend(this.part('scale'), this.extent[0]);
+      this.marks.reserved = [this.marks.orientation(this.part('corner'), this.extent[1])];
+      if (this.paint) this.marks.reserved.push(this.paint.legend(this.part('scale'), this.extent[0]));
       else this.part('scale').replaceChildren();
     }
     this.marks.update();

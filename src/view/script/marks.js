@@ -120,6 +120,8 @@ export class Marks {
     this.values = motion.actions.map((action) => action.is_reaction && this.valueOf(action));
     this.names = [...this.values.filter(Boolean), ...this.namesOf()];
     this.selected = -1;
+    // Boxes that no name takes: of the axes, and of a scale of colours.
+    this.reserved = [];
   }
 
   /** Where markers go, in space. */
@@ -384,13 +386,17 @@ export class Marks {
 
   /** Names beside what they name, where they cover no other. */
   placeNames() {
-    const taken = [...this.points.map(([x, y]) => [x - 4, y - 4, x + 4, y + 4]), ...this.feet];
+    const taken = [...this.reserved, ...this.points.map(([x, y]) => [x - 4, y - 4, x + 4, y + 4]), ...this.feet];
     const isFree = (box) => taken.every(([a, b, c, d]) => box[2] < a || box[0] > c || box[3] < b || box[1] > d);
     const [width, height] = this.room ?? [1e9, 1e9];
     const isShown = ({ label, text }) => text && label.parentNode.style.display !== 'none';
     for (const name of this.names.filter(isShown)) {
       const [x, y] = this.project(name.place());
-      name.width ??= name.label.getComputedTextLength();
+      if (name.width === undefined) {
+        // What is not shown has no length.
+        set(name.label, { display: 'inline' });
+        name.width = name.label.getComputedTextLength();
+      }
       const box = (side) => {
         const [a, b] = SIDES[side];
         const left = a > 0 ? x + 9 * a : a < 0 ? x + 9 * a - name.width : x - name.width / 2;
@@ -412,7 +418,7 @@ export class Marks {
     }
   }
 
-  /** Axes, gravity and a scale in the corner. */
+  /** Draws axes, gravity and a scale in the corner, and returns their box. */
   orientation(corner, height) {
     const { motion } = this;
     corner.replaceChildren();
@@ -443,5 +449,6 @@ export class Marks {
     const length = metres / this.pixel;
     element(corner, 'path', { d: through([[left, base_line - 4], [left, base_line], [left + length, base_line], [left + length, base_line - 4]]), stroke: FAINT, fill: 'none' });
     element(corner, 'text', { x: left + length / 2, y: base_line - 5, fill: FAINT, 'font-size': 11, 'text-anchor': 'middle' }, `${digits(metres)} m`);
+    return [0, height - 70, left + length, height];
   }
 }

@@ -4,6 +4,10 @@
 // kind `steps` a lowest value and a step (two singles) for every column, then 16-bit counts of steps. A track of one row never changes.
 
 import { Matrix4, Quaternion, Vector3 } from 'three';
+import { enlarge } from './deflection.js';
+
+/** Part of the size of a scene, and change of a direction, beyond which bodies move as a whole. */
+const FAR = 0.2;
 
 /** Numbers in base64. */
 export function bytesOf(text) {
@@ -73,12 +77,25 @@ class Body {
     for (const length of this.lengths ?? []) this.starts.push(this.starts.at(-1) + length);
   }
 
-  /** Puts the body where it is at a place among the frames, its displacement from where the scene draws it times a factor. */
-  seek(place, factor) {
-    const { now, drawn } = this;
-    between(this.track, place, now);
+  /** Puts the body where it is at a place among the frames, with its deflection times a factor. */
+  seek(place, factor, isCarried) {
+    between(this.track, place, this.now);
     if (this.forces) between(this.forces, place, this.force);
-    if (drawn && factor !== 1) drawn.forEach((value, k) => { now[k] = value + factor * (now[k] - value); });
+    if (this.drawn && factor !== 1) enlarge(this, factor, isCarried);
+  }
+
+  /** Whether it moves as a whole in a scene of a size: a node far, or all directions. */
+  movesFar(size) {
+    const { track: { values, rows, width }, drawn, dimension, each } = this;
+    const nodes = Array.from({ length: this.nodes }, (_, node) => node * each);
+    const change = (row, from, to) => {
+      let most = 0;
+      for (let k = from; k < to; k += 1) most = Math.max(most, Math.abs(values[row * width + k] - drawn[k]));
+      return most;
+    };
+    return Array.from({ length: rows }, (_, row) => row).some((row) => (
+      nodes.some((at) => change(row, at, at + dimension) > FAR * size) || nodes.every((at) => change(row, at + dimension, at + each) > FAR)
+    ));
   }
 
   vector(node, part) {
@@ -162,6 +179,7 @@ export class Motion {
     this.bodies = header.bodies.map((body, number) => new Body(body, number, tracks, header.dimension));
     this.row = new Float64Array(this.table.width);
     this.factor = 1;
+    this.isCarried = false;
     this.acting = header.actions.map((action) => new Float32Array(tracks[action.track].width));
     this.seek(this.times[0]);
     this.fixAxes();
@@ -180,7 +198,7 @@ export class Motion {
   seek(time) {
     this.time = Math.min(Math.max(time, this.start), this.end);
     const place = placeOf(this.times, this.time);
-    for (const body of this.bodies) body.seek(place, this.factor);
+    for (const body of this.bodies) body.seek(place, this.factor, this.isCarried);
     this.actions.forEach((action, number) => between(this.tracks[action.track], place, this.acting[number]));
     between(this.table, placeOf(this.rowTimes, this.time), this.row);
   }

@@ -33,9 +33,9 @@ export class Paint {
     }
   }
 
-  /** The names of what a run can be coloured by. */
+  /** The names of what a run can be coloured by: of what is not zero all along. */
   static offered(motion) {
-    return motion.bodies.some((body) => body.forces) ? Object.keys(QUANTITIES) : [];
+    return Object.keys(QUANTITIES).filter((name) => new Paint(motion, name).most > 0);
   }
 
   /** The value at a place of an element. */
@@ -46,11 +46,11 @@ export class Paint {
 
   colour(body, number, xi) {
     if (!body.force) return '#c8ced5';
-    const part = this.most > 0 ? this.value(body, number, xi) / this.most : 0;
+    const part = this.value(body, number, xi) / this.most;
     return this.isSigned ? mixed(SIGNED, 0.5 + 0.5 * part) : mixed(RISING, part);
   }
 
-  /** Draws the scale into a corner that is so wide. */
+  /** Draws the scale into the upper right corner of a picture that is so wide, and returns its box. */
   legend(layer, width) {
     layer.replaceChildren();
     const [left, top, parts] = [width - WIDTH - 14, 26, 30];
@@ -61,6 +61,8 @@ export class Paint {
     const text = (x, y, anchor, content) => element(layer, 'text', { x, y, 'font-size': 11, 'text-anchor': anchor, fill: '#24292f' }, content);
     text(left + WIDTH, top - 6, 'end', `${this.name} [${this.unit}]`);
     text(left, top + 21, 'start', this.isSigned ? digits(-this.most, 3) : '0');
+    text(left + WIDTH / 2, top + 21, 'middle', this.isSigned ? '0' : digits(this.most / 2, 3));
     text(left + WIDTH, top + 21, 'end', digits(this.most, 3));
+    return [left, 0, width, top + 25];
   }
 }

@@ -289,7 +289,7 @@ fn shapes_are_what_bodies_can_be() {
         /bodies/0/shape | {"cylinder": {"radius": 0.2, "length": 1}} | accepted
         /bodies/0/shape | {"tube": {"radius": 0.2, "inner_radius": 0.1, "length": 1, "axis": [0, 3, 4]}} | accepted
         /bodies/0/shape | null | bodies[0].shape: expected `shape` beside `density`, or `mass` instead of both, found nothing
-        /bodies/0/density | null | bodies[0].density: expected a positive number (kg/m^3) beside `shape`, found nothing
+        /bodies/0/density | null | bodies[0].density: expected a positive number (kg/m^3) beside `shape`, or `mass` instead, found nothing
         /bodies/0/density | 0 | bodies[0].density: expected a positive number (kg/m^3), found 0
         /bodies/0/mass | 1 | bodies[0].mass: expected nothing beside `shape` and `density`, from which it follows, found a value
         /bodies/0/inertia | [1, 1, 1] | bodies[0].inertia: expected nothing beside `shape` and `density`, from which it follows, found a value
@@ -308,6 +308,8 @@ fn shapes_are_what_bodies_can_be() {
         r#"
         /bodies/0/mass | null | bodies[0].mass: expected a positive number (kg), or `shape` and `density`, found nothing
         /bodies/0/density | 1 | bodies[0].shape: expected `shape` beside `density`, or `mass` instead of both, found nothing
+        /bodies/0/shape | {"sphere": {"radius": 0.2}} | accepted
+        /bodies/0/shape | {"sphere": {"radius": 0}} | bodies[0].shape.sphere.radius: expected a positive number (m), found 0
     "#,
     );
 }
