@@ -331,7 +331,7 @@ mod tests {
     #[test]
     fn inputs_without_a_column_are_held_and_roundoff_follows_the_scene() {
         let mut text: serde_json::Value = serde_json::from_str(&scene().to_json()).expect("JSON");
-        text["inputs"] = serde_json::json!([{ "kind": "torque", "joint": "pin", "start": 0.25 }]);
+        text["inputs"] = serde_json::json!([{ "kind": "torque", "joint": "pin", "start": [0.25] }]);
         let scene = Scene::from_json(&text.to_string()).expect("a valid scene");
         let held = |inputs: Option<&InputTable>| -> Vec<(String, f64)> {
             let run = Recording::new(&scene, inputs, &Limits::PAGE, &mut |_, _| ());

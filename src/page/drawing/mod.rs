@@ -119,8 +119,11 @@ mod tests {
             "elbow", "pin", "drive", "hoist", "push", "wind", "ball", "link", "ring", "torque",
             "plug", "socket", "mount",
         ] {
-            assert!(picture.contains(&format!(">{name}</text>")), "{name}");
+            let written = [">", "."].map(|before| format!("{before}{name}</text>"));
+            assert!(written.iter().any(|text| picture.contains(text)), "{name}");
         }
+        // Markers bear the name of their body.
+        assert!(picture.contains(">rod.root</text>"));
         assert!(!picture.contains("NaN") && !picture.contains("inf"));
     }
 
