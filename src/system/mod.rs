@@ -47,7 +47,7 @@ pub use start::placement::{Gap, NotAssembled};
 pub use start::steady::{NotSteady, Steady};
 pub use state::{DenseStep, MethodStatistics, State};
 pub use winch::Winch;
-pub use workspace::Workspace;
+pub use workspace::{Kinematics, Workspace};
 
 use std::ops::Range;
 

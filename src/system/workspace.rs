@@ -11,74 +11,119 @@ use crate::body::{
 use crate::math::recent::Recent;
 use crate::math::rotation::{NO_TURN, Quaternion};
 
-/// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
+/// Scratch of all stages of an evaluation, and the parts of a state that are needed beside `q`.
 #[derive(Clone, Debug)]
 pub struct Workspace<const D: usize = 2> {
-    /// Nodal coordinates, m.
-    pub x: Vec<Node<D>>,
-    /// Rates of the nodal coordinates.
-    pub v: Vec<Node<D>>,
-    /// Forces on them, N.
-    pub f: Vec<Node<D>>,
-    /// Nodal accelerations, or another nodal vector; forces that linear constraints supply.
-    pub(super) other: Vec<Node<D>>,
-    pub(super) linear_constraint_forces: Vec<Node<D>>,
-    /// A vector of free coordinates.
-    pub(super) y: Vec<f64>,
-    /// Accelerations.
-    pub(super) a: Vec<f64>,
-    /// Driven coordinates with two derivatives, and the trajectories of those that inputs drive.
-    pub(super) drives: Vec<[f64; 3]>,
-    pub(super) trajectories: Vec<Trajectory>,
-    /// For every drive, what the function of time that it is gave last.
-    pub(super) recent: Vec<Recent>,
-    /// Target values of driven rows with two time derivatives, `[rows][3]`.
-    pub(super) targets: Vec<[f64; 3]>,
-    /// First and last time at which functions of time are taken in the smooth interval under way.
-    pub(super) smooth_interval: Option<[f64; 2]>,
-    /// Inputs and their rates at the time of the last configuration.
-    pub(super) inputs: Vec<f64>,
-    pub(super) input_rates: Vec<f64>,
-    pub(super) angles: Vec<f64>,
-    pub(super) travel: Vec<f64>,
-    /// Releases of joints, and which of them have happened.
-    pub(super) releases: Vec<Release>,
-    pub(super) released: Vec<bool>,
-    /// Frames that rotations are counted from, and how bodies have turned from there.
-    pub(super) frames: Vec<Quaternion>,
-    pub(super) turns: Vec<RotationIncrement>,
-    /// States of the section frames of rods and beams.
-    pub(super) carries: Vec<SectionFrameState>,
-    /// Both where the tangent was made, and of frames with a shear rotation at the stages of an implicit method too.
-    pub(super) base_turns: Vec<RotationIncrement>,
-    pub(super) stages: [Vec<SectionFrameState>; 1 + STAGES],
-    /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
-    pub(super) torques: Vec<[f64; 3]>,
+    /// Configuration: computed first, and read by all other stages.
+    pub kinematics: Kinematics<D>,
+    /// Forces over the nodes at that configuration.
+    pub forces: Forces<D>,
+    /// Jacobian and multipliers of the non-linear constraints.
+    pub(super) constraints: Constraints<D>,
+    /// Tangent of an implicit method.
+    pub(super) linearization: Linearized<D>,
+    /// Vectors that no stage keeps.
+    pub(super) scratch: Scratch<D>,
+    /// Accelerations of `q` at the last evaluation, of rotations about axes that rotate along, `[coordinates]`.
+    pub(super) acceleration: Vec<f64>,
+    /// A change of `q` that no stage keeps, `[coordinates]`.
+    pub(super) change: Vec<f64>,
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
-    /// Jacobian of the non-linear constraints, what it was made from, and their multipliers at the last acceleration.
-    pub(super) jacobian: Jacobian,
-    pub(super) jacobian_at: Configuration<D>,
-    pub(super) lambda: Vec<f64>,
-    /// Constraints that did not count at states that were accepted.
-    pub(super) rank: RankWatch,
-    /// Factors of the tree that constraints make, what they were made from, and whether they could be.
-    pub(super) articulated: Articulated,
-    tree_at: Configuration<D>,
-    pub(super) is_tree: bool,
-    /// Whether the last acceleration was found with these, without multipliers.
-    pub(super) is_without_multipliers: bool,
-    /// Right-hand side of constraints.
-    pub(super) right: Vec<f64>,
-    pub(super) tangent: Tangent<D>,
-    /// Power that comes in and that is dissipated at the last acceleration, W; what of the latter cables take out.
-    pub(super) power: [f64; 2],
+}
+
+/// Configuration and rates of a system; the first part is what they follow from. [`System::forward_kinematics`] and
+/// [`System::rate_kinematics`] compute it.
+#[derive(Clone, Debug)]
+pub struct Kinematics<const D: usize = 2> {
+    /// Inputs and their rates at the time of the last configuration, `[inputs]`.
+    pub(super) inputs: Vec<f64>,
+    pub(super) input_rates: Vec<f64>,
+    /// First and last time at which functions of time are taken in the smooth interval under way, s.
+    pub(super) smooth_interval: Option<[f64; 2]>,
+    /// Trajectories of driven coordinates that inputs set.
+    pub(super) trajectories: Vec<Trajectory>,
+    /// Last value of the function of time of each drive, `[drives]`.
+    pub(super) recent: Vec<Recent>,
+    /// Releases of joints and whether they have happened, `[releases]`.
+    pub(super) releases: Vec<Release>,
+    pub(super) released: Vec<bool>,
+    /// Frames from which rotations are counted, `[frames]`.
+    pub(super) frames: Vec<Quaternion>,
+    /// Driven coordinates with two derivatives, `[drives][3]`.
+    pub(super) drives: Vec<[f64; 3]>,
+    /// Target values of driven rows with two time derivatives, `[rows][3]`.
+    pub(super) targets: Vec<[f64; 3]>,
+    /// Nodal coordinates, `[nodes]`, m.
+    pub x: Vec<Node<D>>,
+    /// Rates of the nodal coordinates, `[nodes]`.
+    pub v: Vec<Node<D>>,
+    /// Rotations of rigid bodies from their frames, and states of the section frames of rods and beams.
+    pub(super) turns: Vec<RotationIncrement>,
+    pub(super) carries: Vec<SectionFrameState>,
+    /// Counted angles, `[angles]`, rad. Each search for one begins at its last value.
+    pub(super) angles: Vec<f64>,
+    /// Lengths along cables at which slides are, `[slides]`, m. Each search for one begins at its last value.
+    pub(super) travel: Vec<f64>,
+}
+
+/// Forces over the nodes. [`System::forces`] computes the first part, an acceleration the rest.
+#[derive(Clone, Debug)]
+pub struct Forces<const D: usize = 2> {
+    /// Forces on the nodal coordinates but those of constraints, `[nodes]`, N.
+    pub f: Vec<Node<D>>,
+    /// Moments of rods on their sections about the tangents, or of beams along the section axes, `[sections][3]`, N m.
+    pub(super) torques: Vec<[f64; 3]>,
+    /// Power that damping of lines dissipates, W.
     pub(super) dissipated: f64,
+    /// Forces of linear constraints over the nodes, `[nodes]`, N; while a tangent is assembled those of all other constraints and loads.
+    pub(super) linear_constraint_forces: Vec<Node<D>>,
+    /// Power that comes in and power that is dissipated at the last acceleration, W.
+    pub(super) power: [f64; 2],
+}
+
+/// Matrices and multipliers of the non-linear constraints. An acceleration computes them.
+#[derive(Clone, Debug)]
+pub(super) struct Constraints<const D: usize> {
+    /// Jacobian over the free coordinates, and the configuration for which it was computed.
+    pub jacobian: Jacobian,
+    jacobian_at: Configuration<D>,
+    /// Right-hand side of the constraints, then multipliers of the last acceleration, `[constraints]`.
+    pub right: Vec<f64>,
+    pub lambda: Vec<f64>,
+    /// Constraints that did not count at states that were accepted.
+    pub rank: RankWatch,
+    /// Factors of the tree that constraints make, the configuration for which they were computed, and whether they could be.
+    pub articulated: Articulated,
+    tree_at: Configuration<D>,
+    pub is_tree: bool,
+    /// Whether the last acceleration was found with these factors, without multipliers.
+    pub is_without_multipliers: bool,
+}
+
+/// Tangent of an implicit method. [`System::assemble`] computes it.
+#[derive(Clone, Debug)]
+pub(super) struct Linearized<const D: usize> {
+    /// Stiffness and damping over the free coordinates, and their factors.
+    pub tangent: Tangent<D>,
+    /// Rotations of rigid bodies where the tangent was computed.
+    pub base_turns: Vec<RotationIncrement>,
+    /// States of section frames where the tangent was computed, then of frames with a shear rotation at each stage.
+    pub stages: [Vec<SectionFrameState>; 1 + STAGES],
+}
+
+/// Vectors that no stage keeps.
+#[derive(Clone, Debug)]
+pub(super) struct Scratch<const D: usize> {
+    /// Free coordinates, `[free]`.
+    pub y: Vec<f64>,
+    /// Nodal accelerations or another nodal vector, `[nodes]`.
+    pub other: Vec<Node<D>>,
 }
 
 /// Arguments of constraints other than rates.
 #[derive(Clone, Debug)]
-pub(super) struct Configuration<const D: usize> {
+struct Configuration<const D: usize> {
     x: Vec<Node<D>>,
     drives: Vec<[f64; 3]>,
     travel: Vec<f64>,
@@ -98,37 +143,32 @@ impl<const D: usize> Configuration<D> {
 
     /// Whether it is not this one; from now on it is.
     #[inline(always)]
-    fn is_outdated(
-        &mut self,
-        x: &[Node<D>],
-        drives: &[[f64; 3]],
-        (travel, released): (&[f64], &[bool]),
-    ) -> bool {
-        let same = self.x == x && self.drives == drives && self.travel == travel;
-        if same && self.released == released {
+    fn is_outdated(&mut self, now: &Kinematics<D>) -> bool {
+        let same = self.x == now.x && self.drives == now.drives && self.travel == now.travel;
+        if same && self.released == now.released {
             return false;
         }
-        self.released.copy_from_slice(released);
-        self.x.copy_from_slice(x);
-        self.drives.copy_from_slice(drives);
-        self.travel.copy_from_slice(travel);
+        self.released.copy_from_slice(&now.released);
+        self.x.copy_from_slice(&now.x);
+        self.drives.copy_from_slice(&now.drives);
+        self.travel.copy_from_slice(&now.travel);
         true
     }
 }
 
+impl<const D: usize> Constraints<D> {
+    /// Tells whether the Jacobian is outdated for a configuration, and marks it as current.
+    pub fn outdates_jacobian(&mut self, now: &Kinematics<D>) -> bool {
+        self.jacobian_at.is_outdated(now)
+    }
+
+    /// Tells whether the factors of the tree are outdated for a configuration, and marks them as current.
+    pub fn outdates_tree(&mut self, now: &Kinematics<D>) -> bool {
+        self.tree_at.is_outdated(now)
+    }
+}
+
 impl<const D: usize> Workspace<D> {
-    /// Whether the Jacobian is not that of the configuration in place; from now on it is.
-    pub(super) fn outdates_jacobian(&mut self) -> bool {
-        let held = (&self.travel[..], &self.released[..]);
-        (self.jacobian_at).is_outdated(&self.x, &self.drives, held)
-    }
-
-    /// Tells whether the factors of the tree are outdated for the configuration in place, and marks them as current.
-    pub(super) fn outdates_tree(&mut self) -> bool {
-        let held = (&self.travel[..], &self.released[..]);
-        (self.tree_at).is_outdated(&self.x, &self.drives, held)
-    }
-
     /// For a system.
     pub fn new(system: &System<D>) -> Self {
         let nodes = vec![no_node(); system.reference.len()];
@@ -136,73 +176,93 @@ impl<const D: usize> Workspace<D> {
         let is_linear = |row: usize| system.constraints[row].is_linear();
         let (elimination, multipliers) = (&system.elimination, &system.multipliers);
         let jacobian = Jacobian::new(elimination, multipliers, system.evenness(), is_linear);
+        let tangent = Tangent::new(
+            &system.elimination,
+            system.is_damped,
+            &jacobian,
+            &system.grounded,
+            ([&elastic, &still], &sections),
+        );
         let lambda = vec![0.0; system.constraints.len()];
-        let rank = RankWatch::new(lambda.len(), system.coordinates());
-        let turns = vec![RotationIncrement::default(); system.frames.list().len()];
-        let carries = vec![SectionFrameState::default(); system.frames.carried().len()];
+        let kinematics = Kinematics::new(system);
         Self {
-            x: nodes.clone(),
-            v: nodes.clone(),
-            f: nodes.clone(),
-            other: nodes.clone(),
-            linear_constraint_forces: nodes,
-            y: vec![0.0; system.elimination.scratch()],
-            a: vec![0.0; system.coordinates()],
-            drives: vec![[0.0; 3]; system.drives.len()],
-            targets: vec![[0.0; 3]; system.driven.len()],
-            trajectories: vec![Trajectory::default(); system.trajectories().count()],
-            recent: vec![Recent::default(); system.drives.len()],
-            smooth_interval: None,
-            inputs: Vec::new(),
-            input_rates: Vec::new(),
-            angles: vec![0.0; system.angles.len()],
-            travel: vec![0.0; system.slides.len()],
-            released: vec![false; system.releases.len()],
-            releases: system.releases.clone(),
-            frames: vec![NO_TURN; system.frames.count()],
-            base_turns: turns.clone(),
-            turns,
-            stages: std::array::from_fn(|_| carries.clone()),
-            carries,
-            torques: vec![[0.0; 3]; system.frames.carried().len()],
+            linearization: Linearized {
+                tangent,
+                base_turns: kinematics.turns.clone(),
+                stages: std::array::from_fn(|_| kinematics.carries.clone()),
+            },
+            forces: Forces {
+                f: nodes.clone(),
+                torques: vec![[0.0; 3]; kinematics.carries.len()],
+                dissipated: 0.0,
+                linear_constraint_forces: nodes.clone(),
+                power: [0.0; 2],
+            },
+            kinematics,
+            constraints: Constraints {
+                jacobian,
+                jacobian_at: Configuration::none(system),
+                right: lambda.clone(),
+                rank: RankWatch::new(lambda.len(), system.coordinates()),
+                lambda,
+                articulated: (system.tree.as_ref())
+                    .map_or_else(Articulated::default, Tree::scratch),
+                tree_at: Configuration::none(system),
+                is_tree: false,
+                is_without_multipliers: false,
+            },
+            scratch: Scratch {
+                y: vec![0.0; system.elimination.scratch()],
+                other: nodes,
+            },
+            acceleration: vec![0.0; system.coordinates()],
+            change: vec![0.0; system.coordinates()],
             before: system.blank_state(0.0),
-            right: lambda.clone(),
-            lambda,
-            rank,
-            tangent: Tangent::new(
-                &system.elimination,
-                system.is_damped,
-                &jacobian,
-                &system.grounded,
-                ([&elastic, &still], &sections),
-            ),
-            jacobian,
-            jacobian_at: Configuration::none(system),
-            articulated: (system.tree.as_ref()).map_or_else(Articulated::default, Tree::scratch),
-            tree_at: Configuration::none(system),
-            is_tree: false,
-            is_without_multipliers: false,
-            power: [0.0; 2],
-            dissipated: 0.0,
         }
     }
 
     /// Begins a motion: nothing has been said of its constraints.
     pub fn begin(&mut self) {
-        self.rank = RankWatch::new(self.lambda.len(), self.a.len());
+        let constraints = &mut self.constraints;
+        constraints.rank = RankWatch::new(constraints.lambda.len(), self.acceleration.len());
     }
 
-    /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.
+    /// Takes over the parts of a state that are needed beside `q`; motions that inputs drive stand as they are.
     pub fn resume(&mut self, state: &State) {
+        let kinematics = &mut self.kinematics;
         if D > 2 {
-            self.frames.copy_from_slice(&state.frames);
+            kinematics.frames.copy_from_slice(&state.frames);
         }
-        self.angles.copy_from_slice(&state.angles);
-        self.travel.copy_from_slice(&state.travel);
-        self.release(state);
-        for (course, driven) in self.trajectories.iter_mut().zip(&state.driven) {
+        kinematics.angles.copy_from_slice(&state.angles);
+        kinematics.travel.copy_from_slice(&state.travel);
+        kinematics.release(state);
+        for (course, driven) in kinematics.trajectories.iter_mut().zip(&state.driven) {
             let [p, v, a, ..] = *driven;
             *course = Trajectory::hold(state.time, [p, v, a]);
+        }
+    }
+}
+
+impl<const D: usize> Kinematics<D> {
+    fn new(system: &System<D>) -> Self {
+        let nodes = vec![no_node(); system.reference.len()];
+        Self {
+            inputs: Vec::new(),
+            input_rates: Vec::new(),
+            smooth_interval: None,
+            trajectories: vec![Trajectory::default(); system.trajectories().count()],
+            recent: vec![Recent::default(); system.drives.len()],
+            releases: system.releases.clone(),
+            released: vec![false; system.releases.len()],
+            frames: vec![NO_TURN; system.frames.count()],
+            drives: vec![[0.0; 3]; system.drives.len()],
+            targets: vec![[0.0; 3]; system.driven.len()],
+            x: nodes.clone(),
+            v: nodes,
+            turns: vec![RotationIncrement::default(); system.frames.list().len()],
+            carries: vec![SectionFrameState::default(); system.frames.carried().len()],
+            angles: vec![0.0; system.angles.len()],
+            travel: vec![0.0; system.slides.len()],
         }
     }
 }

@@ -135,9 +135,8 @@ impl<const D: usize> Engine<D> {
     ) -> Option<f64> {
         let system = &self.assembled.system;
         let at = still(state);
-        let mut way = vec![0.0; state.coordinates.len()];
         let mut model = DrivenSystem::new(system, inputs, &mut self.work, &at);
-        model.accelerate(at.time, &at.coordinates, &at.rates, &mut way);
+        let mut way = (model.accelerate(at.time, &at.coordinates, &at.rates)).to_vec();
         let solved = slow_response(system, inputs, &mut self.work, &at, rate, &mut way);
         solved.then(|| norm(&way) / (system.size() * system.mass().sqrt()))
     }
@@ -200,7 +199,6 @@ impl<const D: usize> Engine<D> {
         change: f64,
     ) -> Option<Vec<f64>> {
         let system = &self.assembled.system;
-        let n = state.coordinates.len();
         let mut sides = [1.0, -1.0].into_iter().map(|sign| {
             let mut values = inputs.to_vec();
             values[place] += sign * change;
@@ -209,8 +207,7 @@ impl<const D: usize> Engine<D> {
             if !model.project(&mut at) {
                 return None;
             }
-            let mut a = vec![0.0; n];
-            model.accelerate(at.time, &at.coordinates, &at.rates, &mut a);
+            let a = (model.accelerate(at.time, &at.coordinates, &at.rates)).to_vec();
             Some((at.coordinates, a))
         });
         let ((up, pushed), (down, pulled)) = (sides.next()??, sides.next()??);

@@ -3,7 +3,7 @@
 
 use super::Constraint;
 use crate::math::switches::grain;
-use crate::system::{State, Workspace};
+use crate::system::{Kinematics, State};
 
 /// Time and input of the permanent release of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,7 +28,7 @@ impl<const D: usize> Constraint<D> {
     }
 }
 
-impl<const D: usize> Workspace<D> {
+impl<const D: usize> Kinematics<D> {
     /// Copies the released joints of a state, and releases those that are due by its time.
     pub(in crate::system) fn release(&mut self, state: &State) {
         let told = state.released.iter().zip(&self.releases);

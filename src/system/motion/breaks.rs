@@ -12,7 +12,7 @@ use crate::math::function::Function;
 use crate::math::switches::grain;
 use crate::system::joints::JointEquations;
 use crate::system::signal::{Drive, Signal};
-use crate::system::{State, StepOutcome, System, Workspace};
+use crate::system::{Kinematics, State, StepOutcome, System, Workspace};
 
 /// Jump of a driven coordinate, relative, that counts as one.
 const JUMP: f64 = 1e-9;
@@ -52,8 +52,8 @@ impl<const D: usize> System<D> {
     }
 
     /// The time at which functions of time are taken at `time`.
-    pub(in crate::system) fn clock(&self, time: f64, work: &Workspace<D>) -> f64 {
-        match work.smooth_interval {
+    pub(in crate::system) fn clock(&self, time: f64, kinematics: &Kinematics<D>) -> f64 {
+        match kinematics.smooth_interval {
             Some([first, last]) => time.max(first).min(last),
             None => self.now(time),
         }
@@ -93,10 +93,10 @@ impl<const D: usize> DrivenSystem<'_, D> {
     /// Begins a smooth interval at `from`; its end, `until` at the latest.
     pub(in crate::system) fn enter(&mut self, from: f64, until: f64) -> f64 {
         let (first, last) = (from + grain(from), until + grain(until));
-        self.work.release_at(from, self.inputs);
+        self.work.kinematics.release_at(from, self.inputs);
         let found = self.system.next_break(first, last);
         self.crossing = found;
-        self.work.smooth_interval = match (self.system.has_breaks, found) {
+        self.work.kinematics.smooth_interval = match (self.system.has_breaks, found) {
             (true, Some(time)) => Some([first, (time - grain(time)).max(first)]),
             (true, None) => Some([first, f64::INFINITY]),
             (false, _) => None,
@@ -119,6 +119,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
     pub(in crate::system) fn leave(&mut self, state: &mut State) -> StepOutcome {
         let before = self
             .work
+            .kinematics
             .smooth_interval
             .take()
             .map_or(state.time, |[_, last]| last);
@@ -151,38 +152,38 @@ impl<const D: usize> DrivenSystem<'_, D> {
     fn strike(&mut self, state: &mut State, [before, after]: [f64; 2]) -> StepOutcome {
         let (system, time) = (self.system, state.time);
         let rates = Some(&state.rates[..]);
-        self.work.smooth_interval = Some([before, before]);
+        self.work.kinematics.smooth_interval = Some([before, before]);
         system.forward_kinematics(time, &state.coordinates, rates, self.work);
-        let motion = (&self.work.x[..], &self.work.v[..]);
-        let energy = system.kinetic(&self.work.drives, motion);
-        let mut old = std::mem::take(&mut self.work.v);
+        let motion = (&self.work.kinematics.x[..], &self.work.kinematics.v[..]);
+        let energy = system.kinetic(&self.work.kinematics.drives, motion);
         // Material keeps its velocity, not the mesh that it passes through.
-        self.work.other.fill(no_node());
         let Workspace {
-            drives, x, other, ..
+            kinematics,
+            scratch,
+            ..
         } = &mut *self.work;
-        system.add_passing(drives, 1.0, x, other);
-        self.work.smooth_interval = Some([after, after]);
+        scratch.other.fill(no_node());
+        system.add_passing(&kinematics.drives, 1.0, &kinematics.x, &mut scratch.other);
+        self.work.kinematics.smooth_interval = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
-        self.work.linear_constraint_forces.fill(no_node());
-        system.add_driven(
-            &self.work.targets,
-            1,
-            &mut self.work.linear_constraint_forces,
-        );
-        for (rate, driven) in old.iter_mut().zip(&self.work.linear_constraint_forces) {
+        let Workspace {
+            kinematics, forces, ..
+        } = &mut *self.work;
+        let driven = &mut forces.linear_constraint_forces;
+        driven.fill(no_node());
+        system.add_driven(&kinematics.targets, 1, driven);
+        for (rate, driven) in kinematics.v.iter_mut().zip(driven) {
             add_node(rate, -1.0, driven);
         }
-        system.rates_of(&mut old, self.work, &mut state.rates);
-        self.work.v = old;
+        system.rates_of(self.work, &mut state.rates);
         let kept = self.project(state);
         system.forward_kinematics(time, &state.coordinates, Some(&state.rates), self.work);
         if system.tracks_work {
             // Drives alone do work: the other impulses act where velocities have no part before or after.
-            let motion = (&self.work.x[..], &self.work.v[..]);
-            state.work[0] += system.kinetic(&self.work.drives, motion) - energy;
+            let motion = (&self.work.kinematics.x[..], &self.work.kinematics.v[..]);
+            state.work[0] += system.kinetic(&self.work.kinematics.drives, motion) - energy;
         }
-        self.work.smooth_interval = None;
+        self.work.kinematics.smooth_interval = None;
         if kept {
             StepOutcome::Moved
         } else {

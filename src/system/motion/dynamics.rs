@@ -144,15 +144,19 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         state: &State,
     ) -> Self {
         work.resume(state);
-        work.rank.begin(state.time);
-        work.release_at(state.time, inputs);
-        work.smooth_interval = None;
-        work.inputs.clear();
-        work.inputs.extend_from_slice(inputs);
-        work.input_rates.clear();
-        work.input_rates.resize(inputs.len(), 0.0);
+        work.constraints.rank.begin(state.time);
+        work.kinematics.release_at(state.time, inputs);
+        work.kinematics.smooth_interval = None;
+        work.kinematics.inputs.clear();
+        work.kinematics.inputs.extend_from_slice(inputs);
+        work.kinematics.input_rates.clear();
+        work.kinematics.input_rates.resize(inputs.len(), 0.0);
         // An acceleration that is an input acts at once.
-        let courses = work.trajectories.iter_mut().zip(system.trajectories());
+        let courses = work
+            .kinematics
+            .trajectories
+            .iter_mut()
+            .zip(system.trajectories());
         for (place, (course, given)) in courses.enumerate() {
             if given.has_acceleration() {
                 let [p, v, ..] = state.driven[place];
@@ -201,7 +205,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
                 let [first, second] = self.slopes.get(index).copied().unwrap_or_default();
                 [self.inputs[index], first, second]
             };
-            let courses = self.work.trajectories.iter_mut();
+            let courses = self.work.kinematics.trajectories.iter_mut();
             for (place, (course, given)) in courses.zip(self.system.trajectories()).enumerate() {
                 *course = given.course((state.time, h), (place, &state.driven), input);
             }
@@ -209,27 +213,28 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         self
     }
 
-    /// Accelerations of the coordinates, and multipliers; of rotations, angular accelerations about the axes that turn with
-    /// the body.
-    pub fn accelerate(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
-        self.accelerate_with(time, [q, v], true, a);
+    /// Computes accelerations of the coordinates, and multipliers, in the workspace; of rotations, angular accelerations about the axes that
+    /// rotate with the body.
+    pub fn accelerate(&mut self, time: f64, q: &[f64], v: &[f64]) -> &[f64] {
+        self.accelerate_with(time, q, v, true)
     }
 
     /// Computes accelerations with or without multipliers.
     #[inline(always)]
-    fn accelerate_with(&mut self, time: f64, [q, v]: [&[f64]; 2], is_told: bool, a: &mut [f64]) {
+    fn accelerate_with(&mut self, time: f64, q: &[f64], v: &[f64], is_told: bool) -> &[f64] {
         self.operations += 1.0;
         let system = self.system;
         self.place(time, q, v);
         system.forces(time, self.work);
-        system.reduce(self.work, a);
+        system.reduce(self.work);
         let is_read = is_told || (system.tracks_work && !system.drives.is_empty());
-        if !system.constraints.is_empty() && (is_read || !system.constrain_tree(self.work, a)) {
-            system.constrain(self.work, a);
+        if !system.constraints.is_empty() && (is_read || !system.constrain_tree(self.work)) {
+            system.constrain(self.work);
         }
         if system.tracks_work {
-            self.work.power = system.powers(time, a, self.work);
+            self.work.forces.power = system.powers(time, self.work);
         }
+        &self.work.acceleration
     }
 
     /// Puts a state whose rotations are larger than this in terms of smaller ones. Whether they were.
@@ -248,7 +253,10 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         let t = time - self.start;
         for (i, [first, second]) in self.slopes.iter().enumerate() {
             let [value, rate] = moved([self.inputs[i], *first, *second], t);
-            (self.work.inputs[i], self.work.input_rates[i]) = (value, rate);
+            (
+                self.work.kinematics.inputs[i],
+                self.work.kinematics.input_rates[i],
+            ) = (value, rate);
         }
         let v = self.system.reads_rates().then_some(v);
         self.system.forward_kinematics(time, q, v, self.work);
@@ -259,9 +267,12 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     pub fn potential_difference(&mut self, from: &[f64], to: &[f64]) -> (f64, f64) {
         let (system, time) = (self.system, self.time);
         system.forward_kinematics(time, to, None, self.work);
-        self.work.other.copy_from_slice(&self.work.x);
+        self.work
+            .scratch
+            .other
+            .copy_from_slice(&self.work.kinematics.x);
         system.forward_kinematics(time, from, None, self.work);
-        let (before, after) = (&self.work.x, &self.work.other);
+        let (before, after) = (&self.work.kinematics.x, &self.work.scratch.other);
         let (mut sum, mut size) = (0.0, 0.0);
         let mut add = |energy: f64, scale: f64| {
             sum += energy;
@@ -303,28 +314,33 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     pub fn inertia(&mut self, weights: [f64; 2]) -> Option<usize> {
         self.operations += FACTOR;
         let elimination = &self.system.elimination;
-        self.work.tangent.inertia(elimination, weights)
+        self.work
+            .linearization
+            .tangent
+            .inertia(elimination, weights)
     }
 
     /// As [`Dynamics::solve`], over small rotations in place of changes of coordinates: equilibria are found in these.
     pub fn solve_small(&mut self, x: &mut [f64]) {
         self.operations += SOLVE;
-        self.work.tangent.solve(&self.system.elimination, x);
+        self.work
+            .linearization
+            .tangent
+            .solve(&self.system.elimination, x);
     }
 
     /// `K x`, in place, inside the tangent plane of the constraints.
     pub fn apply_stiffness(&mut self, x: &mut [f64]) {
-        self.system.project_on_tangent_plane(self.work, x);
-        self.work
-            .tangent
-            .apply_stiffness(&self.system.elimination, x);
-        self.system.project_on_tangent_plane(self.work, x);
+        let (system, work) = (self.system, &mut *self.work);
+        system.project_on_tangent_plane(&mut work.constraints, x);
+        (work.linearization.tangent).apply_stiffness(&system.elimination, x);
+        system.project_on_tangent_plane(&mut work.constraints, x);
     }
 
     fn instant<'b>(&'b self, x: &'b [Node<D>]) -> Instant<'b, D> {
         Instant {
             x,
-            ..self.system.instant(self.time, self.work)
+            ..self.system.instant(self.time, &self.work.kinematics)
         }
     }
 
@@ -346,12 +362,12 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
 
 impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
-        self.accelerate_with(time, [q, v], false, a);
+        a.copy_from_slice(self.accelerate_with(time, q, v, false));
         self.system.to_second(self.work, a);
     }
 
     fn power(&self) -> [f64; 2] {
-        self.work.power
+        self.work.forces.power
     }
 
     fn steps_in(&self, time: f64, h: f64) -> f64 {
@@ -375,9 +391,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
         let system = self.system;
         if !(system.constraints.is_empty() && system.has_no_frames()) {
             // Multipliers stiffen, so do forces on bodies that turn, and solves need the Jacobian here.
-            let mut a = std::mem::take(&mut self.work.a);
-            self.accelerate(time, q, v, &mut a);
-            self.work.a = a;
+            self.accelerate(time, q, v);
         } else {
             self.place(time, q, v);
         }
@@ -386,12 +400,12 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn factor(&mut self, weights: [f64; 2]) -> bool {
         self.operations += FACTOR;
-        (self.work.tangent).factor(&self.system.elimination, weights)
+        (self.work.linearization.tangent).factor(&self.system.elimination, weights)
     }
 
     fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool {
         self.operations += FACTOR_COMPLEX;
-        (self.work.tangent).factor_complex(&self.system.elimination, weights)
+        (self.work.linearization.tangent).factor_complex(&self.system.elimination, weights)
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -414,7 +428,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
         for (i, q) in stages.iter_mut().enumerate() {
             system.to_tangent(1 + i, self.work, q);
         }
-        let tangent = &mut self.work.tangent;
+        let tangent = &mut self.work.linearization.tangent;
         tangent.solve_stages(&system.elimination, [forward, back], stages);
         for (i, q) in stages.iter_mut().enumerate() {
             system.back_from_tangent(1 + i, self.work, q);
@@ -427,16 +441,22 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn apply_damping(&mut self, x: &mut [f64]) {
         self.system.to_tangent(0, self.work, x);
-        self.work.tangent.apply_damping(&self.system.elimination, x);
+        self.work
+            .linearization
+            .tangent
+            .apply_damping(&self.system.elimination, x);
         self.system.back_from_tangent(0, self.work, x);
     }
 
     fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64 {
         let (system, time) = (self.system, self.time);
         system.forward_kinematics(time, from, None, self.work);
-        self.work.other.copy_from_slice(&self.work.x);
+        self.work
+            .scratch
+            .other
+            .copy_from_slice(&self.work.kinematics.x);
         system.forward_kinematics(time, to, None, self.work);
-        largest_turn(&self.work.other, &self.work.x)
+        largest_turn(&self.work.scratch.other, &self.work.kinematics.x)
     }
 
     fn renew(&mut self, state: &mut State) -> bool {
@@ -447,7 +467,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
         if !self.system.is_projected() {
             return self.count(state);
         }
-        self.work.rank.reach(&state.coordinates);
+        self.work.constraints.rank.reach(&state.coordinates);
         if !self.project(state) {
             return StepOutcome::ConstraintsViolated;
         }

@@ -8,10 +8,18 @@ impl<const D: usize> DrivenSystem<'_, D> {
     /// Counts angles on, follows slides and driven motions.
     pub fn count(&mut self, state: &mut State) -> StepOutcome {
         let system = self.system;
-        for (told, is_released) in state.released.iter_mut().zip(&self.work.released) {
+        for (told, is_released) in state
+            .released
+            .iter_mut()
+            .zip(&self.work.kinematics.released)
+        {
             *told = f64::from(u8::from(*is_released));
         }
-        for (driven, course) in state.driven.iter_mut().zip(&self.work.trajectories) {
+        for (driven, course) in state
+            .driven
+            .iter_mut()
+            .zip(&self.work.kinematics.trajectories)
+        {
             *driven = course.orders(state.time);
         }
         if let Some(drive) = system.taken_in(self.work) {
@@ -21,21 +29,21 @@ impl<const D: usize> DrivenSystem<'_, D> {
             return StepOutcome::AsIs;
         }
         system.forward_kinematics(state.time, &state.coordinates, None, self.work);
-        if let Some((body, element)) = system.overbent(&self.work.x) {
+        if let Some((body, element)) = system.overbent(&self.work.kinematics.x) {
             return StepOutcome::ElementOverDeformed(body, element);
         }
         for (i, angle) in system.angles.iter().enumerate() {
-            state.angles[i] = angle.value(&self.work.x, self.work.angles[i]);
+            state.angles[i] = angle.value(&self.work.kinematics.x, self.work.kinematics.angles[i]);
         }
-        self.work.angles.copy_from_slice(&state.angles);
-        state.travel.copy_from_slice(&self.work.travel);
+        self.work.kinematics.angles.copy_from_slice(&state.angles);
+        state.travel.copy_from_slice(&self.work.kinematics.travel);
         for (constraint, travel) in system.slides.iter().zip(&state.travel) {
             let constraint = &system.constraints[*constraint];
             let ConstraintKind::PointOnCurve(along) = &constraint.kind else {
                 continue;
             };
             let length = system.chains[along.chain].length();
-            let is_released = constraint.is_released(&self.work.released);
+            let is_released = constraint.is_released(&self.work.kinematics.released);
             if !is_released && !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
                 let joint = constraint.joint.expect("a slide is part of a joint");
                 state.copy_from(&self.work.before);

@@ -14,6 +14,7 @@ use crate::system::end::{Attachment, coupling};
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::signal::Drive;
+use crate::system::workspace::{Forces, Kinematics, Scratch};
 use crate::system::{LineChain, LumpedMass, System, Workspace};
 
 impl<const D: usize> System<D> {
@@ -25,10 +26,10 @@ impl<const D: usize> System<D> {
         v: Option<&[f64]>,
         work: &mut Workspace<D>,
     ) {
-        let clock = self.clock(time, work);
-        let mut trajectories = work.trajectories.iter();
-        let drives = self.drives.iter().zip(&mut work.recent);
-        for (value, (drive, recent)) in work.drives.iter_mut().zip(drives) {
+        let clock = self.clock(time, &work.kinematics);
+        let mut trajectories = work.kinematics.trajectories.iter();
+        let drives = self.drives.iter().zip(&mut work.kinematics.recent);
+        for (value, (drive, recent)) in work.kinematics.drives.iter_mut().zip(drives) {
             *value = match drive {
                 Drive::Function(function) => recent.derivatives(function, clock),
                 Drive::Input { .. } | Drive::Turned { .. } => {
@@ -37,16 +38,25 @@ impl<const D: usize> System<D> {
                 }
             };
         }
-        for (target, driven) in work.targets.iter_mut().zip(&self.driven) {
-            *target = self.linear[driven.row].target.derivatives(&work.drives);
+        for (target, driven) in work.kinematics.targets.iter_mut().zip(&self.driven) {
+            *target = self.linear[driven.row]
+                .target
+                .derivatives(&work.kinematics.drives);
         }
-        self.elimination
-            .expand_from(&self.reference, q, &mut work.y, &mut work.x);
-        self.add_driven(&work.targets, 0, &mut work.x);
+        self.elimination.expand_from(
+            &self.reference,
+            q,
+            &mut work.scratch.y,
+            &mut work.kinematics.x,
+        );
+        self.add_driven(&work.kinematics.targets, 0, &mut work.kinematics.x);
         self.lengthen(work);
-        let turns = (&mut work.turns[..], &mut work.carries[..]);
-        (self.frames).place(&work.frames, turns, &mut work.x);
-        self.find_travel(&work.x, &mut work.travel);
+        let turns = (
+            &mut work.kinematics.turns[..],
+            &mut work.kinematics.carries[..],
+        );
+        (self.frames).place(&work.kinematics.frames, turns, &mut work.kinematics.x);
+        self.find_travel(&work.kinematics.x, &mut work.kinematics.travel);
         if let Some(v) = v {
             self.rate_kinematics(v, work);
         }
@@ -63,11 +73,15 @@ impl<const D: usize> System<D> {
 
     /// Puts nodal rates into `work`; what drives them is that of the last [`System::forward_kinematics`].
     pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Workspace<D>) {
-        self.elimination.expand(v, &mut work.y, &mut work.v);
-        self.add_driven(&work.targets, 1, &mut work.v);
+        self.elimination
+            .expand(v, &mut work.scratch.y, &mut work.kinematics.v);
+        self.add_driven(&work.kinematics.targets, 1, &mut work.kinematics.v);
         self.lengthen_rates(work);
-        let turns = (&mut work.turns[..], &mut work.carries[..]);
-        (self.frames).place_rates(&work.x, turns, &mut work.v);
+        let turns = (
+            &mut work.kinematics.turns[..],
+            &mut work.kinematics.carries[..],
+        );
+        (self.frames).place_rates(&work.kinematics.x, turns, &mut work.kinematics.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
@@ -89,91 +103,113 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn instant<'a>(
         &'a self,
         time: f64,
-        work: &'a Workspace<D>,
+        at: &'a Kinematics<D>,
     ) -> Instant<'a, D> {
         Instant {
-            time: self.clock(time, work),
-            inputs: &work.inputs,
-            input_rates: &work.input_rates,
-            drives: &work.drives,
-            x: &work.x,
-            v: &work.v,
+            time: self.clock(time, at),
+            inputs: &at.inputs,
+            input_rates: &at.input_rates,
+            drives: &at.drives,
+            x: &at.x,
+            v: &at.v,
             chains: &self.chains,
             sections: (&self.rod_chains, &self.frames),
-            angles: (&self.angles, &work.angles),
+            angles: (&self.angles, &at.angles),
             winches: &self.winches,
         }
     }
 
     /// Total force on the nodes in `work`, but for constraints, and what damping of cables takes out.
     pub(in crate::system) fn forces(&self, time: f64, work: &mut Workspace<D>) {
-        let mut force = std::mem::take(&mut work.f);
-        force.copy_from_slice(&self.weight);
-        work.dissipated = 0.0;
+        let Workspace {
+            kinematics,
+            forces,
+            scratch,
+            ..
+        } = work;
+        let motion @ (x, v) = (&kinematics.x[..], &kinematics.v[..]);
+        let Forces {
+            f,
+            torques,
+            dissipated,
+            ..
+        } = forces;
+        f.copy_from_slice(&self.weight);
+        *dissipated = 0.0;
         if !self.winches.is_empty() {
-            let motion = (&work.x[..], &work.v[..]);
-            self.add_lengthening(&work.drives, motion, &mut work.other, &mut force);
+            self.add_lengthening(&kinematics.drives, motion, &mut scratch.other, f);
         }
         for chain in &self.chains {
-            let longer = self.length_now(chain, &work.drives).longer();
-            work.dissipated += chain.add_force((&work.x, &work.v), longer, &mut force);
+            let longer = self.length_now(chain, &kinematics.drives).longer();
+            *dissipated += chain.add_force(motion, longer, f);
         }
         if !self.rod_chains().is_empty() {
-            work.torques.fill([0.0; 3]);
+            torques.fill([0.0; 3]);
         }
         for chain in self.rod_chains() {
-            let motion = (&work.x[..], &work.v[..]);
-            let out = (&mut force[..], &mut work.torques[..]);
-            work.dissipated += chain.add_force(motion, &self.frames, out);
+            let out = (&mut f[..], &mut torques[..]);
+            *dissipated += chain.add_force(motion, &self.frames, out);
         }
-        let at = self.instant(time, work);
+        let at = self.instant(time, kinematics);
         for load in &self.loads {
-            load.add_force(at, &mut force);
+            load.add_force(at, f);
         }
         if self.is_turning() {
-            for (carried, (x, v)) in work.other.iter_mut().zip(work.x.iter().zip(&work.v)) {
+            for (carried, (x, v)) in scratch.other.iter_mut().zip(x.iter().zip(v)) {
                 *carried = carried_node(self.rotation, x, v);
             }
-            self.add_inertia(-1.0, &work.other, &mut force);
+            self.add_inertia(-1.0, &scratch.other, f);
             for chain in self.rod_chains() {
-                let motion = (&work.x[..], &work.v[..]);
-                chain.add_turning(motion, self.rotation, &self.frames, &mut force);
+                chain.add_turning(motion, self.rotation, &self.frames, f);
             }
         }
-        work.f = force;
     }
 
-    /// Generalized forces `T^T (f - M G c'')` of the nodal forces in `work`, which stay.
-    pub(in crate::system) fn reduce(&self, work: &mut Workspace<D>, a: &mut [f64]) {
-        let change = |sign: f64, work: &mut Workspace<D>| {
-            for (driven, [_, _, second]) in self.driven.iter().zip(&work.targets) {
-                add(&driven.inertia, sign * second, &mut work.f);
+    /// Computes `T^T (f - M G c'')` of the nodal forces in `work`, which stay, into `work.acceleration`.
+    pub(in crate::system) fn reduce(&self, work: &mut Workspace<D>) {
+        let Workspace {
+            kinematics,
+            forces,
+            scratch,
+            acceleration,
+            ..
+        } = work;
+        let change = |sign: f64, f: &mut [Node<D>]| {
+            for (driven, [_, _, second]) in self.driven.iter().zip(&kinematics.targets) {
+                add(&driven.inertia, sign * second, f);
             }
         };
-        change(-1.0, work);
+        change(-1.0, &mut forces.f);
+        let Scratch { y, other } = scratch;
         if self.has_no_frames() && self.winches.is_empty() {
-            self.elimination.reduce(&work.f, &mut work.y, a);
+            self.elimination.reduce(&forces.f, y, acceleration);
         } else {
-            work.other.copy_from_slice(&work.f);
-            self.pull_back(&work.drives, &mut work.other);
-            (self.frames).pull_back((&work.x, Some(&work.v)), &mut work.other);
-            let motion = (&work.x[..], &work.v[..]);
-            self.add_rod_forces(motion, &work.torques, &mut work.other);
-            self.elimination.reduce(&work.other, &mut work.y, a);
+            let motion @ (x, v) = (&kinematics.x[..], &kinematics.v[..]);
+            other.copy_from_slice(&forces.f);
+            self.pull_back(&kinematics.drives, other);
+            (self.frames).pull_back((x, Some(v)), other);
+            self.add_rod_forces(motion, &forces.torques, other);
+            self.elimination.reduce(other, y, acceleration);
         }
-        change(1.0, work);
+        change(1.0, &mut forces.f);
     }
 
     /// Tangent at the state in `work`, with the multipliers of its last acceleration.
     pub(in crate::system) fn assemble(&self, time: f64, work: &mut Workspace<D>) {
         let assembly = &self.elimination.assembly;
-        let clock = self.clock(time, work);
         if !self.has_no_frames() {
             self.add_multiplied(work);
         }
         self.set_base(work);
-        let Workspace { tangent, x, v, .. } = work;
-        let (drives, travel, angles) = (&work.drives, &work.travel, &work.angles);
+        let Workspace {
+            kinematics,
+            forces,
+            constraints,
+            linearization,
+            ..
+        } = work;
+        let tangent = &mut linearization.tangent;
+        let (x, v, drives) = (&kinematics.x, &kinematics.v, &kinematics.drives);
         tangent.clear();
         let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
         for chain in &self.chains {
@@ -185,18 +221,7 @@ impl<const D: usize> System<D> {
             let matrices = [&mut *stiffness, &mut *damping];
             chain.add_tangent((x, v), &self.frames, assembly, matrices);
         }
-        let at = Instant {
-            time: clock,
-            inputs: &work.inputs,
-            input_rates: &work.input_rates,
-            drives,
-            x,
-            v,
-            chains: &self.chains,
-            sections: (&self.rod_chains, &self.frames),
-            angles: (&self.angles, angles),
-            winches: &self.winches,
-        };
+        let at = self.instant(time, kinematics);
         for load in &self.loads {
             load.add_tangent(
                 at,
@@ -207,37 +232,29 @@ impl<const D: usize> System<D> {
         if self.is_turning() {
             self.add_centrifugal(x, stiffness);
         }
-        let view = View {
-            x,
-            v,
-            drives,
-            chains: &self.chains,
-            travel,
-            angles,
-            released: &work.released,
-        };
-        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+        let view = self.view(kinematics);
+        for (constraint, lambda) in self.constraints.iter().zip(&constraints.lambda) {
             constraint.stiffness(*lambda, &view, &mut |a, b, block| {
                 self.add_block((a, b), block, (x, drives), &mut tangent.stiffness);
             });
         }
         for frame in self.frames.list() {
-            let turned = RotationMaps::geometric(frame, &work.linear_constraint_forces, x);
+            let turned = RotationMaps::geometric(frame, &forces.linear_constraint_forces, x);
             let block = turning_block(&((turned + turned.transpose()) * 0.5));
             assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
         for frame in self.frames.carried() {
             RotationMaps::geometric_of_carried(
                 frame,
-                &work.linear_constraint_forces,
+                &forces.linear_constraint_forces,
                 x,
                 |a, b, block| {
                     assembly.add(a, b, block, &mut tangent.stiffness);
                 },
             );
         }
-        tangent.hold(assembly, &work.jacobian, &self.multipliers);
-        self.add_multipliers(&view, &work.jacobian, &mut tangent.stiffness);
+        tangent.hold(assembly, &constraints.jacobian, &self.multipliers);
+        self.add_multipliers(&view, &constraints.jacobian, &mut tangent.stiffness);
     }
 
     /// Adds second derivatives by nodal coordinates to a matrix over the free ones.
@@ -265,64 +282,73 @@ impl<const D: usize> System<D> {
         });
     }
 
-    /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.linear_constraint_forces`.
+    /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.forces.linear_constraint_forces`.
     pub(in crate::system) fn add_multiplied(&self, work: &mut Workspace<D>) {
-        let mut sum = std::mem::take(&mut work.linear_constraint_forces);
-        sum.copy_from_slice(&work.f);
-        let view = self.view(work);
-        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+        let Forces {
+            f,
+            linear_constraint_forces: sum,
+            ..
+        } = &mut work.forces;
+        sum.copy_from_slice(f);
+        let view = self.view(&work.kinematics);
+        for (constraint, lambda) in self.constraints.iter().zip(&work.constraints.lambda) {
             constraint.for_each(&view, |node, term| {
-                add(&[(node, *term)], -lambda, &mut sum);
+                add(&[(node, *term)], -lambda, sum);
             });
         }
-        work.linear_constraint_forces = sum;
     }
 
-    /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.linear_constraint_forces`:
-    /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
-    pub(in crate::system) fn linear_constraint_forces(&self, a: &[f64], work: &mut Workspace<D>) {
-        self.elimination.expand(a, &mut work.y, &mut work.other);
-        self.pull_back(&work.drives, &mut work.other);
-        self.frames.place_changes(&work.x, &mut work.other);
-        (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);
-        self.add_driven(&work.targets, 2, &mut work.other);
-        self.add_lengthened(&work.drives, (&work.x, &work.v), &mut work.other);
-        for (linear_constraint_forces, f) in work.linear_constraint_forces.iter_mut().zip(&work.f) {
-            *linear_constraint_forces = map_node(f, |f| -f);
+    /// Computes the forces of linear constraints at the accelerations in `work`, over the nodes, into
+    /// `work.forces.linear_constraint_forces`: `M x'' - f + J^T lambda`; nodal accelerations into `work.scratch.other`.
+    pub(in crate::system) fn linear_constraint_forces(&self, work: &mut Workspace<D>) {
+        let Workspace {
+            kinematics,
+            forces,
+            constraints,
+            scratch,
+            acceleration,
+            ..
+        } = work;
+        let motion @ (x, _) = (&kinematics.x[..], &kinematics.v[..]);
+        let (drives, Scratch { y, other }) = (&kinematics.drives, scratch);
+        self.elimination.expand(acceleration, y, other);
+        self.pull_back(drives, other);
+        self.frames.place_changes(x, other);
+        self.frames.add_centripetal(motion, other);
+        self.add_driven(&kinematics.targets, 2, other);
+        self.add_lengthened(drives, motion, other);
+        let found = &mut forces.linear_constraint_forces;
+        for (found, f) in found.iter_mut().zip(&forces.f) {
+            *found = map_node(f, |f| -f);
         }
-        self.add_inertia_now(
-            &work.drives,
-            &work.other,
-            &mut work.linear_constraint_forces,
-        );
-        let mut linear_constraint_forces = std::mem::take(&mut work.linear_constraint_forces);
-        let view = self.view(work);
-        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+        self.add_inertia_now(drives, other, found);
+        let view = self.view(kinematics);
+        for (constraint, lambda) in self.constraints.iter().zip(&constraints.lambda) {
             constraint.for_each(&view, |node, term| {
-                add(&[(node, *term)], *lambda, &mut linear_constraint_forces);
+                add(&[(node, *term)], *lambda, found);
             });
         }
-        work.linear_constraint_forces = linear_constraint_forces;
     }
 
     /// Power that comes in through loads and motions and that is dissipated, W, at the state, forces and
     /// accelerations in place.
-    pub(in crate::system) fn powers(
-        &self,
-        time: f64,
-        a: &[f64],
-        work: &mut Workspace<D>,
-    ) -> [f64; 2] {
+    pub(in crate::system) fn powers(&self, time: f64, work: &mut Workspace<D>) -> [f64; 2] {
         if !self.drives.is_empty() {
-            self.linear_constraint_forces(a, work);
+            self.linear_constraint_forces(work);
         }
-        let multiplied = self.constraints.iter().zip(work.lambda.iter().copied());
-        let at = self.instant(time, work);
+        let multiplied = self
+            .constraints
+            .iter()
+            .zip(work.constraints.lambda.iter().copied());
+        let at = self.instant(time, &work.kinematics);
         self.power(
             at,
-            &self.view(work),
-            |place| work.targets[place][1],
-            (&work.linear_constraint_forces, work.dissipated),
+            &self.view(&work.kinematics),
+            |place| work.kinematics.targets[place][1],
+            (
+                &work.forces.linear_constraint_forces,
+                work.forces.dissipated,
+            ),
             multiplied,
         )
     }

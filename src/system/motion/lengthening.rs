@@ -51,26 +51,35 @@ impl<const D: usize> System<D> {
 
     /// Takes positions for `x_ref + u` to `x_ref + s u`.
     pub(super) fn lengthen(&self, work: &mut Workspace<D>) {
-        for (_, node, now) in self.lengthened(&work.drives) {
+        for (_, node, now) in self.lengthened(&work.kinematics.drives) {
             let root = now.root[0];
-            change(&mut work.x[node], &self.reference[node], |x, from| {
-                from + root * (x - from)
-            });
+            change(
+                &mut work.kinematics.x[node],
+                &self.reference[node],
+                |x, from| from + root * (x - from),
+            );
         }
     }
 
     /// Takes rates from `u'` to `s u' + s' u` at the positions in `work`.
     pub(super) fn lengthen_rates(&self, work: &mut Workspace<D>) {
-        for (_, node, now) in self.lengthened(&work.drives) {
-            let ([root, rate, _], way) = (now.root, self.way(node, &work.x, &now));
-            change(&mut work.v[node], &way, |v, u| root * v + rate * u);
+        for (_, node, now) in self.lengthened(&work.kinematics.drives) {
+            let ([root, rate, _], way) = (now.root, self.way(node, &work.kinematics.x, &now));
+            change(&mut work.kinematics.v[node], &way, |v, u| {
+                root * v + rate * u
+            });
         }
     }
 
-    /// Takes rates of nodes for `u'` back from `x'` at the positions in `work`.
-    pub(in crate::system) fn shorten_rates(&self, work: &Workspace<D>, v: &mut [Node<D>]) {
-        for (_, node, now) in self.lengthened(&work.drives) {
-            let ([root, rate, _], way) = (now.root, self.way(node, &work.x, &now));
+    /// Takes rates of nodes for `u'` back from `x'` at positions `x`.
+    pub(in crate::system) fn shorten_rates(
+        &self,
+        drives: &[[f64; 3]],
+        x: &[Node<D>],
+        v: &mut [Node<D>],
+    ) {
+        for (_, node, now) in self.lengthened(drives) {
+            let ([root, rate, _], way) = (now.root, self.way(node, x, &now));
             change(&mut v[node], &way, |v, u| (v - rate * u) / root);
         }
     }
@@ -145,15 +154,16 @@ impl<const D: usize> System<D> {
 
     /// The driven coordinate of a winch that has taken in its whole cable at the configuration in `work`.
     pub(super) fn taken_in(&self, work: &Workspace<D>) -> Option<usize> {
-        let shortest =
-            |winch: &&Winch<D>| work.drives[winch.drive][0] <= (SHORTEST - 1.0) * winch.length;
+        let shortest = |winch: &&Winch<D>| {
+            work.kinematics.drives[winch.drive][0] <= (SHORTEST - 1.0) * winch.length
+        };
         self.winches.iter().find(shortest).map(|winch| winch.drive)
     }
 
     /// The driven coordinate of a winch that has paid out cable at the configuration in `work`, and how much, m.
     pub fn paid_out_at_start(&self, work: &Workspace<D>) -> Option<(usize, f64)> {
         self.winches.iter().find_map(|winch| {
-            let [travel, ..] = work.drives[winch.drive];
+            let [travel, ..] = work.kinematics.drives[winch.drive];
             (travel.abs() > BEGUN * winch.length).then_some((winch.drive, travel))
         })
     }

@@ -15,7 +15,8 @@ use crate::body::{Jacobian, Node, SparseRows, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::joints::{Constraint, View};
-use crate::system::{System, Workspace};
+use crate::system::workspace::Constraints;
+use crate::system::{Kinematics, System, Workspace};
 
 /// Most iterations of a projection.
 const ITERATIONS: usize = 20;
@@ -63,23 +64,20 @@ impl<const D: usize> ConstraintRow<'_, D> {
 impl<const D: usize> System<D> {
     /// Fills in the Jacobian at the nodal coordinates in `work`, unless it is that already.
     pub(super) fn jacobians(&self, work: &mut Workspace<D>) {
-        if !work.outdates_jacobian() {
+        let Workspace {
+            kinematics,
+            constraints,
+            ..
+        } = work;
+        if !constraints.outdates_jacobian(kinematics) {
             return;
         }
-        let view = View {
-            x: &work.x,
-            v: &work.v,
-            drives: &work.drives,
-            chains: &self.chains,
-            travel: &work.travel,
-            angles: &work.angles,
-            released: &work.released,
-        };
+        let view = self.view(kinematics);
         for (row, constraint) in self.constraints.iter().enumerate() {
-            if !work.jacobian.needs(row) {
+            if !constraints.jacobian.needs(row) {
                 continue;
             }
-            (work.jacobian).fill(&self.elimination, row, |tell| {
+            (constraints.jacobian).fill(&self.elimination, row, |tell| {
                 constraint.for_each_pulled((&view, &self.frames), |node, term| {
                     tell(node, &self.shortened(node, view.drives, term));
                 });
@@ -98,28 +96,28 @@ impl<const D: usize> System<D> {
     ) {
         self.forward_kinematics(time, q, v, work);
         self.jacobians(work);
-        let view = self.view(work);
+        let view = self.view(&work.kinematics);
         for (row, constraint) in self.constraints.iter().enumerate() {
             visit(ConstraintRow {
                 constraint,
                 view: &view,
                 size: constraint.size(&self.chains),
-                rows: work.jacobian.rows(),
+                rows: work.constraints.jacobian.rows(),
                 row,
             });
         }
     }
 
-    /// The state in `work` as constraints see it.
-    pub(in crate::system) fn view<'a>(&'a self, work: &'a Workspace<D>) -> View<'a, D> {
+    /// A configuration as constraints see it.
+    pub(in crate::system) fn view<'a>(&'a self, at: &'a Kinematics<D>) -> View<'a, D> {
         View {
-            x: &work.x,
-            v: &work.v,
-            drives: &work.drives,
+            x: &at.x,
+            v: &at.v,
+            drives: &at.drives,
             chains: &self.chains,
-            travel: &work.travel,
-            angles: &work.angles,
-            released: &work.released,
+            travel: &at.travel,
+            angles: &at.angles,
+            released: &at.released,
         }
     }
 
@@ -144,57 +142,67 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`, and finds multipliers.
-    pub(in crate::system) fn constrain(&self, work: &mut Workspace<D>, a: &mut [f64]) {
+    /// Turns free accelerations in `work.acceleration` into constrained ones, at the coordinates and rates in `work`, and finds multipliers.
+    pub(in crate::system) fn constrain(&self, work: &mut Workspace<D>) {
         self.jacobians(work);
         self.ask_accelerations(work);
-        work.jacobian.factor(RANK);
-        let right = &work.right;
-        work.jacobian.solve_minimum_norm(2, |row| right[row], a);
-        work.lambda.copy_from_slice(work.jacobian.multipliers());
-        work.is_without_multipliers = false;
+        let Constraints {
+            jacobian,
+            right,
+            lambda,
+            is_without_multipliers,
+            ..
+        } = &mut work.constraints;
+        jacobian.factor(RANK);
+        jacobian.solve_minimum_norm(2, |row| right[row], &mut work.acceleration);
+        lambda.copy_from_slice(jacobian.multipliers());
+        *is_without_multipliers = false;
     }
 
     /// Takes the part of `q` out that constraints do not allow where the last acceleration was.
     pub(in crate::system) fn project_on_tangent_plane(
         &self,
-        work: &mut Workspace<D>,
+        constraints: &mut Constraints<D>,
         q: &mut [f64],
     ) {
-        if work.is_without_multipliers {
-            work.right.fill(0.0);
-            self.bring_tree(work, q);
+        if constraints.is_without_multipliers {
+            constraints.right.fill(0.0);
+            self.bring_tree(constraints, q);
         } else {
-            work.jacobian.solve_minimum_norm(2, |_| 0.0, q);
+            constraints.jacobian.solve_minimum_norm(2, |_| 0.0, q);
         }
     }
 
-    /// Computes the right-hand side of the constraints on accelerations, into `work.right`.
+    /// Computes the right-hand side of the constraints on accelerations, into `work.constraints.right`.
     pub(in crate::system) fn ask_accelerations(&self, work: &mut Workspace<D>) {
+        let Workspace {
+            kinematics,
+            constraints,
+            scratch,
+            ..
+        } = work;
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
         let is_still = self.driven.is_empty() && self.winches.is_empty();
         let is_driven = !(is_still && self.has_no_frames());
         if is_driven {
-            self.driven_acceleration(&work.targets, &mut work.other);
-            (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);
-            self.add_lengthened(&work.drives, (&work.x, &work.v), &mut work.other);
+            let motion = (&kinematics.x[..], &kinematics.v[..]);
+            self.driven_acceleration(&kinematics.targets, &mut scratch.other);
+            (self.frames).add_centripetal(motion, &mut scratch.other);
+            self.add_lengthened(&kinematics.drives, motion, &mut scratch.other);
         }
-        let mut right = std::mem::take(&mut work.right);
-        let view = self.view(work);
         self.fill_right(
-            &view,
-            &mut right,
-            |end| end.velocity(&work.other),
+            &self.view(kinematics),
+            &mut constraints.right,
+            |end| end.velocity(&scratch.other),
             |constraint, view| {
                 if is_driven {
-                    constraint.bias(view) + constraint.along(view, &work.other)
+                    constraint.bias(view) + constraint.along(view, &scratch.other)
                 } else {
                     constraint.bias(view)
                 }
             },
             false,
         );
-        work.right = right;
     }
 
     /// Nodal accelerations of what is driven.
@@ -215,7 +223,7 @@ impl<const D: usize> System<D> {
         for _ in 0..ITERATIONS {
             self.forward_kinematics(time, q, None, work);
             let missing = self.missing(work, true);
-            let residual = larger(missing, self.settled_residual(&self.view(work)));
+            let residual = larger(missing, self.settled_residual(&self.view(&work.kinematics)));
             // Two and more iterations are quadratic; what does not shrink is roundoff, or in rows that do not count.
             if residual <= EXACT || residual > 0.5 * before {
                 let is_left = residual > ROUNDOFF && !self.has_full_rank(work);
@@ -259,22 +267,21 @@ impl<const D: usize> System<D> {
 
     /// Whether all constraints count where corrections were found last.
     fn has_full_rank(&self, work: &Workspace<D>) -> bool {
-        work.is_tree || work.jacobian.has_full_rank()
+        work.constraints.is_tree || work.constraints.jacobian.has_full_rank()
     }
 
     /// Takes the residuals of positions or rates at what is in `work` for what is missing. Returns the largest one, relative
     /// to the size of its constraint.
     fn missing(&self, work: &mut Workspace<D>, is_position: bool) -> f64 {
-        let mut right = std::mem::take(&mut work.right);
-        let view = self.view(work);
+        let (at, right) = (&work.kinematics, &mut work.constraints.right);
         self.fill_right(
-            &view,
-            &mut right,
+            &self.view(at),
+            right,
             |end| {
                 if is_position {
-                    end.position(&work.x)
+                    end.position(&at.x)
                 } else {
-                    end.velocity(&work.v)
+                    end.velocity(&at.v)
                 }
             },
             |constraint, view| {
@@ -290,25 +297,31 @@ impl<const D: usize> System<D> {
         for (right, constraint) in right.iter().zip(&self.constraints) {
             largest = larger(largest, right.abs() / constraint.size(&self.chains));
         }
-        work.right = right;
         largest
     }
 
     /// Adds what is missing to first order, with the Jacobian in `work`, in so many passes and by rows that others
     /// leave so much of.
     fn correct(&self, q: &mut [f64], work: &mut Workspace<D>, (passes, rank): (usize, f64)) {
-        let mut change = std::mem::take(&mut work.a);
+        let Workspace {
+            kinematics,
+            constraints,
+            scratch,
+            change,
+            ..
+        } = work;
         change.fill(0.0);
-        if work.is_tree {
-            self.bring_tree(work, &mut change);
+        if constraints.is_tree {
+            self.bring_tree(constraints, change);
         } else {
-            work.jacobian.factor(rank);
-            let right = &work.right;
-            (work.jacobian).solve_minimum_norm(passes, |row| right[row], &mut change);
+            let Constraints {
+                jacobian, right, ..
+            } = constraints;
+            jacobian.factor(rank);
+            jacobian.solve_minimum_norm(passes, |row| right[row], change);
         }
-        self.to_rotations(work, &mut change);
-        q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);
-        work.a = change;
+        self.to_rotations(kinematics, scratch, change);
+        q.iter_mut().zip(&*change).for_each(|(q, c)| *q += c);
     }
 
     /// Largest residual of positions, relative to the size of the constraint.

@@ -167,11 +167,11 @@ impl<const D: usize> System<D> {
     /// Looks for constraints that do not count at an accepted state, at the configuration in `work`. Those that others give
     /// exactly are none of them: where as many constraints count as anywhere, and others leave nothing of the rest.
     pub(in crate::system) fn watch_rank(&self, time: f64, work: &mut Workspace<D>) {
-        if self.constraints.is_empty() || work.is_tree {
+        if self.constraints.is_empty() || work.constraints.is_tree {
             return;
         }
         let released = self.released_rows(work);
-        let (jacobian, watch) = (&mut work.jacobian, &mut work.rank);
+        let (jacobian, watch) = (&mut work.constraints.jacobian, &mut work.constraints.rank);
         // As the next acceleration does.
         jacobian.factor(RANK);
         let is_most = watch.keep(jacobian, released);
@@ -179,7 +179,7 @@ impl<const D: usize> System<D> {
             return;
         }
         for row in 0..self.constraints.len() {
-            let is_released = self.constraints[row].is_released(&work.released);
+            let is_released = self.constraints[row].is_released(&work.kinematics.released);
             let is_told =
                 watch.words[row] != ConstraintRemark::None || jacobian.is_independent(row);
             if is_told || is_released {
@@ -199,10 +199,13 @@ impl<const D: usize> System<D> {
     /// velocity satisfies all constraints to first order: it grows with the forces while positions are brought back after every
     /// step.
     pub(in crate::system) fn stop_blocked(&self, state: &mut State, work: &mut Workspace<D>) {
-        let watch = &mut work.rank;
+        let watch = &mut work.constraints.rank;
         let passed = state.time - watch.accepted;
         watch.accepted = state.time;
-        if self.constraints.is_empty() || work.is_tree || work.jacobian.has_full_rank() {
+        if self.constraints.is_empty()
+            || work.constraints.is_tree
+            || work.constraints.jacobian.has_full_rank()
+        {
             return;
         }
         let back = &mut watch.reached;
@@ -230,7 +233,7 @@ impl<const D: usize> System<D> {
     /// Reports the constraints that became dependent at accepted states since the last call, with the time of the
     /// first, s. Constraints that were reported before are left out.
     pub fn newly_singular(&self, work: &mut Workspace<D>) -> Option<(f64, HoldingParts)> {
-        let watch = &mut work.rank;
+        let watch = &mut work.constraints.rank;
         let time = watch.time.take()?;
         let words = &watch.words;
         let rows = |word: ConstraintRemark| (0..words.len()).filter(move |row| words[*row] == word);
@@ -251,15 +254,17 @@ impl<const D: usize> System<D> {
     pub fn redundant_at(&self, state: &State, work: &mut Workspace<D>) -> Redundant {
         let dependent = self.dependent(RANK, state, work);
         let released = self.released_rows(work);
-        work.rank.keep(&work.jacobian, released);
+        work.constraints
+            .rank
+            .keep(&work.constraints.jacobian, released);
         let mut rest = vec![0.0; self.coordinates()];
         // What is left of rows, orthonormal: a row that others give together with one of these is none of them.
         let mut basis: Vec<Vec<f64>> = Vec::new();
         let (mut exactly, mut nearly) = (Vec::new(), Vec::new());
-        let is_held = |row: &usize| !self.constraints[*row].is_released(&work.released);
+        let is_held = |row: &usize| !self.constraints[*row].is_released(&work.kinematics.released);
         let dependent: Vec<usize> = dependent.into_iter().filter(is_held).collect();
         for row in dependent {
-            let mut left = work.jacobian.part_left(row, &mut rest);
+            let mut left = work.constraints.jacobian.part_left(row, &mut rest);
             for _ in 0..2 {
                 for other in &basis {
                     let part = dot(other, &rest);
@@ -270,7 +275,7 @@ impl<const D: usize> System<D> {
             }
             if left > EXACT {
                 basis.push(rest.iter().map(|rest| rest / left).collect());
-                work.rank.words[row] = ConstraintRemark::Told;
+                work.constraints.rank.words[row] = ConstraintRemark::Told;
                 nearly.push(row);
             } else {
                 exactly.push(row);
@@ -315,9 +320,9 @@ impl<const D: usize> System<D> {
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
         self.jacobians(work);
-        work.jacobian.factor(part);
+        work.constraints.jacobian.factor(part);
         let rows = 0..self.constraints.len();
-        rows.filter(|row| !work.jacobian.is_independent(*row))
+        rows.filter(|row| !work.constraints.jacobian.is_independent(*row))
             .collect()
     }
 
@@ -325,7 +330,7 @@ impl<const D: usize> System<D> {
     fn released_rows(&self, work: &Workspace<D>) -> usize {
         let constraints = self.constraints.iter();
         constraints
-            .filter(|of| of.is_released(&work.released))
+            .filter(|of| of.is_released(&work.kinematics.released))
             .count()
     }
 

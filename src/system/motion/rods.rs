@@ -1,8 +1,9 @@
 //! Rods in the equations of motion: their torques, and rotations of carried frames among the coordinates, of which spins are no rates.
 
-use crate::body::{Derivative, Node};
+use crate::body::{Derivative, Node, SectionFrameState};
 use crate::math::jet::Number;
-use crate::system::{State, System, Workspace};
+use crate::system::workspace::Scratch;
+use crate::system::{Kinematics, State, System, Workspace};
 
 impl<const D: usize> System<D> {
     /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
@@ -33,28 +34,43 @@ impl<const D: usize> System<D> {
 
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
     /// angular velocities rates.
-    pub(in crate::system) fn to_rotations(&self, work: &mut Workspace<D>, q: &mut [f64]) {
+    pub(in crate::system) fn to_rotations(
+        &self,
+        at: &Kinematics<D>,
+        scratch: &mut Scratch<D>,
+        q: &mut [f64],
+    ) {
         if self.has_no_frames() {
             return;
         }
-        self.frames.to_rotations(&work.turns, q);
-        self.turn_carried(Derivative::First, work, q);
+        self.frames.to_rotations(&at.turns, q);
+        self.change_carried(Derivative::First, &at.carries, scratch, q);
     }
 
     /// The configuration is that in which the tangent is made.
     pub(in crate::system) fn set_base(&self, work: &mut Workspace<D>) {
-        work.tangent.stages.set_base(&work.x);
-        work.base_turns.copy_from_slice(&work.turns);
-        for stage in &mut work.stages {
-            stage.copy_from_slice(&work.carries);
+        work.linearization
+            .tangent
+            .stages
+            .set_base(&work.kinematics.x);
+        work.linearization
+            .base_turns
+            .copy_from_slice(&work.kinematics.turns);
+        for stage in &mut work.linearization.stages {
+            stage.copy_from_slice(&work.kinematics.carries);
         }
     }
 
     /// The configuration is that of a stage.
     pub(in crate::system) fn set_stage(&self, stage: usize, work: &mut Workspace<D>) {
         let assembly = &self.elimination.assembly;
-        work.tangent.stages.set(assembly, stage, &work.x);
-        let kept = work.stages[1 + stage].iter_mut().zip(&work.carries);
+        work.linearization
+            .tangent
+            .stages
+            .set(assembly, stage, &work.kinematics.x);
+        let kept = work.linearization.stages[1 + stage]
+            .iter_mut()
+            .zip(&work.kinematics.carries);
         for ((kept, carry), frame) in kept.zip(self.frames.carried()) {
             if frame.has_shear {
                 *kept = *carry;
@@ -73,7 +89,7 @@ impl<const D: usize> System<D> {
         q: &mut [f64],
     ) {
         if !self.has_no_frames() {
-            self.frames.to_spins(&work.base_turns, q);
+            self.frames.to_spins(&work.linearization.base_turns, q);
             self.change_at(Derivative::Back, stage, work, q);
         }
     }
@@ -86,27 +102,26 @@ impl<const D: usize> System<D> {
         q: &mut [f64],
     ) {
         if !self.has_no_frames() {
-            self.frames.to_rotations(&work.base_turns, q);
+            self.frames.to_rotations(&work.linearization.base_turns, q);
             self.change_at(Derivative::First, stage, work, q);
         }
     }
 
     fn change_at(&self, order: Derivative, stage: usize, work: &mut Workspace<D>, q: &mut [f64]) {
-        self.change_carried(work, q, |work| {
-            let carries = &work.stages[stage];
-            (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
-        });
+        let carries = &work.linearization.stages[stage];
+        self.change_carried(order, carries, &mut work.scratch, q);
     }
 
     /// Takes the part out of second derivatives of `q` that constraints, which see small rotations, do not allow where the last acceleration
     /// was.
     pub(in crate::system) fn take_out_normal(&self, work: &mut Workspace<D>, q: &mut [f64]) {
         if !self.has_no_frames() {
-            self.frames.to_spins(&work.turns, q);
-            self.turn_carried(Derivative::Back, work, q);
+            self.frames.to_spins(&work.kinematics.turns, q);
+            let carries = &work.kinematics.carries;
+            self.change_carried(Derivative::Back, carries, &mut work.scratch, q);
         }
-        self.project_on_tangent_plane(work, q);
-        self.to_rotations(work, q);
+        self.project_on_tangent_plane(&mut work.constraints, q);
+        self.to_rotations(&work.kinematics, &mut work.scratch, q);
     }
 
     /// Angular accelerations become second derivatives of rotations.
@@ -114,31 +129,27 @@ impl<const D: usize> System<D> {
         if self.has_no_frames() {
             return;
         }
-        self.frames.to_second(&work.turns, a);
-        self.turn_carried(Derivative::Second, work, a);
+        self.frames.to_second(&work.kinematics.turns, a);
+        let carries = &work.kinematics.carries;
+        self.change_carried(Derivative::Second, carries, &mut work.scratch, a);
     }
 
-    /// Changes of `q` that stand for spins of carried frames, or second derivatives, become those of their rotations.
-    fn turn_carried(&self, order: Derivative, work: &mut Workspace<D>, q: &mut [f64]) {
-        self.change_carried(work, q, |work| {
-            (self.frames).turn_carried(order, &work.carries, &work.other, &mut work.y);
-        });
-    }
-
-    /// Changes what stands in `q` for carried frames: among the free coordinates `y`, with `other` over the nodes.
+    /// Converts changes of `q` between spins of section frames, or their derivatives, and rotations from the frames that the state holds.
     fn change_carried(
         &self,
-        work: &mut Workspace<D>,
+        order: Derivative,
+        carries: &[SectionFrameState],
+        scratch: &mut Scratch<D>,
         q: &mut [f64],
-        change: impl Fn(&mut Workspace<D>),
     ) {
         if self.frames.carried().is_empty() {
             return;
         }
-        self.elimination.expand(q, &mut work.y, &mut work.other);
-        change(work);
-        self.elimination.coordinates_of(&mut work.y);
-        q.copy_from_slice(&work.y);
+        let Scratch { y, other } = scratch;
+        self.elimination.expand(q, y, other);
+        self.frames.turn_carried(order, carries, other, y);
+        self.elimination.coordinates_of(y);
+        q.copy_from_slice(y);
     }
 
     /// Rotations larger than this, rad, begin at zero anew. Whether there were any.
@@ -154,7 +165,7 @@ impl<const D: usize> System<D> {
         let mut is_large = self.frames.largest(&state.coordinates) > size;
         if !self.frames.carried().is_empty() {
             self.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
-            is_large |= self.frames.largest_carry(&work.carries) > size;
+            is_large |= self.frames.largest_carry(&work.kinematics.carries) > size;
         }
         if !is_large {
             return false;
@@ -162,25 +173,26 @@ impl<const D: usize> System<D> {
         let (q, v) = (&mut state.coordinates, &mut state.rates);
         if !self.frames.carried().is_empty() {
             // Over the free coordinates.
-            let mut rates = std::mem::take(&mut work.a);
-            self.elimination.displacements(q, &mut work.y);
-            self.elimination.displacements(v, &mut rates);
-            let at = (&work.x[..], &work.carries[..]);
+            let (free, rates) = (&mut work.scratch.y, &mut work.change);
+            self.elimination.displacements(q, free);
+            self.elimination.displacements(v, rates);
+            let at = (&work.kinematics.x[..], &work.kinematics.carries[..]);
             self.frames
-                .renew_carried(at, &mut state.frames, [&mut work.y, &mut rates]);
-            self.elimination.coordinates_of(&mut work.y);
-            self.elimination.coordinates_of(&mut rates);
-            q.copy_from_slice(&work.y);
-            v.copy_from_slice(&rates);
-            work.a = rates;
+                .renew_carried(at, &mut state.frames, [&mut *free, &mut *rates]);
+            self.elimination.coordinates_of(free);
+            self.elimination.coordinates_of(rates);
+            q.copy_from_slice(free);
+            v.copy_from_slice(rates);
         }
         self.frames.renew(&mut state.frames, q, v);
-        work.frames.copy_from_slice(&state.frames);
+        work.kinematics.frames.copy_from_slice(&state.frames);
         // A tangent that is kept is one of the new coordinates from now on.
         let (time, q) = (state.time, &state.coordinates);
         self.forward_kinematics(time, q, Some(&state.rates), work);
-        work.base_turns.copy_from_slice(&work.turns);
-        work.stages[0].copy_from_slice(&work.carries);
+        work.linearization
+            .base_turns
+            .copy_from_slice(&work.kinematics.turns);
+        work.linearization.stages[0].copy_from_slice(&work.kinematics.carries);
         true
     }
 }

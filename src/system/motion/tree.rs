@@ -10,6 +10,7 @@ use crate::body::{Articulated, Link, RigidBodyFrame, no_node};
 use crate::math::space::{Vector, components, moment};
 use crate::system::end::Attachment;
 use crate::system::joints::{Constraint, ConstraintKind, LinearConstraint, Target, View};
+use crate::system::workspace::Constraints;
 use crate::system::{System, Workspace};
 
 /// The point that a joint holds.
@@ -257,13 +258,17 @@ impl<const D: usize> System<D> {
         let Some(tree) = self.tree() else {
             return false;
         };
-        if !work.outdates_tree() {
-            return work.is_tree;
+        let Workspace {
+            kinematics,
+            constraints,
+            ..
+        } = work;
+        if !constraints.outdates_tree(kinematics) {
+            return constraints.is_tree;
         }
-        let mut articulated = std::mem::take(&mut work.articulated);
-        let view = self.view(work);
+        let view = self.view(kinematics);
         let frames = self.frames.list();
-        work.is_tree = articulated.factor(frames, &work.x, |turn, link| {
+        let of_turn = |turn: usize, link: &Link| {
             let node = frames[link.frame].node;
             let mut of_body = Vector3::zeros();
             self.constraints[tree.turns[turn]].for_each_pair(&view, |pair| {
@@ -275,19 +280,19 @@ impl<const D: usize> System<D> {
                 }
             });
             of_body
-        });
-        work.articulated = articulated;
-        work.is_tree
+        };
+        constraints.is_tree = (constraints.articulated).factor(frames, &kinematics.x, of_turn);
+        constraints.is_tree
     }
 
-    /// Changes `q` by the least that makes its products with the rows of the Jacobian what `work.right` says, with the factors
+    /// Changes `q` by the least that makes its products with the rows of the Jacobian what `constraints.right` says, with the factors
     /// of the tree.
-    pub(in crate::system) fn bring_tree(&self, work: &mut Workspace<D>, q: &mut [f64]) {
+    pub(in crate::system) fn bring_tree(&self, constraints: &mut Constraints<D>, q: &mut [f64]) {
         let Some(tree) = self.tree() else {
             return;
         };
-        let right = &work.right;
-        work.articulated.bring(
+        let right = &constraints.right;
+        constraints.articulated.bring(
             self.frames.list(),
             |turn| right[tree.turns[turn]],
             |link| match &tree.pins[link] {
@@ -338,13 +343,13 @@ impl<const D: usize> System<D> {
 
     /// Turns free accelerations into constrained ones as [`System::constrain`] does, but for multipliers; false where there is
     /// no tree.
-    pub(in crate::system) fn constrain_tree(&self, work: &mut Workspace<D>, a: &mut [f64]) -> bool {
+    pub(in crate::system) fn constrain_tree(&self, work: &mut Workspace<D>) -> bool {
         if !self.factor_tree(work) {
             return false;
         }
         self.ask_accelerations(work);
-        self.bring_tree(work, a);
-        work.is_without_multipliers = true;
+        self.bring_tree(&mut work.constraints, &mut work.acceleration);
+        work.constraints.is_without_multipliers = true;
         true
     }
 }

@@ -270,9 +270,9 @@ impl<const D: usize> Derivatives<D> {
             self.turn_constraints(system, k, work);
         }
         let q = &mut self.q[k - 1];
-        system.elimination.reduce(&self.one, &mut work.y, q);
+        system.elimination.reduce(&self.one, &mut work.scratch.y, q);
         if !system.constraints.is_empty() {
-            let (jacobian, right) = (&mut work.jacobian, &self.right);
+            let (jacobian, right) = (&mut work.constraints.jacobian, &self.right);
             jacobian.solve_minimum_norm(2, |row| right[row], q);
             self.lambda[k].copy_from_slice(jacobian.multipliers());
             for (row, value) in self.values.lambda.iter_mut().enumerate() {
@@ -281,7 +281,7 @@ impl<const D: usize> Derivatives<D> {
             }
         }
         let (elimination, q) = (&system.elimination, &self.q[k - 1]);
-        elimination.expand(q, &mut work.y, &mut self.other);
+        elimination.expand(q, &mut work.scratch.y, &mut self.other);
         self.lengthen_accelerations(system, plain, k);
         let accelerations = self.values.acceleration.iter_mut().zip(&plain.acceleration);
         for ((a, plain), (moved, driven)) in accelerations.zip(self.other.iter().zip(&self.driven))
@@ -307,7 +307,7 @@ impl<const D: usize> Derivatives<D> {
         system.add_rod_forces((x, v), &self.torques, &mut self.pulled);
         take(&self.pulled, k, &mut self.one);
         let elimination = &system.elimination;
-        elimination.expand(&work.a, &mut work.y, &mut self.other);
+        elimination.expand(&work.acceleration, &mut work.scratch.y, &mut self.other);
         for (frame, rate) in system.frames.list().iter().zip(&mut self.spin_rates) {
             for (rate, value) in rate.iter_mut().zip(&self.other[frame.node][1]) {
                 rate.re = *value;
@@ -368,10 +368,14 @@ impl<const D: usize> Derivatives<D> {
     /// Computes derivative `k` of the right-hand side of constraints. The effect of the present multipliers through the
     /// change of the Jacobian is subtracted from the forces.
     fn turn_constraints(&mut self, system: &System<D>, k: usize, work: &mut Workspace<D>) {
-        let below = if k == 1 { &work.a } else { &self.q[0] };
+        let below = if k == 1 {
+            &work.acceleration
+        } else {
+            &self.q[0]
+        };
         let moved = &mut self.moved[k - 1];
-        system.elimination.expand(below, &mut work.y, moved);
-        self.lambda[0].copy_from_slice(&work.lambda);
+        system.elimination.expand(below, &mut work.scratch.y, moved);
+        self.lambda[0].copy_from_slice(&work.constraints.lambda);
         let view = self.values.view(system);
         for (row, constraint) in system.constraints.iter().enumerate() {
             let bias = constraint.bias(&view);

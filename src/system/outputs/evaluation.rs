@@ -88,13 +88,13 @@ impl<const D: usize> Evaluation<D> {
         work.resume(state);
         self.time = system.now(state.time);
         system.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
-        self.x.copy_from_slice(&work.x);
-        self.v.copy_from_slice(&work.v);
-        self.angles.copy_from_slice(&work.angles);
-        self.travel.copy_from_slice(&work.travel);
-        self.drives.copy_from_slice(&work.drives);
+        self.x.copy_from_slice(&work.kinematics.x);
+        self.v.copy_from_slice(&work.kinematics.v);
+        self.angles.copy_from_slice(&work.kinematics.angles);
+        self.travel.copy_from_slice(&work.kinematics.travel);
+        self.drives.copy_from_slice(&work.kinematics.drives);
         self.frames.copy_from_slice(&state.frames);
-        self.released.copy_from_slice(&work.released);
+        self.released.copy_from_slice(&work.kinematics.released);
     }
 
     /// Computes accelerations and what constraints supply, inputs held.
@@ -117,18 +117,16 @@ impl<const D: usize> Evaluation<D> {
         work: &mut Workspace<D>,
     ) {
         self.set_inputs(inputs, slopes);
-        let mut a = std::mem::take(&mut work.a);
         let mut model = DrivenSystem::new(system, inputs, work, state).moving(slopes);
-        model.accelerate(state.time, &state.coordinates, &state.rates, &mut a);
-        system.linear_constraint_forces(&a, work);
-        work.a = a;
+        model.accelerate(state.time, &state.coordinates, &state.rates);
+        system.linear_constraint_forces(work);
         // An acceleration that is an input acts at once.
-        self.drives.copy_from_slice(&work.drives);
-        self.acceleration.copy_from_slice(&work.other);
+        self.drives.copy_from_slice(&work.kinematics.drives);
+        self.acceleration.copy_from_slice(&work.scratch.other);
         self.linear_constraint_forces
-            .copy_from_slice(&work.linear_constraint_forces);
-        self.lambda.copy_from_slice(&work.lambda);
-        self.released.copy_from_slice(&work.released);
+            .copy_from_slice(&work.forces.linear_constraint_forces);
+        self.lambda.copy_from_slice(&work.constraints.lambda);
+        self.released.copy_from_slice(&work.kinematics.released);
     }
 }
 

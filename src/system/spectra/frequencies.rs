@@ -21,7 +21,7 @@ pub fn fastest<const D: usize>(
     let n = state.rates.len();
     let rest = vec![0.0; n];
     DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
-    let (tangent, elimination) = (&mut work.tangent, &system.elimination);
+    let (tangent, elimination) = (&mut work.linearization.tangent, &system.elimination);
     let stiffest = largest_eigenvalue(n, |x| tangent.apply_stiffness(elimination, x));
     let decay = if system.is_damped {
         largest_eigenvalue(n, |x| tangent.apply_damping(elimination, x))

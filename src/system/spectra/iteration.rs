@@ -80,7 +80,7 @@ pub(super) fn lowest<const D: usize>(
             STEPS
         };
         let steps = steps.min(modes - krylov.size());
-        let more = krylov.extend(steps, |x| work.tangent.solve(elimination, x));
+        let more = krylov.extend(steps, |x| work.linearization.tangent.solve(elimination, x));
         if !more {
             krylov.start();
         }
@@ -148,7 +148,11 @@ fn split(
 
 /// Number of eigenvalues of `K` below; the shift gives way where it is one of them.
 fn below<const D: usize>(system: &System<D>, work: &mut Workspace<D>, shift: f64) -> Option<usize> {
-    let mut factor = |shift: f64| work.tangent.factor_below(&system.elimination, shift);
+    let mut factor = |shift: f64| {
+        work.linearization
+            .tangent
+            .factor_below(&system.elimination, shift)
+    };
     factor(shift).or_else(|| factor(shift * (1.0 + 1e-9)))
 }
 
@@ -159,7 +163,7 @@ fn scale<const D: usize>(
     count: usize,
 ) -> Result<f64, NoEigenvalues> {
     let n = system.coordinates();
-    let tangent = &mut work.tangent;
+    let tangent = &mut work.linearization.tangent;
     let largest = largest_eigenvalue(n, |x| tangent.apply_stiffness(&system.elimination, x));
     if !largest.is_finite() {
         return Err(NoEigenvalues::NotFinite);

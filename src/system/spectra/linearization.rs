@@ -74,7 +74,7 @@ impl<const D: usize> System<D> {
     ) -> Linearization<'_, D> {
         let pattern = self.elimination.assembly.pattern();
         if at_rest {
-            work.v.fill(no_node());
+            work.kinematics.v.fill(no_node());
         }
         let mut made = Linearization {
             elimination: &self.elimination,
@@ -87,19 +87,19 @@ impl<const D: usize> System<D> {
             is_damped: self.is_turning(),
             is_symmetric: true,
             follower: None,
-            normals: work.jacobian.rows().clone(),
+            normals: work.constraints.jacobian.rows().clone(),
             independent: (0..self.constraints.len())
-                .filter(|row| work.jacobian.is_independent(*row))
+                .filter(|row| work.constraints.jacobian.is_independent(*row))
                 .collect(),
         };
-        let mut probe = Probe::new(&work.x, &work.v);
+        let mut probe = Probe::new(&work.kinematics.x, &work.kinematics.v);
         self.linearize_loads(time, work, at_rest, &mut probe, &mut made);
         self.linearize_rotation(work, &mut made);
         self.linearize_turning(work, &mut probe, &mut made);
         let mut elsewhere = Vec::new();
-        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+        for (constraint, lambda) in self.constraints.iter().zip(&work.constraints.lambda) {
             let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);
-            let blocks = blocks.pulled(&self.frames, &work.x);
+            let blocks = blocks.pulled(&self.frames, &work.kinematics.x);
             let assembly = &self.elimination.assembly;
             blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
                 elsewhere.push((r, c, value));
@@ -112,7 +112,11 @@ impl<const D: usize> System<D> {
         self.linearize_rods(work, at_rest, &mut made);
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
         let mut multipliers = Matrix::zeros(pattern);
-        self.add_multipliers(&self.view(work), &work.jacobian, &mut multipliers);
+        self.add_multipliers(
+            &self.view(&work.kinematics),
+            &work.constraints.jacobian,
+            &mut multipliers,
+        );
         made.stiffness.add_symmetric(1.0, &multipliers);
         add_elsewhere(&elsewhere, self.coordinates(), &mut made.border);
         self.add_turning(work, at_rest, &mut made);
@@ -130,11 +134,11 @@ impl<const D: usize> System<D> {
         let mut none = |_: usize, _: usize, _: f64| {};
         for chain in &self.chains {
             let is_damped = chain.is_damped() && !at_rest;
-            let moves = is_damped && work.v.iter().any(|v| *v != no_node());
+            let moves = is_damped && work.kinematics.v.iter().any(|v| *v != no_node());
             made.is_damped |= is_damped;
             made.is_symmetric &= !moves;
             for (j, element) in chain.elements().iter().enumerate() {
-                let (nodes, e) = (chain.nodes(j), chain.element(j, &work.x));
+                let (nodes, e) = (chain.nodes(j), chain.element(j, &work.kinematics.x));
                 let stiffness = if moves {
                     let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
                         let force: Nodal<D, Jet> =
@@ -186,8 +190,12 @@ impl<const D: usize> System<D> {
     ) {
         let assembly = &self.elimination.assembly;
         let lift = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
-        let [inputs, input_rates, angles] =
-            [&work.inputs, &work.input_rates, &work.angles].map(|x| lift(x));
+        let [inputs, input_rates, angles] = [
+            &work.kinematics.inputs,
+            &work.kinematics.input_rates,
+            &work.kinematics.angles,
+        ]
+        .map(|x| lift(x));
         // What is driven stands still at rest.
         let drive = |[p, v, a]: &[f64; 3]| {
             if at_rest {
@@ -196,7 +204,7 @@ impl<const D: usize> System<D> {
                 [*p, *v, *a].map(Jet::from_re)
             }
         };
-        let drives: Vec<[Jet; 3]> = work.drives.iter().map(drive).collect();
+        let drives: Vec<[Jet; 3]> = work.kinematics.drives.iter().map(drive).collect();
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
@@ -221,7 +229,7 @@ impl<const D: usize> System<D> {
                     load.add_part(at, part, f);
                 };
                 let blocks = probe.differentiate(nodes, false, &force);
-                let mut blocks = blocks.pulled(&self.frames, &work.x);
+                let mut blocks = blocks.pulled(&self.frames, &work.kinematics.x);
                 // Of a moment about the axis of a joint in space that is skew which the joint holds.
                 let has_potential = !self.frames.is_empty() && load.is_conservative();
                 if !blocks.is_symmetric() && !has_potential {
@@ -233,8 +241,12 @@ impl<const D: usize> System<D> {
                     made.is_damped = true;
                     let by_rates = probe.differentiate(nodes, true, &force);
                     // Axes that turn change their rates where they are turned.
-                    blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
-                    let by_rates = by_rates.pulled(&self.frames, &work.x);
+                    blocks.add_turned(
+                        &by_rates,
+                        &self.frames,
+                        (&work.kinematics.x, &work.kinematics.v),
+                    );
+                    let by_rates = by_rates.pulled(&self.frames, &work.kinematics.x);
                     by_rates.add(assembly, &mut made.damping, &mut none);
                 }
                 blocks.add(assembly, &mut made.stiffness, &mut none);
@@ -258,8 +270,12 @@ impl<const D: usize> System<D> {
         let mut none = |_: usize, _: usize, _: f64| {};
         for frame in self.frames.list() {
             let node = (frame.node, frame.node);
-            let spin = frame.spin(&work.x, &work.v);
-            let turned = RotationMaps::geometric(frame, &work.linear_constraint_forces, &work.x);
+            let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
+            let turned = RotationMaps::geometric(
+                frame,
+                &work.forces.linear_constraint_forces,
+                &work.kinematics.x,
+            );
             // At rest without the moment that speeds the body up, which is none in equilibrium.
             let turned = if spin == Vector3::zeros() {
                 (turned + turned.transpose()) * 0.5
@@ -294,7 +310,7 @@ impl<const D: usize> System<D> {
         let (assembly, spin) = (&self.elimination.assembly, self.rotation);
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut centrifugal = Matrix::zeros(assembly.pattern());
-        self.add_centrifugal(&work.x, &mut centrifugal);
+        self.add_centrifugal(&work.kinematics.x, &mut centrifugal);
         made.stiffness.add_symmetric(1.0, &centrifugal);
         self.linearize_coriolis(work, made);
         let mut add = |nodes: &[usize], mass: &dyn Fn(Node<D>, usize, usize) -> Node<D>| {
@@ -362,9 +378,13 @@ impl<const D: usize> System<D> {
             }
             let by_rates = NodeBlocks::new(&nodes, whole);
             let mut blocks = NodeBlocks::new(&[frame.node], DMatrix::zeros(2 * D, 2 * D));
-            blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
+            blocks.add_turned(
+                &by_rates,
+                &self.frames,
+                (&work.kinematics.x, &work.kinematics.v),
+            );
             blocks.add(assembly, &mut made.stiffness, &mut none);
-            let by_rates = by_rates.pulled(&self.frames, &work.x);
+            let by_rates = by_rates.pulled(&self.frames, &work.kinematics.x);
             by_rates.add(assembly, &mut made.damping, &mut none);
         }
     }
@@ -377,12 +397,17 @@ impl<const D: usize> System<D> {
         probe: &mut Probe<D>,
     ) -> NodeBlocks {
         let lift = |x: &f64| Jet::from_re(*x);
-        let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
-        let angles: Vec<Jet> = work.angles.iter().map(lift).collect();
+        let drives: Vec<[Jet; 3]> = work
+            .kinematics
+            .drives
+            .iter()
+            .map(|d| d.map(Jet::from_re))
+            .collect();
+        let angles: Vec<Jet> = work.kinematics.angles.iter().map(lift).collect();
         let mut nodes = constraint.nodes(&self.chains);
         if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
             let chain = &self.chains[along.chain];
-            let (element, _) = chain.find(work.travel[along.slide]);
+            let (element, _) = chain.find(work.kinematics.travel[along.slide]);
             nodes = chain
                 .nodes(element)
                 .into_iter()
@@ -390,7 +415,7 @@ impl<const D: usize> System<D> {
                 .collect();
         }
         let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
-            let mut travel: Vec<Jet> = work.travel.iter().map(lift).collect();
+            let mut travel: Vec<Jet> = work.kinematics.travel.iter().map(lift).collect();
             if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
                 let place = &mut travel[along.slide];
                 *place = along.travel(&self.chains[along.chain], x, *place);
@@ -402,7 +427,7 @@ impl<const D: usize> System<D> {
                 chains: &self.chains,
                 travel: &travel,
                 angles: &angles,
-                released: &work.released,
+                released: &work.kinematics.released,
             };
             constraint.for_each(&view, |node, term| {
                 let f = f[node].as_flattened_mut().iter_mut();

@@ -90,7 +90,7 @@ pub fn damping_along<const D: usize>(
     let rest = vec![0.0; state.rates.len()];
     DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     // What is driven stands still too.
-    work.v.fill(no_node());
+    work.kinematics.v.fill(no_node());
     let linear = system.linearization(state.time, work, false);
     let [_, damping] = linear.project(ways);
     (0..ways.len()).map(|k| damping[(k, k)]).collect()

@@ -17,7 +17,7 @@ pub fn slow_response<const D: usize>(
     let rest = vec![0.0; state.rates.len()];
     DrivenSystem::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     // What is driven stands still too.
-    work.v.fill(no_node());
+    work.kinematics.v.fill(no_node());
     let linear = system.linearization(state.time, work, true);
     let solved = linear
         .shifted(rate)

@@ -40,8 +40,8 @@ impl<const D: usize> System<D> {
         for frame in self.frames.carried() {
             RotationMaps::geometric_of_carried(
                 frame,
-                &work.linear_constraint_forces,
-                &work.x,
+                &work.forces.linear_constraint_forces,
+                &work.kinematics.x,
                 |a, b, block| {
                     assembly.add(a, b, block, &mut stiffness);
                 },
@@ -70,11 +70,15 @@ impl<const D: usize> System<D> {
                 };
                 let nodes = chain.all_nodes(j);
                 let blocks = probe.differentiate(&nodes, false, &force);
-                let mut blocks = blocks.pulled(&self.frames, &work.x);
+                let mut blocks = blocks.pulled(&self.frames, &work.kinematics.x);
                 let by_rates = probe.differentiate(&nodes, true, &force);
-                blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
+                blocks.add_turned(
+                    &by_rates,
+                    &self.frames,
+                    (&work.kinematics.x, &work.kinematics.v),
+                );
                 blocks.add(assembly, &mut made.stiffness, &mut none);
-                let by_rates = by_rates.pulled(&self.frames, &work.x);
+                let by_rates = by_rates.pulled(&self.frames, &work.kinematics.x);
                 by_rates.add(assembly, &mut made.damping, &mut none);
             }
         }
@@ -92,7 +96,7 @@ impl<const D: usize> System<D> {
         }
         let assembly = &self.elimination.assembly;
         let [mut stiffness, mut damping] = [0, 1].map(|_| Matrix::zeros(assembly.pattern()));
-        let motion = (&work.x[..], &work.v[..]);
+        let motion = (&work.kinematics.x[..], &work.kinematics.v[..]);
         for chain in &self.rod_chains {
             let first = made.rods.len();
             chain.for_each_tangent(motion, &self.frames, |kind, element, whole| {

@@ -35,7 +35,7 @@ impl<'a, const D: usize> Linearization<'a, D> {
     /// Gives the solves of `work` the symmetric part of `K`, exactly, in place of the tangent of steps, which leaves small parts out.
     pub fn hand_over(&self, work: &mut Workspace<D>) {
         let pattern = self.elimination.assembly.pattern();
-        (self.stiffness).symmetric_part(pattern, &mut work.tangent.stiffness);
+        (self.stiffness).symmetric_part(pattern, &mut work.linearization.tangent.stiffness);
     }
 
     /// `R q`, in place; `y` and `product` are scratch as long as the free coordinates.

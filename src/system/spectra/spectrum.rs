@@ -181,10 +181,14 @@ pub fn eigenvalues<const D: usize>(
     refuse_driven(system, work)?;
     // How a thin rod turns about itself nobody knows.
     let thin = system.frames.list().iter().filter(|frame| frame.is_thin());
-    let spins = thin.map(|frame| frame.spin(&work.x, &work.v).norm());
+    let spins = thin.map(|frame| frame.spin(&work.kinematics.x, &work.kinematics.v).norm());
     // Nor are gyroscopic terms of rods held here.
     let of_rods = system.frames.carried().iter();
-    let of_rods = of_rods.map(|frame| frame.velocity(&work.x, &work.v).norm());
+    let of_rods = of_rods.map(|frame| {
+        frame
+            .velocity(&work.kinematics.x, &work.kinematics.v)
+            .norm()
+    });
     let spin = spins.chain(of_rods).fold(0.0, f64::max);
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));
@@ -243,7 +247,7 @@ fn refuse_paid_out<const D: usize>(
     at_rest: bool,
 ) -> Result<(), SpectrumError> {
     for winch in system.winches() {
-        let [travel, rate, _] = work.drives[winch.drive];
+        let [travel, rate, _] = work.kinematics.drives[winch.drive];
         if travel.abs() > 1e-9 * winch.length || !(at_rest || rate == 0.0) {
             let mut bodies = system.bodies.iter();
             let body = bodies.position(|nodes| nodes.contains(&winch.nodes[0]));
@@ -298,18 +302,31 @@ fn refuse_driven<const D: usize>(
     system: &System<D>,
     work: &Workspace<D>,
 ) -> Result<(), SpectrumError> {
-    if work.drives.iter().all(|[_, rate, _]| *rate == 0.0) {
+    if work
+        .kinematics
+        .drives
+        .iter()
+        .all(|[_, rate, _]| *rate == 0.0)
+    {
         return Ok(());
     }
     let turns = system.chains.iter().map(|chain| {
         let first = chain.nodes(0)[0];
-        rotation(&work.x, &work.v, first..first + chain.node_count())
+        rotation(
+            &work.kinematics.x,
+            &work.kinematics.v,
+            first..first + chain.node_count(),
+        )
     });
     if let Some(turn) = turns.flatten().find(|turn| turn.norm() > 0.0) {
         return Err(SpectrumError::Turns(turn.norm()));
     }
     let carried = system.frames.carried().iter();
-    let rates = carried.map(|frame| frame.velocity(&work.x, &work.v).norm());
+    let rates = carried.map(|frame| {
+        frame
+            .velocity(&work.kinematics.x, &work.kinematics.v)
+            .norm()
+    });
     let spin = rates.fold(0.0, f64::max);
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));
@@ -356,7 +373,7 @@ pub(super) fn at_rest<'a, const D: usize>(
     state: &State,
 ) -> Result<Linearization<'a, D>, SpectrumError> {
     let (q, v) = (&state.coordinates, &state.rates);
-    if !work.drives.is_empty() {
+    if !work.kinematics.drives.is_empty() {
         DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, v);
         refuse_driven(system, work)?;
     }

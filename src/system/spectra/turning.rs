@@ -52,8 +52,8 @@ impl<const D: usize> System<D> {
         made: &mut Linearization<'_, D>,
     ) {
         let (elimination, n) = (&self.elimination, self.coordinates());
-        let is_still = work.v.iter().all(|v| *v == no_node())
-            && work.drives.iter().all(|drive| drive[1] == 0.0);
+        let is_still = work.kinematics.v.iter().all(|v| *v == no_node())
+            && work.kinematics.drives.iter().all(|drive| drive[1] == 0.0);
         if at_rest || is_still || made.independent.is_empty() {
             return;
         }
@@ -75,7 +75,7 @@ impl<const D: usize> System<D> {
             made.damping.multiply(assembly.pattern(), &x, &mut sum);
             assembly.take(&sum, &mut y);
             for frame in self.frames.list() {
-                let spin = frame.spin(&work.x, &work.v);
+                let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
                 frame.add_moment(&-(frame.inertia_rate(&spin) * frame.read(unit)), &mut y);
             }
             let column = rate.iter().zip(&y).map(|(rate, damped)| -(rate + damped));
@@ -86,9 +86,9 @@ impl<const D: usize> System<D> {
 
     /// Rates of some rows of the Jacobian, in `q`.
     fn turning_rows(&self, work: &Workspace<D>, rows: &[usize]) -> Vec<Vec<f64>> {
-        let pairs = work.x.iter().zip(&work.v);
+        let pairs = work.kinematics.x.iter().zip(&work.kinematics.v);
         let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
-        let v = work.v.iter().map(|v| map_node(v, Jet::from_re));
+        let v = work.kinematics.v.iter().map(|v| map_node(v, Jet::from_re));
         let v: Vec<Node<D, Jet>> = v.collect();
         let lift = |[p, v, a]: &[f64; 3]| {
             [
@@ -97,10 +97,20 @@ impl<const D: usize> System<D> {
                 Jet::from_re(*a),
             ]
         };
-        let drives: Vec<[Jet; 3]> = work.drives.iter().map(lift).collect();
-        let mut travel: Vec<Jet> = work.travel.iter().map(|s| Jet::from_re(*s)).collect();
+        let drives: Vec<[Jet; 3]> = work.kinematics.drives.iter().map(lift).collect();
+        let mut travel: Vec<Jet> = work
+            .kinematics
+            .travel
+            .iter()
+            .map(|s| Jet::from_re(*s))
+            .collect();
         self.find_travel(&x, &mut travel);
-        let angles: Vec<Jet> = work.angles.iter().map(|a| Jet::from_re(*a)).collect();
+        let angles: Vec<Jet> = work
+            .kinematics
+            .angles
+            .iter()
+            .map(|a| Jet::from_re(*a))
+            .collect();
         let view = View {
             x: &x,
             v: &v,
@@ -108,7 +118,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel: &travel,
             angles: &angles,
-            released: &work.released,
+            released: &work.kinematics.released,
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
@@ -116,7 +126,7 @@ impl<const D: usize> System<D> {
                 let mut change = map_node(term, |t| t.v1);
                 if let Some((frame, _)) = self.frames.of_node::<D>(node) {
                     // Of rotations about axes that stand still.
-                    let spin = frame.spin(&work.x, &work.v);
+                    let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
                     let moment = components(&term[1].map(|t| t.re).into());
                     let along = Vector3::from(moment).cross(&spin);
                     let turned: Vector<D> = vector(along.into());

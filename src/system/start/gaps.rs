@@ -144,7 +144,7 @@ impl<const D: usize> System<D> {
         }
         let terms = linear.row.terms.iter();
         let value: f64 = terms.map(|(node, c)| product(c, &x[*node])).sum();
-        value - linear.target.derivatives(&work.drives)[0]
+        value - linear.target.derivatives(&work.kinematics.drives)[0]
     }
 
     /// Returns the gaps of every row and constraint. Lengths are relative to `size`.
@@ -155,7 +155,7 @@ impl<const D: usize> System<D> {
         }
         let view = View {
             x,
-            ..self.view(work)
+            ..self.view(&work.kinematics)
         };
         for constraint in self.all_constraints() {
             gaps.push(constraint.value(&view) / constraint_size(constraint, size));
@@ -199,7 +199,7 @@ impl<const D: usize> System<D> {
         }
         let view = View {
             x,
-            ..self.view(work)
+            ..self.view(&work.kinematics)
         };
         for (i, constraint) in self.all_constraints().enumerate() {
             constraint.for_each(&view, |node, c| {

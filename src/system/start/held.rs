@@ -26,7 +26,7 @@ impl<const D: usize> System<D> {
         work: &Workspace<D>,
         with_initial: bool,
     ) -> Self {
-        let at = self.instant(time, work);
+        let at = self.instant(time, &work.kinematics);
         let mut held = self.clone();
         if with_initial {
             held.loads.extend(self.initial_loads.iter().cloned());
@@ -35,7 +35,7 @@ impl<const D: usize> System<D> {
         for load in &mut held.loads {
             *load = load.held(at, 1.0);
         }
-        for (drive, [value, ..]) in held.drives.iter_mut().zip(&work.drives) {
+        for (drive, [value, ..]) in held.drives.iter_mut().zip(&work.kinematics.drives) {
             *drive = Drive::Function(Function::constant(*value));
         }
         held.tracks_work = false;
@@ -47,14 +47,14 @@ impl<const D: usize> System<D> {
         for load in &mut self.loads {
             let at = Instant {
                 time: 0.0,
-                inputs: &work.inputs,
-                input_rates: &work.input_rates,
-                drives: &work.drives,
-                x: &work.x,
-                v: &work.v,
+                inputs: &work.kinematics.inputs,
+                input_rates: &work.kinematics.input_rates,
+                drives: &work.kinematics.drives,
+                x: &work.kinematics.x,
+                v: &work.kinematics.v,
                 chains: &self.chains,
                 sections: (&self.rod_chains, &self.frames),
-                angles: (&self.angles, &work.angles),
+                angles: (&self.angles, &work.kinematics.angles),
                 winches: &self.winches,
             };
             *load = load.held(at, fraction);

@@ -73,7 +73,7 @@ impl<const D: usize> System<D> {
         work.resume(&state);
         // Drives first: targets of the rows depend on them.
         self.forward_kinematics(time, &state.coordinates, None, work);
-        self.find_slides(nodes, &mut work.travel);
+        self.find_slides(nodes, &mut work.kinematics.travel);
         let drawn = self.gaps_by_joint(nodes, work, 0.0);
         let bound = ABSURD * self.body_size();
         if (drawn.iter()).any(|gap| !gap.is_angle && bound > 0.0 && gap.size > bound) {
@@ -111,14 +111,12 @@ impl<const D: usize> System<D> {
     ) -> bool {
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
-        let mut start = work.other.clone();
+        let mut start = work.scratch.other.clone();
         start.fill(no_node());
-        self.add_driven(&work.targets, 1, &mut start);
-        let mut missing = difference(rates, &start);
-        let mut v = std::mem::take(&mut state.rates);
-        work.other.fill(no_node());
-        self.rates_of(&mut missing, work, &mut v);
-        state.rates = v;
+        self.add_driven(&work.kinematics.targets, 1, &mut start);
+        work.kinematics.v = difference(rates, &start);
+        work.scratch.other.fill(no_node());
+        self.rates_of(work, &mut state.rates);
         let mut model = DrivenSystem::new(self, inputs, work, state);
         let holds = model.project(state);
         if holds {
@@ -131,16 +129,14 @@ impl<const D: usize> System<D> {
     pub fn nodes_of(&self, state: &State, work: &mut Workspace<D>) -> Vec<Node<D>> {
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
-        work.x.clone()
+        work.kinematics.x.clone()
     }
 
     /// Coordinates that come closest to nodal ones in the mass norm.
     fn approach(&self, x: &[Node<D>], work: &mut Workspace<D>, state: &mut State) {
-        let missing = difference(x, &work.x);
+        let missing = difference(x, &work.kinematics.x);
         if missing.iter().any(|m| *m != no_node()) {
-            let mut q = std::mem::take(&mut state.coordinates);
-            self.coordinates_of(&missing, work, &mut q);
-            state.coordinates = q;
+            self.coordinates_of(&missing, work, &mut state.coordinates);
         }
     }
 
@@ -176,22 +172,22 @@ impl<const D: usize> System<D> {
         }
         let view = View {
             x,
-            ..self.view(work)
+            ..self.view(&work.kinematics)
         };
         open.offsets = self.constraints.iter().map(|c| c.value(&view)).collect();
-        for (place, change) in work.x.iter_mut().zip(&open.reference) {
+        for (place, change) in work.kinematics.x.iter_mut().zip(&open.reference) {
             add_node(place, 1.0, change);
         }
         self.approach(x, work, state);
         equilibrium::close(self, inputs, (&open, nodes), work, state).ok()?;
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
-        let gaps = self.gaps(&work.x, work, self.extent(&work.x));
+        let gaps = self.gaps(&work.kinematics.x, work, self.extent(&work.kinematics.x));
         let fits = gaps.iter().all(|gap| gap.abs() <= CLOSE);
         let stretched = self
             .chains
             .iter()
-            .any(|c| c.mean_strain(&work.x) > STRETCHED);
+            .any(|c| c.mean_strain(&work.kinematics.x) > STRETCHED);
         (fits && !stretched).then_some(())
     }
 
@@ -222,7 +218,7 @@ impl<const D: usize> System<D> {
         self.start_courses(&mut state, inputs);
         work.resume(&state);
         self.forward_kinematics(time, &state.coordinates, None, work);
-        self.find_slides(nodes, &mut work.travel);
+        self.find_slides(nodes, &mut work.kinematics.travel);
         let size = self.body_size();
         let gaps = self.gaps_by_joint(nodes, work, 0.0).into_iter();
         gaps.filter(|gap| gap.size > part * if gap.is_angle { 1.0 } else { size })
@@ -236,34 +232,53 @@ impl<const D: usize> System<D> {
         work: &mut Workspace<D>,
         q: &mut [f64],
     ) {
-        work.f.fill(no_node());
-        self.add_inertia(1.0, dx, &mut work.f);
-        for chain in &self.rod_chains {
-            chain.add_spin_inertia((&work.x, dx), &self.frames, &mut work.f);
-        }
-        (self.frames).pull_back((&work.x, None), &mut work.f);
-        self.elimination.reduce(&work.f, &mut work.y, q);
-        self.to_rotations(work, q);
+        self.gather_momentum(dx, &work.kinematics.x, &mut work.forces.f);
+        self.reduce_momentum(work, q);
     }
 
-    /// Rates of coordinates that come closest to those of nodes, without what is driven, and to the momentum in `work.other` of material that
-    /// passed through the mesh of cables before, both in the mass norm.
-    pub(in crate::system) fn rates_of(
-        &self,
-        v: &mut [Node<D>],
-        work: &mut Workspace<D>,
-        rates: &mut [f64],
-    ) {
-        // Before `coordinates_of`, which needs the same scratch.
-        if !self.winches.is_empty() {
-            self.add_passing(&work.drives, -1.0, &work.x, &mut work.other);
-            self.pull_back(&work.drives, &mut work.other);
-            (self.elimination).reduce(&work.other, &mut work.y, &mut work.a);
-            self.shorten_rates(work, v);
+    /// `M dx` of a nodal displacement or velocity at coordinates `x`, over the nodes.
+    fn gather_momentum(&self, dx: &[Node<D>], x: &[Node<D>], momentum: &mut [Node<D>]) {
+        momentum.fill(no_node());
+        self.add_inertia(1.0, dx, momentum);
+        for chain in &self.rod_chains {
+            chain.add_spin_inertia((x, dx), &self.frames, momentum);
         }
-        self.coordinates_of(v, work, rates);
+        (self.frames).pull_back((x, None), momentum);
+    }
+
+    /// `T^T` of the momentum in `work.forces.f`, in terms of rotations.
+    fn reduce_momentum(&self, work: &mut Workspace<D>, q: &mut [f64]) {
+        let Workspace {
+            kinematics,
+            forces,
+            scratch,
+            ..
+        } = work;
+        self.elimination.reduce(&forces.f, &mut scratch.y, q);
+        self.to_rotations(kinematics, scratch, q);
+    }
+
+    /// Rates of coordinates that come closest, in the mass norm, to the rates `work.kinematics.v` of nodes less those that are driven, and to
+    /// the momentum in `work.scratch.other` of material that passed through the mesh of cables before. Changes `work.kinematics.v`.
+    pub(in crate::system) fn rates_of(&self, work: &mut Workspace<D>, rates: &mut [f64]) {
+        let Workspace {
+            kinematics,
+            forces,
+            scratch,
+            change,
+            ..
+        } = &mut *work;
         if !self.winches.is_empty() {
-            (rates.iter_mut().zip(&work.a)).for_each(|(rate, more)| *rate += more);
+            let (drives, x) = (&kinematics.drives, &kinematics.x);
+            self.add_passing(drives, -1.0, x, &mut scratch.other);
+            self.pull_back(drives, &mut scratch.other);
+            (self.elimination).reduce(&scratch.other, &mut scratch.y, change);
+            self.shorten_rates(drives, x, &mut kinematics.v);
+        }
+        self.gather_momentum(&kinematics.v, &kinematics.x, &mut forces.f);
+        self.reduce_momentum(work, rates);
+        if !self.winches.is_empty() {
+            (rates.iter_mut().zip(&work.change)).for_each(|(rate, more)| *rate += more);
         }
     }
 
@@ -281,7 +296,7 @@ impl<const D: usize> System<D> {
             let ConstraintKind::DrivenOrientation(driven) = &constraint.kind else {
                 continue;
             };
-            let turn = driven.missing(x, &work.drives);
+            let turn = driven.missing(x, &work.kinematics.drives);
             if driven.about == 0 && turn.norm() > FAR {
                 let body = driven.axes[0].body;
                 let about = self.center(body, x);
@@ -328,7 +343,7 @@ impl<const D: usize> System<D> {
         // Sum of squares of gaps where it is least, and where that is.
         let (mut least, mut nearest) = (f64::INFINITY, x.to_vec());
         for iteration in 0..=ITERATIONS {
-            self.find_slides(x, &mut work.travel);
+            self.find_slides(x, &mut work.kinematics.travel);
             let gaps = self.gaps(x, work, size);
             let largest = gaps.iter().map(|gap| gap.abs()).fold(0.0, f64::max);
             let done = largest <= EXACT || (largest <= CLOSE && largest > 0.5 * best);
@@ -367,7 +382,7 @@ impl<const D: usize> System<D> {
         }
         // Steps do not end where they come closest: joints depend on each other there.
         x.copy_from_slice(&nearest);
-        self.find_slides(x, &mut work.travel);
+        self.find_slides(x, &mut work.kinematics.travel);
         let gaps = self.gaps_by_joint(x, work, CLOSE);
         Err(NotAssembled { gaps })
     }

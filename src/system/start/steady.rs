@@ -141,11 +141,11 @@ impl<const D: usize> System<D> {
             };
             // What is no coordinate of a node turns along.
             if linear.joint.is_some() {
-                let target = linear.target.derivatives(&work.drives)[1];
+                let target = linear.target.derivatives(&work.kinematics.drives)[1];
                 rows.push((fields.iter().map(of).collect(), target));
             }
         }
-        let view = self.view(work);
+        let view = self.view(&work.kinematics);
         for constraint in self.constraints.iter().chain(&self.clamped) {
             let mut row = vec![0.0; fields.len()];
             constraint.for_each(&view, |node, term| {
@@ -218,8 +218,12 @@ impl<const D: usize> System<D> {
         let center = steady
             .turning()
             .map_or(Vector::zeros(), |turning| turning.center);
-        let largest =
-            square * self.size() + work.drives.iter().fold(0.0, |m, d| f64::max(m, d[2].abs()));
+        let largest = square * self.size()
+            + work
+                .kinematics
+                .drives
+                .iter()
+                .fold(0.0, |m, d| f64::max(m, d[2].abs()));
         self.linear
             .iter()
             .filter(|linear| linear.target.is_driven())
@@ -230,7 +234,7 @@ impl<const D: usize> System<D> {
                     product(c, &carried_node(steady.rate, &arm, &no_node()))
                 };
                 let has: f64 = linear.row.terms.iter().map(of).sum();
-                let wants = linear.target.derivatives(&work.drives)[2];
+                let wants = linear.target.derivatives(&work.kinematics.drives)[2];
                 (has - wants).abs() <= 1e-6 * largest.max(square)
             })
     }

@@ -31,7 +31,8 @@ impl<const D: usize> Newton<'_, '_, D> {
         let (system, time) = (self.model.system, state.time);
         let q = &state.coordinates;
         self.model.linearize(time, q, &self.rest);
-        self.model.accelerate(time, q, &self.rest, &mut self.force);
+        let force = self.model.accelerate(time, q, &self.rest);
+        self.force.copy_from_slice(force);
         let work = &mut *self.model.work;
         let terms = terms(system, time, work);
         let sizes = sizes(system, work);
@@ -45,7 +46,7 @@ impl<const D: usize> Newton<'_, '_, D> {
             // Numbers between -1/2 and 1/2 have a mean square of 1/12.
             let weight = 12.0 / SAMPLES as f64;
             let mut shared = noise.clone();
-            system.project_on_tangent_plane(work, &mut shared);
+            system.project_on_tangent_plane(&mut work.constraints, &mut shared);
             for noise in [&mut noise, &mut shared] {
                 gather(system, work, noise, weight, 1, &mut squares);
             }
@@ -74,14 +75,15 @@ fn worst(squares: &Squares) -> Option<Rest> {
 /// Sizes of what the forces over the nodes are summed from, N.
 fn terms<const D: usize>(system: &System<D>, time: f64, work: &mut Workspace<D>) -> Vec<Node<D>> {
     system.add_multiplied(work);
-    let mut loads = vec![no_node(); work.x.len()];
+    let mut loads = vec![no_node(); work.kinematics.x.len()];
     for load in &system.loads {
-        load.add_force(system.instant(time, work), &mut loads);
+        load.add_force(system.instant(time, &work.kinematics), &mut loads);
     }
-    let mut terms = vec![no_node(); work.x.len()];
+    let mut terms = vec![no_node(); work.kinematics.x.len()];
     for (n, term) in terms.iter_mut().enumerate() {
-        let parts = [&work.f[n], &system.weight[n], &loads[n]].map(|part| part.as_flattened());
-        let linear_constraint_forces = work.linear_constraint_forces[n].as_flattened();
+        let parts =
+            [&work.forces.f[n], &system.weight[n], &loads[n]].map(|part| part.as_flattened());
+        let linear_constraint_forces = work.forces.linear_constraint_forces[n].as_flattened();
         for (i, term) in term.as_flattened_mut().iter_mut().enumerate() {
             let multiplied = (parts[0][i] - linear_constraint_forces[i]).abs();
             *term = parts.iter().map(|part| part[i].abs()).sum::<f64>() + multiplied;
@@ -100,7 +102,7 @@ fn sizes<const D: usize>(system: &System<D>, work: &Workspace<D>) -> Vec<Node<D>
         }
         sizes
     };
-    work.x.iter().enumerate().map(node).collect()
+    work.kinematics.x.iter().enumerate().map(node).collect()
 }
 
 /// A sample of what roundoff leaves, over `q`.
@@ -122,11 +124,15 @@ fn rounded<const D: usize>(
         .assembly
         .restrict(&sample(sizes, of_sizes), &mut noise);
     elimination.coordinates_of(&mut noise);
-    work.tangent.apply_stiffness(elimination, &mut noise);
+    work.linearization
+        .tangent
+        .apply_stiffness(elimination, &mut noise);
     let mut forces = sample(terms, of_terms);
-    system.frames.pull_back((&work.x, None), &mut forces);
+    system
+        .frames
+        .pull_back((&work.kinematics.x, None), &mut forces);
     let mut summed = noise.clone();
-    elimination.reduce(&forces, &mut work.y, &mut summed);
+    elimination.reduce(&forces, &mut work.scratch.y, &mut summed);
     (noise.iter_mut().zip(&summed)).for_each(|(noise, sum)| *noise += sum);
     noise
 }
@@ -141,11 +147,11 @@ fn gather<const D: usize>(
     squares: &mut Squares,
 ) {
     system.elimination.forces(force);
-    (system.elimination.assembly).prolong(force, &mut work.other);
+    (system.elimination.assembly).prolong(force, &mut work.scratch.other);
     for (nodes, squares) in system.bodies().iter().zip(squares) {
         for node in nodes.clone() {
             let is_point = system.frames.kind(node) == NodeKind::Point;
-            for (part, forces) in work.other[node].iter().enumerate() {
+            for (part, forces) in work.scratch.other[node].iter().enumerate() {
                 let kind = usize::from(!(is_point && part == 0));
                 squares[kind][column] += weight * forces.iter().map(|f| f * f).sum::<f64>();
             }

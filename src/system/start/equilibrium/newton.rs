@@ -354,8 +354,8 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         system.forward_kinematics(state.time, &state.coordinates, None, work);
         system
             .elimination
-            .expand(mode, &mut work.y, &mut work.other);
-        let nodes = || work.other.iter();
+            .expand(mode, &mut work.scratch.y, &mut work.scratch.other);
+        let nodes = || work.scratch.other.iter();
         let size = nodes().flatten().flatten();
         let size = size.map(|m| m.abs()).fold(0.0, f64::max);
         let way: Vector<D> = nodes().map(|m| Vector::from(m[0])).sum();

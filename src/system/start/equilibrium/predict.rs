@@ -27,9 +27,9 @@ impl<const D: usize> Newton<'_, '_, D> {
         if let Some(least) = &least {
             let (system, work) = (self.model.system, &mut *self.model.work);
             let mut product = least.clone();
-            (work.tangent).apply_stiffness(&system.elimination, &mut product);
+            (work.linearization.tangent).apply_stiffness(&system.elimination, &mut product);
             (self.x.iter_mut().zip(&product)).for_each(|(x, product)| *x -= product);
-            system.project_on_tangent_plane(work, &mut self.x);
+            system.project_on_tangent_plane(&mut work.constraints, &mut self.x);
         }
         let mut shift = self.least;
         for _ in 0..SHIFTS {

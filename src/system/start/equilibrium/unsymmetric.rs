@@ -118,9 +118,9 @@ fn substitute_back(columns: &[Vec<f64>], target: &mut [f64]) {
 fn preconditioned<const D: usize>(model: &mut DrivenSystem<'_, D>, f: &[f64]) -> Vec<f64> {
     model.spend(PRODUCT);
     let mut x = f.to_vec();
-    model.system.project_on_tangent_plane(model.work, &mut x);
+    model.system.project_on_tangent_plane(&mut model.work.constraints, &mut x);
     model.solve_small(&mut x);
-    model.system.project_on_tangent_plane(model.work, &mut x);
+    model.system.project_on_tangent_plane(&mut model.work.constraints, &mut x);
     x
 }
 
@@ -139,14 +139,26 @@ fn apply<const D: usize>(model: &mut DrivenSystem<'_, D>, s: f64, q: &[f64]) -> 
 fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> {
     let (system, time) = (model.system, Jet::from_re(model.time));
     let work = &mut *model.work;
-    system.elimination.expand(q, &mut work.y, &mut work.other);
-    system.frames.place_changes(&work.x, &mut work.other);
+    system
+        .elimination
+        .expand(q, &mut work.scratch.y, &mut work.scratch.other);
+    system
+        .frames
+        .place_changes(&work.kinematics.x, &mut work.scratch.other);
     let jets = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
-    let (inputs, rates) = (jets(&work.inputs), jets(&work.input_rates));
-    let angles = jets(&work.angles);
+    let (inputs, rates) = (
+        jets(&work.kinematics.inputs),
+        jets(&work.kinematics.input_rates),
+    );
+    let angles = jets(&work.kinematics.angles);
     let zero = Jet::from_re(0.0);
-    let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
-    let pairs = work.x.iter().zip(&work.other);
+    let drives: Vec<[Jet; 3]> = work
+        .kinematics
+        .drives
+        .iter()
+        .map(|d| d.map(Jet::from_re))
+        .collect();
+    let pairs = work.kinematics.x.iter().zip(&work.scratch.other);
     let x: Vec<Node<D, Jet>> = pairs.map(|(x, dx)| moving(x, dx)).collect();
     let v = vec![[[zero; D]; 2]; x.len()];
     let mut f = v.clone();
@@ -164,14 +176,14 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
     };
     let loads = || (system.loads.iter()).filter(|load| !load.is_conservative());
     loads().for_each(|load| load.add_force(at, &mut f));
-    for (out, f) in work.f.iter_mut().zip(&f) {
+    for (out, f) in work.forces.f.iter_mut().zip(&f) {
         *out = map_node(f, |f| -part(f, 1));
     }
-    let mut force = std::mem::take(&mut work.f);
-    let dx = &work.other;
+    let force = &mut work.forces.f;
+    let dx = &work.scratch.other;
     for load in loads() {
         load.add_tangent(
-            system.instant(model.time, work),
+            system.instant(model.time, &work.kinematics),
             &mut |a, b, block| {
                 for (r, row) in block.as_flattened().iter().enumerate() {
                     for (c, entry) in row.as_flattened().iter().enumerate() {
@@ -185,9 +197,12 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
             &mut |_, _, _| {},
         );
     }
-    work.f = force;
     let mut out = vec![0.0; q.len()];
-    system.frames.pull_back((&work.x, None), &mut work.f);
-    system.elimination.reduce(&work.f, &mut work.y, &mut out);
+    system
+        .frames
+        .pull_back((&work.kinematics.x, None), &mut work.forces.f);
+    system
+        .elimination
+        .reduce(&work.forces.f, &mut work.scratch.y, &mut out);
     out
 }
