@@ -45,7 +45,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod body;
+pub mod bodies;
 pub mod elements;
 pub mod fmi;
 pub mod fmi2;

@@ -3,9 +3,15 @@
 //! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eqs. 5 and 9; the fourth function is misprinted
 //! there and reads `l (xi^3 - xi^2)`, which is what Eq. 12 integrates.
 
-use nalgebra::SVector;
+use nalgebra::{RowVector4, SVector};
 
+use super::Nodal;
 use crate::math::jet::Number;
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::Vector;
+
+/// Values at the Gauss points of an element or of another segment.
+pub type Values<const K: usize, N> = [Vector<K, N>; GAUSS_5.len()];
 
 /// Shape functions `S` at `xi` in [0, 1] of an element of length `l` (m): `r = S e`.
 pub fn values<N: Number>(xi: N, l: f64) -> SVector<N, 4> {
@@ -44,6 +50,23 @@ pub fn integrals<N: Number>(xi: N, l: f64) -> SVector<N, 4> {
     let first = over(x2, 2.0) - over(x3 + x3, 3.0) + over(x4, 4.0);
     let second = over(x4, 4.0) - over(x3, 3.0);
     [l * (xi - rise), l * l * first, l * rise, l * l * second].into()
+}
+
+/// Weights at the Gauss points, m, of a vector per length of an element of this length (m) on its coordinates: position and slope at both
+/// ends.
+pub fn weights(length: f64) -> [[f64; 4]; GAUSS_5.len()] {
+    GAUSS_5.map(|point| (values(point.at, length) * (point.weight * length)).into())
+}
+
+/// Returns the forces on the coordinates of an element of this length (m) of a force per length with these values at the Gauss points.
+pub fn on_coordinates<const D: usize, N: Number>(
+    values: &Values<D, N>,
+    length: f64,
+) -> Nodal<D, N> {
+    let terms = values.iter().zip(weights(length));
+    terms.fold(Nodal::zeros(), |sum, (value, weights)| {
+        sum + value * RowVector4::from(weights).map(N::of)
+    })
 }
 
 #[cfg(test)]

@@ -155,7 +155,10 @@ impl<const D: usize> Engine<D> {
         } = &self.assembled;
         let initial_gaps = system.initial_gaps((time, values), nodes, MISFIT, &mut self.work);
         self.remarks = InitialWarnings::default();
-        if let Some((drive, travel)) = system.paid_out_at_start(&self.work) {
+        if let Some((drive, travel)) = system
+            .bodies()
+            .paid_out_at_start(&self.work.kinematics.drives)
+        {
             let name = self.driven_name(drive);
             return Err(Error::Begun(format!(
                 "expected a winch `{name}` that has paid out nothing at the start, found {travel} m: the cable is as long \
@@ -168,7 +171,10 @@ impl<const D: usize> Engine<D> {
             _ => system.initial_state(time, values, described, &mut self.work),
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
-        if let Some(which) = system.overbent(&system.nodes_of(&state, &mut self.work)) {
+        if let Some(which) = system
+            .bodies()
+            .overbent(&system.nodes_of(&state, &mut self.work))
+        {
             return Err(Error::ElementOverDeformed(
                 self.overbent(which, " at the start"),
             ));

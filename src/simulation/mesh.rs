@@ -4,9 +4,10 @@ use super::Quantity;
 use super::engine::Engine;
 use super::inputs::Inputs;
 use super::watch::is_sampled;
+use crate::bodies::LineChain;
 use crate::math::jet::Number;
 use crate::scene::Assembled;
-use crate::system::{Evaluation, LineChain, State};
+use crate::system::{Evaluation, State};
 
 /// Part of [`Evaluation::missed`] that positions are off by, about: mostly 0.03 to 0.6 on 22 scenes, for errors of
 /// 1e-6 to 1 of their sizes (docs/decisions/0036-resolution.md).
@@ -19,7 +20,7 @@ pub(super) fn resolution<const D: usize, N: Number>(
 ) -> N {
     let system = &assembled.system;
     let mut largest = N::of(0.0);
-    for chain in system.chains() {
+    for chain in &system.bodies().chains {
         let off = off(values, assembled, chain);
         if off > largest {
             largest = off;
@@ -89,10 +90,10 @@ impl<const D: usize> Engine<D> {
         }
         let (assembled, values) = self.placed(state, inputs);
         let system = &assembled.system;
-        let missed = (system.chains().iter()).map(|chain| off(values, assembled, chain));
+        let missed = (system.bodies().chains.iter()).map(|chain| off(values, assembled, chain));
         let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        let first = worst.map(|(chain, _)| system.chains()[chain].nodes(0)[0]);
-        let body = (system.bodies().iter()).position(|nodes| Some(nodes.start) == first);
+        let first = worst.map(|(chain, _)| system.bodies().chains[chain].nodes(0)[0]);
+        let body = (system.bodies().ranges.iter()).position(|nodes| Some(nodes.start) == first);
         self.mesh.found = body.map(|body| (body, resolution));
     }
 

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::engine::Engine;
 use super::mesh::resolution;
-use crate::body::{Marker, combined};
+use crate::bodies::{Marker, combined};
 use crate::integrators::Tolerance;
 use crate::math::jet::Number;
 use crate::math::rotation;

@@ -1,17 +1,15 @@
 //! Where bodies are, for pictures.
 
-use std::ops::Range;
-
 use nalgebra::Vector3;
 
 use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::value;
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::body::{Marker, Node, axes_at, combined};
+use crate::bodies::{LineChain, Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId};
-use crate::system::{Evaluation, LineChain, State, System};
+use crate::system::{Evaluation, State, System};
 
 /// Where a body is: what a line or surface of it is drawn from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -207,15 +205,20 @@ impl<const D: usize> Engine<D> {
         let (assembled, values) = self.placed(state, inputs);
         let Assembled { system, nodes, .. } = assembled;
         let of = |first: usize| {
-            let chain = system.chains().iter().find(|c| c.nodes(0)[0] == first);
+            let chain = system
+                .bodies()
+                .chains
+                .iter()
+                .find(|c| c.nodes(0)[0] == first);
             let bends = chain.map(|chain| values.elastic_displacement(system, chain, nodes));
             bends.or(system
-                .rods()
+                .bodies()
+                .rods
                 .iter()
                 .any(|rod| rod.node == first)
                 .then_some(0.0))
         };
-        let bodies = system.bodies().iter();
+        let bodies = system.bodies().ranges.iter();
         bodies.filter_map(|nodes| of(nodes.start)).collect()
     }
 
@@ -235,13 +238,8 @@ impl<const D: usize> Engine<D> {
         let (assembled, values) = self.moving(state, inputs);
         let system = &assembled.system;
         let at = |marker: &Marker| values.section_forces(system, marker);
-        let bodies = system.bodies().iter().enumerate();
-        let of = |(body, nodes): (usize, &Range<usize>)| {
-            let chain = system
-                .chains()
-                .iter()
-                .find(|c| c.nodes(0)[0] == nodes.start);
-            let Some(chain) = chain else {
+        let of = |body: usize| {
+            let Some(chain) = system.bodies().line(body) else {
                 return Vec::new();
             };
             let count = chain.elements().len();
@@ -249,12 +247,12 @@ impl<const D: usize> Engine<D> {
             let last = at(&Marker::inside(body, chain, count - 1, 1.0));
             (0..count).map(start).chain([last]).collect()
         };
-        bodies.map(of).collect()
+        (0..system.bodies().ranges.len()).map(of).collect()
     }
 }
 
 fn poses<const D: usize>(assembled: &Assembled<D>, x: &[Node<D>]) -> Vec<Pose> {
-    let bodies = assembled.system.bodies().iter().enumerate();
+    let bodies = assembled.system.bodies().ranges.iter().enumerate();
     bodies
         .map(|(body, nodes)| pose(assembled, body, nodes.start, x))
         .collect()
@@ -295,13 +293,17 @@ fn pose<const D: usize>(
     x: &[Node<D>],
 ) -> Pose {
     let system = &assembled.system;
-    let chain = system.chains().iter().find(|c| c.nodes(0)[0] == first);
+    let chain = system
+        .bodies()
+        .chains
+        .iter()
+        .find(|c| c.nodes(0)[0] == first);
     if let Some(chain) = chain {
         return chain_pose(system, chain, x);
     }
     let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
     let [position, slope] = [vector(first, 0), vector(first, 1)];
-    if let Some(rod) = system.rods().iter().find(|rod| rod.node == first) {
+    if let Some(rod) = system.bodies().rods.iter().find(|rod| rod.node == first) {
         let way = Vector3::from(slope) * (0.5 * rod.length);
         let ends = [-way, way].map(|way| (Vector3::from(position) + way).into());
         return Pose {
@@ -309,7 +311,13 @@ fn pose<const D: usize>(
             axes: Vec::new(),
         };
     }
-    if !system.frames().list().iter().any(|f| f.node == first) {
+    if !system
+        .bodies()
+        .frames
+        .list()
+        .iter()
+        .any(|f| f.node == first)
+    {
         return Pose {
             nodes: vec![[position, slope]],
             axes: Vec::new(),
@@ -330,7 +338,7 @@ fn chain_pose<const D: usize>(system: &System<D>, chain: &LineChain<D>, x: &[Nod
     let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
     let nodes = (first..first + chain.node_count()).map(|node| [0, 1].map(|k| vector(node, k)));
     let mut axes = Vec::new();
-    if let Some(sections) = system.sections(chain) {
+    if let Some(sections) = system.bodies().sections(chain) {
         for element in 0..sections.count() {
             let ends = sections.at(element, x).axes;
             // Every element tells of both its ends; its first is the last of the one before.
@@ -348,11 +356,11 @@ fn outlines<const D: usize>(
     x: &[Node<D>],
     parts: &dyn Fn(usize) -> u32,
 ) -> Vec<Vec<[f64; 3]>> {
-    let first = |body: usize| system.bodies()[body].start;
-    let mut found: Vec<Vec<[f64; 3]>> = (0..system.bodies().len())
+    let first = |body: usize| system.bodies().ranges[body].start;
+    let mut found: Vec<Vec<[f64; 3]>> = (0..system.bodies().ranges.len())
         .map(|body| vec![components(&Vector::from(x[first(body)][0]))])
         .collect();
-    for chain in system.chains() {
+    for chain in &system.bodies().chains {
         let parts = parts(chain.elements().len());
         let along = |part: u32| chain.length() * f64::from(part) / f64::from(parts);
         let body = (0..found.len()).find(|body| first(*body) == chain.nodes(0)[0]);
@@ -361,7 +369,7 @@ fn outlines<const D: usize>(
             found[body] = (0..=parts).map(|part| components(&place(part))).collect();
         }
     }
-    for rod in system.rods() {
+    for rod in &system.bodies().rods {
         if let Some(body) = (0..found.len()).find(|body| first(*body) == rod.node) {
             let ends = [-0.5, 0.5].map(|part| [part * rod.length, 0.0]);
             let ends = ends.map(|end| Marker::rigid(body, rod.node, end).position(x));

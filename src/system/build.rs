@@ -3,66 +3,28 @@
 
 mod rows;
 
-use std::ops::Range;
-
-use nalgebra::SMatrix;
-
 use super::end::{Angle, Attachment};
 use super::joints::{Constraint, ConstraintKind, JointEquations, Linear, Primitive, Target, View};
 use super::loads::AppliedLoad;
-use super::motion::forces::add_mass;
 use super::motion::tree::Tree;
 use super::signal::Drive;
-use super::{DrivenRow, LineChain, RigidRod, System};
-use crate::body::{
-    Assembly, ConnectivityRow, Dependent, Elimination, Marker, Node, NodeKind, RigidBodyFrame,
-    RodChain, RotationMaps, SectionFrame, add_node, no_block, no_node, product,
+use super::{DrivenRow, System};
+use crate::bodies::{
+    Assembly, Bodies, ConnectivityRow, Dependent, Elimination, Node, NodeKind, add_node, no_node,
+    product,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;
-use crate::math::sparse::Matrix;
-use rows::{constraints, free_ends, links, releases, unplaced, unplaced_rod, winches};
+use rows::{add_winches, constraints, free_ends, links, releases};
 
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
 
-/// Mass in a point of a body: a point mass, or a rigid body about its centre of mass.
-#[derive(Clone, Copy, Debug)]
-pub struct LumpedMass {
-    /// Where it is.
-    pub marker: Marker,
-    /// Mass, kg.
-    pub mass: f64,
-    /// Mass of the fluid that moves along, kg: it has inertia and no weight.
-    pub added: f64,
-    /// Inertia of the direction against turning (and of a slope against stretching), kg m^2.
-    pub inertia: f64,
-}
-
-impl LumpedMass {
-    /// Mass that is moved, kg.
-    pub fn moved(&self) -> f64 {
-        self.mass + self.added
-    }
-}
-
 /// Parts from which a system is built.
 #[derive(Clone, Debug)]
 pub struct Parts<const D: usize = 2> {
-    /// Nodal coordinates as described; bodies need not fit together yet.
-    pub nodes: Vec<Node<D>>,
-    /// Nodes of every body, in order.
-    pub bodies: Vec<Range<usize>>,
-    /// Flexible bodies.
-    pub chains: Vec<LineChain<D>>,
-    /// Rigid bodies and point masses.
-    pub lumped_masses: Vec<LumpedMass>,
-    /// Rigid bodies of space that turn: their nodes hold the centre of mass and the principal axes.
-    pub frames: Vec<RigidBodyFrame>,
-    /// Bending and torsion of rods, whose lines are chains.
-    pub rod_chains: Vec<RodChain>,
-    /// Rigid bodies whose sections are read.
-    pub rods: Vec<RigidRod>,
+    /// Bodies, at nodal coordinates as described; they need not fit together yet.
+    pub bodies: Bodies<D>,
     /// Nodes of rigid bodies, and whether they can turn.
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
@@ -101,7 +63,8 @@ impl<const D: usize> System<D> {
     /// Motions that contradict other constraints; bodies without mass.
     pub fn new(mut parts: Parts<D>) -> Result<Self, BuildError> {
         free_ends(&mut parts);
-        let winches = winches(&mut parts);
+        add_winches(&mut parts);
+        parts.bodies.complete();
         let (linear, nonlinear) = constraints(&parts);
         let is_clamp = |joint: usize| parts.joints[joint].clamp().is_some();
         let (clamped, nonlinear): (_, Vec<Constraint<D>>) =
@@ -109,34 +72,27 @@ impl<const D: usize> System<D> {
         let rows: Vec<ConnectivityRow<D>> =
             linear.iter().map(|linear| linear.row.clone()).collect();
         let links = links(&parts, &nonlinear);
-        let (assembly, dependent) = Assembly::new(parts.nodes.len(), &rows, &links);
-        let (redundant, mass) = (redundant(&linear, &dependent)?, mass(&parts, &assembly));
+        let (assembly, dependent) = Assembly::new(parts.bodies.reference.len(), &rows, &links);
+        let redundant = redundant(&linear, &dependent)?;
+        let mass = parts.bodies.mass_matrix(&assembly);
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
-        let chains_damped = parts.rod_chains.iter().any(RodChain::is_damped)
-            || parts.chains.iter().any(LineChain::is_damped);
         let loads_damped = parts.loads.iter().any(AppliedLoad::is_damped);
         let releases = releases(&parts).map(|(_, release)| release).collect();
         let (grounded, takes_moments) = (grounded(&parts, &nonlinear), takes_moments(&parts));
-        let (frames, described) = (take_frames(&mut parts), parts.nodes.clone());
-        unplace(&mut parts, &frames);
+        let (described, mut bodies) = (parts.bodies.reference.clone(), parts.bodies);
+        bodies.unplace();
         let mut system = Self {
-            reference: parts.nodes,
             is_driven_by_time: false,
             has_breaks: false,
             grounded,
             takes_moments,
-            is_damped: chains_damped || loads_damped,
+            is_damped: bodies.is_damped() || loads_damped,
             needs_rates: loads_damped
                 || parts.rotation != [0.0; 3]
                 || parts.tracks_work
-                || !frames.is_empty(),
-            frames,
+                || !bodies.frames.is_empty(),
             reach: 0.0,
-            chains: parts.chains,
-            lumped_masses: parts.lumped_masses,
-            rod_chains: parts.rod_chains,
-            rods: parts.rods,
-            bodies: parts.bodies,
+            bodies,
             elimination,
             joints: parts.joints,
             holds: vec![None; linear.len()],
@@ -154,7 +110,6 @@ impl<const D: usize> System<D> {
             angles: parts.angles,
             releases,
             slides: Vec::new(),
-            winches,
             gravity: parts.gravity,
             weight: Vec::new(),
             rotation: parts.rotation,
@@ -164,9 +119,9 @@ impl<const D: usize> System<D> {
         system.move_reference();
         system.find_rotations();
         system.reach = system.find_reach();
-        system.find_weight();
+        system.weight = system.bodies.weight(system.gravity);
         system.keep(nonlinear, &described);
-        system.needs_rates |= !(system.constraints.is_empty() && system.winches.is_empty());
+        system.needs_rates |= !(system.constraints.is_empty() && system.bodies.winches.is_empty());
         Ok(system)
     }
 
@@ -188,7 +143,7 @@ impl<const D: usize> System<D> {
                 self.holds[*row] = Some((c, k));
                 let linear = &self.linear[*row];
                 let value: f64 = (linear.row.terms.iter())
-                    .map(|(node, c)| product(c, &self.reference[*node]))
+                    .map(|(node, c)| product(c, &self.bodies.reference[*node]))
                     .sum();
                 let column = cluster.multipliers.row(k);
                 let entry = |i: usize, p: usize, d: usize| column[(2 * i + p) * D + d];
@@ -214,13 +169,13 @@ impl<const D: usize> System<D> {
             }
         }
         for (node, change) in moves {
-            add_node(&mut self.reference[node], 1.0, &change);
+            add_node(&mut self.bodies.reference[node], 1.0, &change);
         }
     }
 
     /// Finds the rotations of rigid bodies among the coordinates.
     fn find_rotations(&mut self) {
-        let mut frames = std::mem::take(&mut self.frames);
+        let mut frames = std::mem::take(&mut self.bodies.frames);
         let mut y = vec![0.0; self.elimination.scratch()];
         let turned = |axis: usize, moment: f64| {
             let mut unit = no_node();
@@ -244,16 +199,16 @@ impl<const D: usize> System<D> {
                 range.by_ref().for_each(|at| y[at] = 0.0);
             }
         }
-        self.frames = frames;
+        self.bodies.frames = frames;
     }
 
     /// Largest distance from the first node of what its bodies reach, however they turn: nodes, joints, and the radius of
     /// gyration of bodies that turn, m.
     fn find_reach(&self) -> f64 {
-        let first = Vector::from(self.reference[0][0]);
+        let first = Vector::from(self.bodies.reference[0][0]);
         let ends = || self.joints.iter().flat_map(|joint| &joint.ends);
-        let mut arms = vec![0.0_f64; self.reference.len()];
-        for frame in self.frames.list() {
+        let mut arms = vec![0.0_f64; self.bodies.reference.len()];
+        for frame in self.bodies.frames.list() {
             arms[frame.node] = frame.gyration();
         }
         for marker in ends()
@@ -264,54 +219,39 @@ impl<const D: usize> System<D> {
             *arm = arm.max(marker.arm());
         }
         let far = |place: Vector<D>| (place - first).norm();
-        let nodes = self.reference.iter().zip(&arms).enumerate();
-        let nodes = nodes.filter(|(node, _)| self.frames.kind(*node) == NodeKind::Point);
+        let nodes = self.bodies.reference.iter().zip(&arms).enumerate();
+        let nodes = nodes.filter(|(node, _)| self.bodies.frames.kind(*node) == NodeKind::Point);
         let nodes = nodes.map(|(_, (node, arm))| far(node[0].into()) + arm);
         let on_ground = ends().filter(|end| end.marker().is_none());
-        let on_ground = on_ground.map(|end| far(end.position(&self.reference)));
+        let on_ground = on_ground.map(|end| far(end.position(&self.bodies.reference)));
         nodes.chain(on_ground).fold(0.0, f64::max)
     }
 
     /// Mass times a sparse nodal vector.
     fn inertia_of(&self, follow: &[(usize, Node<D>)]) -> Vec<(usize, Node<D>)> {
-        let zero = vec![no_node(); self.reference.len()];
+        let zero = vec![no_node(); self.bodies.reference.len()];
         let (mut a, mut f) = (zero.clone(), zero);
         for (node, value) in follow {
             a[*node] = *value;
         }
-        self.add_inertia(1.0, &a, &mut f);
+        self.bodies.add_inertia(1.0, &a, &mut f);
         let nodes = f.into_iter().enumerate();
         nodes.filter(|(_, f)| *f != no_node()).collect()
     }
 
-    fn find_weight(&mut self) {
-        let mut weight = vec![no_node(); self.reference.len()];
-        for chain in &self.chains {
-            chain.add_weight(&self.gravity, &mut weight);
-        }
-        for lump in &self.lumped_masses {
-            let force = self.gravity * lump.mass;
-            lump.marker.add_force(force, Vector::zeros(), &mut weight);
-        }
-        for frame in self.frames.list() {
-            weight[frame.node][0] = (self.gravity * frame.mass).into();
-        }
-        self.weight = weight;
-    }
-
     /// Keeps non-linear constraints, but for those that nothing free can violate.
     fn keep(&mut self, nonlinear: Vec<Constraint<D>>, described: &[Node<D>]) {
-        let mut x = self.reference.clone();
-        for frame in self.frames.list() {
+        let mut x = self.bodies.reference.clone();
+        for frame in self.bodies.frames.list() {
             frame.set_axes(&frame.axes(described), &mut x);
         }
-        for frame in self.frames.carried() {
+        for frame in self.bodies.frames.carried() {
             x[frame.node..][..2].copy_from_slice(&described[frame.node..][..2]);
         }
         let assembly = &self.elimination.assembly;
         let slides = nonlinear.iter().filter_map(|c| match &c.kind {
             ConstraintKind::PointOnCurve(along) if c.is_slide() => {
-                Some(along.nearest(&self.chains[along.chain], &x))
+                Some(along.nearest(&self.bodies.chains[along.chain], &x))
             }
             _ => None,
         });
@@ -327,7 +267,7 @@ impl<const D: usize> System<D> {
             x: &x,
             v: &x,
             drives: &drives,
-            chains: &self.chains,
+            bodies: &self.bodies,
             travel: &travel,
             angles: &angles,
             released: &vec![false; self.releases.len()],
@@ -335,7 +275,7 @@ impl<const D: usize> System<D> {
         let mut y = vec![0.0; assembly.free()];
         let is_free = |(index, constraint): (usize, &Constraint<D>)| {
             let mut size = 0.0;
-            constraint.for_each_pulled((&view, &self.frames), |node, term| {
+            constraint.for_each_pulled((&view, &self.bodies.frames), |node, term| {
                 assembly.restrict_node(node, term, &mut y);
                 size += product(term, term);
             });
@@ -369,35 +309,6 @@ impl<const D: usize> System<D> {
     }
 }
 
-/// Puts the nodes of frames where nothing has turned.
-fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &RotationMaps) {
-    for chain in &parts.rod_chains {
-        unplaced_rod(chain, &mut parts.nodes);
-    }
-    for frame in frames.list() {
-        let at = unplaced(&parts.nodes[frame.node]);
-        parts.nodes[frame.node..][..2].fill(at);
-    }
-}
-
-/// Frames of rigid bodies, which are taken out of the parts, and those that rods carry.
-fn take_frames<const D: usize>(parts: &mut Parts<D>) -> RotationMaps {
-    let chains = || parts.rod_chains.iter();
-    let carried = chains().filter(|_| D > 2);
-    let carried = carried.flat_map(|chain| chain.frames().map(|frame| (chain.has_shear(), frame)));
-    let carried = carried.map(|(has_shear, (node, line))| SectionFrame {
-        node,
-        line,
-        has_shear,
-        places: [None; 3],
-    });
-    let inner = chains().flat_map(RodChain::inner);
-    let planar = chains().filter(|_| D == 2).flat_map(RodChain::axes_nodes);
-    let nodes = (parts.nodes.len(), inner, planar);
-    let bodies = std::mem::take(&mut parts.frames);
-    RotationMaps::new(bodies, carried.collect(), nodes)
-}
-
 fn redundant<const D: usize>(
     linear: &[Linear<D>],
     dependent: &[Dependent],
@@ -415,27 +326,9 @@ fn redundant<const D: usize>(
     Ok(redundant)
 }
 
-fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64> {
-    let mut mass = Matrix::zeros(assembly.pattern());
-    let linear = (&parts.chains[..], &parts.lumped_masses[..]);
-    add_mass(linear, &SMatrix::identity(), assembly, &mut mass);
-    for chain in &parts.rod_chains {
-        chain.add_mass(assembly, &mut mass);
-    }
-    for frame in &parts.frames {
-        let mut block = no_block();
-        for axis in 0..D {
-            block[0][axis][0][axis] = frame.mass;
-            block[1][axis][1][axis] = frame.moments[axis];
-        }
-        assembly.add(frame.node, frame.node, &block, &mut mass);
-    }
-    mass
-}
-
 /// For every node, whether a joint, motion, load or lumped inertia may exert a moment there.
 fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
-    let mut takes = vec![false; parts.nodes.len()];
+    let mut takes = vec![false; parts.bodies.reference.len()];
     let mut take = |end: &Attachment<D>| end.nodes().for_each(|node| takes[node] = true);
     for joint in &parts.joints {
         for hold in &joint.holds {
@@ -459,7 +352,12 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
             load.ends().iter().for_each(&mut take);
         }
     }
-    for lump in parts.lumped_masses.iter().filter(|lump| lump.inertia > 0.0) {
+    for lump in parts
+        .bodies
+        .lumped_masses
+        .iter()
+        .filter(|lump| lump.inertia > 0.0)
+    {
         take(&Attachment::Body(lump.marker));
     }
     takes
@@ -468,12 +366,17 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
 /// Nodes that something besides rows ties to the ground.
 fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Vec<usize> {
     if parts.rotation != [0.0; 3] {
-        return parts.bodies.iter().map(|nodes| nodes.start).collect();
+        return parts
+            .bodies
+            .ranges
+            .iter()
+            .map(|nodes| nodes.start)
+            .collect();
     }
     // Coordinates of a cable that is paid out are not moved alike by a translation of all.
     let paid_out = parts.winches.iter();
     let mut nodes: Vec<usize> = paid_out
-        .map(|(chain, ..)| parts.chains[*chain].nodes(0)[0])
+        .map(|(chain, ..)| parts.bodies.chains[*chain].nodes(0)[0])
         .collect();
     for load in &parts.loads {
         let is_grounded = match load {
@@ -486,7 +389,7 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
         }
     }
     for constraint in nonlinear.iter().filter(|c| c.is_grounded()) {
-        nodes.extend(constraint.nodes(&parts.chains));
+        nodes.extend(constraint.nodes(&parts.bodies.chains));
     }
     nodes
 }

@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 use super::direction::Direction;
 use super::end::{Add, Angle, Attachment, bilinear, coupling};
 use super::gradient::Gradient;
-use crate::body::Node;
+use crate::bodies::Node;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, turned};
 

@@ -1,7 +1,7 @@
 //! Directions of bodies and of space, and the angle about the axis of a joint in space: from directions across the axis that
 //! are fixed in the first body to one that is fixed in the second, `angle = atan2(m . u, n . u)` with `m = axis x n`.
 
-use crate::body::{Marker, Node};
+use crate::bodies::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::Attachment;

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 
-use crate::body::{ConnectivityRow, Marker, Node, NodeBlock, Partial, no_block};
+use crate::bodies::{ConnectivityRow, Marker, Node, NodeBlock, block_of};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, perpendicular, perpendicular_matrix};
 use crate::system::direction::AxisTurn;
@@ -224,7 +224,7 @@ pub fn coupling<const D: usize>(
             if *a == usize::MAX || *b == usize::MAX || a > b || (a == b && i > j) {
                 continue;
             }
-            let mut block = product(of_a, of_b, &k[i / 2][j / 2]);
+            let mut block = block_of(of_a, of_b, &k[i / 2][j / 2]);
             if a == b && i != j {
                 add_transposed(&mut block);
             }
@@ -242,29 +242,13 @@ pub fn bilinear<const D: usize>(
     let [of_first, of_second] = parts.map(|(marker, part)| marker.jacobian(part));
     for (a, of_a) in of_first {
         for (b, of_b) in of_second {
-            let mut block = product(&of_a, &of_b, &k);
+            let mut block = block_of(&of_a, &of_b, &k);
             if a == b {
                 add_transposed(&mut block);
             }
             add(a, b, &block);
         }
     }
-}
-
-/// `p^T k q` of the derivatives of two vectors by position and direction of a node each.
-fn product<const D: usize>(p: &Partial<D>, q: &Partial<D>, k: &SMatrix<f64, D, D>) -> NodeBlock<D> {
-    let mut block = no_block();
-    for (i, p) in p.iter().enumerate() {
-        for (j, q) in q.iter().enumerate() {
-            let part = p.transpose() * k * q;
-            for r in 0..D {
-                for c in 0..D {
-                    block[i][r][j][c] = part[(r, c)];
-                }
-            }
-        }
-    }
-    block
 }
 
 /// A pair of vectors on one node counts both ways.

@@ -1,7 +1,7 @@
 //! Derivatives of a function of two ends, such as a constraint or a coordinate of a joint: forces on both, and over the nodes.
 
 use super::end::{Add, Attachment};
-use crate::body::{Node, RotationMaps, add_node, no_node};
+use crate::bodies::{Node, RotationMaps, add_node, no_node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, is_nothing};
 

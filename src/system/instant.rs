@@ -1,9 +1,8 @@
 //! A system at an instant, as loads see it.
 
-use super::LineChain;
 use super::end::Angle;
-use super::winch::{PaidOut, Winch};
-use crate::body::{Node, RodChain, RotationMaps};
+use crate::bodies::winch::PaidOut;
+use crate::bodies::{Bodies, Node};
 use crate::math::jet::Number;
 
 /// Time, inputs and state as loads see them.
@@ -21,24 +20,20 @@ pub struct Instant<'a, const D: usize, N = f64> {
     pub x: &'a [Node<D, N>],
     /// Rates of the nodal coordinates.
     pub v: &'a [Node<D, N>],
-    /// Flexible bodies.
-    pub chains: &'a [LineChain<D>],
-    /// Sections of rods and beams, and the frames that they are at.
-    pub sections: (&'a [RodChain], &'a RotationMaps),
+    /// Bodies.
+    pub bodies: &'a Bodies<D>,
     /// Counted angles of the system and their current values, rad.
     pub angles: (&'a [Angle<D>], &'a [N]),
-    /// Cables that winches pay out.
-    pub winches: &'a [Winch<D>],
 }
 
 impl<'a, const D: usize, N: Number> Instant<'a, D, N> {
     /// The body with this first node, if a winch pays it out.
     pub fn paid_out(&self, first: usize) -> Option<PaidOut<'a, D, N>> {
-        let mut winches = self.winches.iter();
+        let mut winches = self.bodies.winches.iter();
         let winch = winches.find(|winch| winch.nodes[0] == first)?;
         Some(PaidOut {
             winch,
-            chain: &self.chains[winch.chain],
+            chain: &self.bodies.chains[winch.chain],
             now: winch.now(self.drives),
         })
     }

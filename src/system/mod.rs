@@ -12,16 +12,14 @@ pub mod joints;
 pub mod loads;
 mod motion;
 mod outputs;
-mod rod;
 mod signal;
 mod spectra;
 mod start;
 mod state;
-mod winch;
 mod workspace;
 
 pub use attitude::Attitude;
-pub use build::{BuildError, LumpedMass, Parts};
+pub use build::{BuildError, Parts};
 pub use coordinate::{Coordinate, Translation};
 pub use direction::{AxisTurn, Direction};
 pub use end::{Angle, Attachment, reach};
@@ -34,7 +32,6 @@ pub use motion::rank::{HoldingParts, Redundant};
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
 pub use outputs::stress::StressPoint;
-pub use rod::RigidRod;
 pub use signal::{Drive, InputSignal, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
 pub use spectra::modes::{Mode, damping_along, modes};
@@ -46,42 +43,23 @@ pub use start::equilibrium;
 pub use start::placement::{Gap, NotAssembled};
 pub use start::steady::{NotSteady, Steady};
 pub use state::{DenseStep, MethodStatistics, State};
-pub use winch::Winch;
 pub use workspace::{Kinematics, Workspace};
 
-use std::ops::Range;
-
-use crate::math::jet::Number;
 use crate::math::rotation::NO_TURN;
 use crate::math::space::Vector;
 
-use crate::body::{Chain, Elimination, Node, RodChain, RotationMaps};
-use crate::elements::cable::Cable;
+use crate::bodies::{Bodies, Elimination, Node};
 pub use joints::Release;
 use joints::{Constraint, JointEquations, Linear};
 use loads::AppliedLoad;
 use motion::tree::Tree;
-use winch::Length;
-
-/// Flexible bodies of a system.
-pub type LineChain<const D: usize = 2> = Chain<Cable<D>, D>;
 
 /// Everything about a system that does not change in time.
 #[derive(Clone, Debug)]
 pub struct System<const D: usize = 2> {
-    /// Coordinates of the nodes where `q` and what drives them are zero.
-    reference: Vec<Node<D>>,
-    chains: Vec<LineChain<D>>,
-    lumped_masses: Vec<LumpedMass>,
-    /// Rigid bodies of space that turn, and how far the system reaches where there are any, m.
-    frames: RotationMaps,
+    bodies: Bodies<D>,
+    /// Distance that the system reaches where rigid bodies rotate in space, m.
     reach: f64,
-    /// Bending and torsion of rods.
-    rod_chains: Vec<RodChain>,
-    /// Rigid bodies whose sections are read.
-    rods: Vec<RigidRod>,
-    /// Nodes of every body.
-    bodies: Vec<Range<usize>>,
     elimination: Elimination<D>,
     joints: Vec<JointEquations<D>>,
     linear: Vec<Linear<D>>,
@@ -109,8 +87,6 @@ pub struct System<const D: usize = 2> {
     releases: Vec<Release>,
     /// For every slide, its constraint.
     slides: Vec<usize>,
-    /// Cables that are paid out.
-    winches: Vec<Winch<D>>,
     gravity: Vector<D>,
     /// Forces of gravity on the nodes, N.
     weight: Vec<Node<D>>,
@@ -152,17 +128,7 @@ impl<const D: usize> System<D> {
     /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m. Where rigid
     /// bodies turn in space: how far the system reaches.
     pub fn size(&self) -> f64 {
-        let cables = self.chains.iter().map(LineChain::length);
-        let lengths = cables.chain(self.rods.iter().map(|rod| rod.length));
-        let longest = lengths.fold(0.0, f64::max);
-        if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
-            return longest;
-        }
-        longest.max(if self.has_no_frames() {
-            self.extent(&self.reference)
-        } else {
-            self.reach
-        })
+        self.bodies.size(self.reach)
     }
 
     /// Number of independent coordinates `q`.
@@ -170,29 +136,9 @@ impl<const D: usize> System<D> {
         self.elimination.coordinates()
     }
 
-    /// Nodes of every body.
-    pub fn bodies(&self) -> &[Range<usize>] {
+    /// Bodies and their nodes.
+    pub fn bodies(&self) -> &Bodies<D> {
         &self.bodies
-    }
-
-    /// Rigid bodies of space that turn.
-    pub fn frames(&self) -> &RotationMaps {
-        &self.frames
-    }
-
-    /// Flexible bodies.
-    pub fn chains(&self) -> &[LineChain<D>] {
-        &self.chains
-    }
-
-    /// Straight rigid bodies whose sections are read.
-    pub fn rods(&self) -> &[RigidRod] {
-        &self.rods
-    }
-
-    /// Coordinates of the nodes where `q` and what drives them are zero.
-    pub fn reference(&self) -> &[Node<D>] {
-        &self.reference
     }
 
     /// The transformation from `q` to the nodes.
@@ -213,59 +159,12 @@ impl<const D: usize> System<D> {
     /// Returns the cost of an evaluation as a number of parts: elements, lumped masses and constraints. The rest of an
     /// evaluation counts as four elements.
     pub fn parts(&self) -> usize {
-        let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
-        let rigid = self.lumped_masses.len() + self.frames.list().len();
-        4 + elements + rigid + self.constraints.len()
-    }
-
-    /// Whether nothing has axes of its own, no rigid body of space and no rod: known when compiling for the plane.
-    #[inline(always)]
-    pub(in crate::system) fn has_no_frames(&self) -> bool {
-        D == 2 || self.frames.is_empty()
-    }
-
-    /// Sections of rods and beams.
-    pub(in crate::system) fn rod_chains(&self) -> &[RodChain] {
-        &self.rod_chains
+        4 + self.bodies.cost_units() + self.constraints.len()
     }
 
     /// Whether the frame turns that the scene is described in.
     pub(in crate::system) fn is_turning(&self) -> bool {
         self.rotation != [0.0; 3]
-    }
-
-    /// Cables that are paid out.
-    pub(in crate::system) fn winches(&self) -> &[Winch<D>] {
-        &self.winches
-    }
-
-    /// How long a chain is.
-    #[inline(always)]
-    pub(in crate::system) fn length_now<N: Number>(
-        &self,
-        chain: &LineChain<D>,
-        drives: &[[N; 3]],
-    ) -> Length<N> {
-        let paid_out = self.paid_out(chain, drives);
-        paid_out.map_or_else(Length::same, |(_, now)| now)
-    }
-
-    /// The winch that pays out a chain, and how long that is.
-    #[inline(always)]
-    pub(in crate::system) fn paid_out<N: Number>(
-        &self,
-        chain: &LineChain<D>,
-        drives: &[[N; 3]],
-    ) -> Option<(&Winch<D>, Length<N>)> {
-        let winch = self.winch_of(chain)?;
-        Some((winch, winch.now(drives)))
-    }
-
-    /// The winch that pays out a chain.
-    #[inline(always)]
-    pub(in crate::system) fn winch_of(&self, chain: &LineChain<D>) -> Option<&Winch<D>> {
-        let is_own = |winch: &&Winch<D>| winch.nodes[0] == chain.nodes(0)[0];
-        self.winches.iter().find(is_own)
     }
 
     /// Number of non-linear constraints.
@@ -297,10 +196,7 @@ impl<const D: usize> System<D> {
 
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
-        let chains: f64 = self.chains.iter().map(LineChain::mass).sum();
-        let frames = self.frames.list().iter().map(|frame| frame.mass);
-        let lumps = self.lumped_masses.iter().map(|lump| lump.mass);
-        chains + lumps.chain(frames).sum::<f64>()
+        self.bodies.mass()
     }
 
     /// A state with the sizes of this system: the reference configuration at rest.
@@ -312,7 +208,7 @@ impl<const D: usize> System<D> {
             pace: MethodStatistics::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
-            frames: vec![NO_TURN; self.frames.count()],
+            frames: vec![NO_TURN; self.bodies.frames.count()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
             released: vec![0.0; self.releases.len()],
@@ -336,38 +232,5 @@ impl<const D: usize> System<D> {
     /// Whether a state has the sizes of this system.
     pub fn fits(&self, state: &State) -> bool {
         state.sizes() == self.blank_state(0.0).sizes()
-    }
-
-    /// `f += s M a` over the nodes.
-    pub fn add_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
-        for chain in &self.chains {
-            chain.add_inertia(s, a, f);
-        }
-        self.add_rigid_inertia(s, a, f);
-    }
-
-    /// `f += M a` with cables as long as they are.
-    pub(in crate::system) fn add_inertia_now(
-        &self,
-        drives: &[[f64; 3]],
-        a: &[Node<D>],
-        f: &mut [Node<D>],
-    ) {
-        for chain in &self.chains {
-            chain.add_inertia(self.length_now(chain, drives).longer_by(), a, f);
-        }
-        self.add_rigid_inertia(1.0, a, f);
-    }
-
-    /// `f += s M a` of all but cables.
-    fn add_rigid_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
-        for lump in &self.lumped_masses {
-            let at: Vector<D> = lump.marker.position(a) * (s * lump.moved());
-            let on = lump.marker.direction(a) * (s * lump.inertia);
-            lump.marker.add_force(at, on, f);
-        }
-        for frame in self.frames.list() {
-            frame.add_inertia(s, a, f);
-        }
     }
 }

@@ -5,7 +5,7 @@ use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
-use crate::body::{
+use crate::bodies::{
     Articulated, Jacobian, Node, RotationIncrement, STAGES, SectionFrameState, Tangent, no_node,
 };
 use crate::math::recent::Recent;
@@ -51,7 +51,7 @@ pub struct Kinematics<const D: usize = 2> {
     /// Frames from which rotations are counted, `[frames]`.
     pub(super) frames: Vec<Quaternion>,
     /// Driven coordinates with two derivatives, `[drives][3]`.
-    pub(super) drives: Vec<[f64; 3]>,
+    pub drives: Vec<[f64; 3]>,
     /// Target values of driven rows with two time derivatives, `[rows][3]`.
     pub(super) targets: Vec<[f64; 3]>,
     /// Nodal coordinates, `[nodes]`, m.
@@ -134,7 +134,7 @@ impl<const D: usize> Configuration<D> {
     /// Before the first one.
     fn none(system: &System<D>) -> Self {
         Self {
-            x: vec![[[f64::NAN; D]; 2]; system.reference.len()],
+            x: vec![[[f64::NAN; D]; 2]; system.bodies.reference.len()],
             drives: vec![[0.0; 3]; system.drives.len()],
             travel: vec![0.0; system.slides.len()],
             released: vec![false; system.releases.len()],
@@ -171,7 +171,7 @@ impl<const D: usize> Constraints<D> {
 impl<const D: usize> Workspace<D> {
     /// For a system.
     pub fn new(system: &System<D>) -> Self {
-        let nodes = vec![no_node(); system.reference.len()];
+        let nodes = vec![no_node(); system.bodies.reference.len()];
         let ([elastic, still], sections) = moving(system);
         let is_linear = |row: usize| system.constraints[row].is_linear();
         let (elimination, multipliers) = (&system.elimination, &system.multipliers);
@@ -245,7 +245,7 @@ impl<const D: usize> Workspace<D> {
 
 impl<const D: usize> Kinematics<D> {
     fn new(system: &System<D>) -> Self {
-        let nodes = vec![no_node(); system.reference.len()];
+        let nodes = vec![no_node(); system.bodies.reference.len()];
         Self {
             inputs: Vec::new(),
             input_rates: Vec::new(),
@@ -254,13 +254,13 @@ impl<const D: usize> Kinematics<D> {
             recent: vec![Recent::default(); system.drives.len()],
             releases: system.releases.clone(),
             released: vec![false; system.releases.len()],
-            frames: vec![NO_TURN; system.frames.count()],
+            frames: vec![NO_TURN; system.bodies.frames.count()],
             drives: vec![[0.0; 3]; system.drives.len()],
             targets: vec![[0.0; 3]; system.driven.len()],
             x: nodes.clone(),
             v: nodes,
-            turns: vec![RotationIncrement::default(); system.frames.list().len()],
-            carries: vec![SectionFrameState::default(); system.frames.carried().len()],
+            turns: vec![RotationIncrement::default(); system.bodies.frames.list().len()],
+            carries: vec![SectionFrameState::default(); system.bodies.frames.carried().len()],
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
         }
@@ -269,14 +269,14 @@ impl<const D: usize> Kinematics<D> {
 
 /// Which nodes turn with elastic lines and which of their own do not, and the nodes of lines with those of sections that they turn with.
 fn moving<const D: usize>(system: &System<D>) -> ([Vec<bool>; 2], Vec<(usize, usize)>) {
-    let mut elastic = vec![false; system.reference.len()];
-    for chain in &system.chains {
+    let mut elastic = vec![false; system.bodies.reference.len()];
+    for chain in &system.bodies.chains {
         let first = chain.nodes(0)[0];
         elastic[first..first + chain.node_count()].fill(true);
     }
     let mut still = vec![false; elastic.len()];
     let mut sections = Vec::new();
-    for chain in &system.rod_chains {
+    for chain in &system.bodies.rod_chains {
         if chain.has_shear() {
             // These turn with their sections; in the plane by directions, as cables do.
             sections.extend(chain.frames().map(|(frame, line)| (line, frame)));

@@ -272,7 +272,7 @@ fn a_stretch_counts_as_a_turn() {
         let change = [slope[0] - 1.0, slope[1]];
         let nodes = [[[0.0; 2], change], [change, change]];
         let mut forces = [[[0.0; 2]; 2]; 2];
-        system.add_inertia(1.0, &nodes, &mut forces);
+        system.bodies().add_inertia(1.0, &nodes, &mut forces);
         let mut q = vec![0.0; elimination.coordinates()];
         let mut scratch = vec![0.0; elimination.scratch()];
         elimination.reduce(&forces, &mut scratch, &mut q);

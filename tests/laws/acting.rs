@@ -1,7 +1,7 @@
 //! Loads one by one, on cables and rigid bodies in random states: forces from energies, tangents by
 //! differences, power.
 
-use flexbody::body::{Marker, Node, NodeBlock, RotationMaps};
+use flexbody::bodies::{Marker, Node, NodeBlock};
 use flexbody::elements::Element;
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
@@ -43,10 +43,8 @@ impl Acted<'_> {
             drives: &[],
             x,
             v,
-            chains: &self.frame.chains,
-            sections: (&[], &RotationMaps::default()),
+            bodies: &self.frame.bodies,
             angles: (&self.angles, &hints),
-            winches: &[],
         };
         f(&self.load, instant)
     }
@@ -155,7 +153,7 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
         let weight = 1.0;
         Some(vec![ContactPoint { marker, weight }])
     });
-    let cables = frame.chains.iter().enumerate().map(|(body, chain)| {
+    let cables = frame.bodies.chains.iter().enumerate().map(|(body, chain)| {
         let elements = chain.elements().iter().enumerate();
         let places = elements.flat_map(|(j, element)| {
             [0.1, 0.6].map(|xi| ContactPoint {
@@ -428,10 +426,8 @@ fn a_rotational_spring_counts_turns() {
                 drives: &[],
                 x: &frame.x,
                 v: &rest,
-                chains: &frame.chains,
-                sections: (&[], &RotationMaps::default()),
+                bodies: &frame.bodies,
                 angles: (&angles, &[hint]),
-                winches: &[],
             });
             value + spring.stiffness * std::f64::consts::TAU * turns
         };
@@ -446,10 +442,8 @@ fn a_rotational_spring_counts_turns() {
             drives: &[],
             x: &frame.x,
             v: &frame.v,
-            chains: &frame.chains,
-            sections: (&[], &RotationMaps::default()),
+            bodies: &frame.bodies,
             angles: (&angles, &[0.0]),
-            winches: &[],
         };
         within("a number", (held.value(at) - 2.5).abs(), 0.0)
     });

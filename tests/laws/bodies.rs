@@ -143,14 +143,14 @@ fn projecting_rates_that_constraints_allow_changes_nothing() {
         // The same as a start from rates.
         let rest = vec![0.0; q.len()];
         let (_, mut work) = state(&system, &rest, &rest);
-        let described = (system.reference(), &rates[..]);
+        let described = (&system.bodies().reference[..], &rates[..]);
         let started = system.initial_state(0.0, &[], described, &mut work);
         let started = started.map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
         within("rates at the start", off(&started.rates), 1e-13)?;
         let mut values = Evaluation::new(&system);
         values.kinematics(&system, &started, &mut work);
         // |q'|^2 / 2 is the kinetic energy.
-        let rate = flat(&system.chains()[0], &rates);
+        let rate = flat(&system.bodies().chains[0], &rates);
         let energy = 0.5 * rate.dot(&(chain.mass() * &rate));
         let square = 0.5 * DVector::from_vec(q.clone()).norm_squared();
         let off = (energy - square).abs();
@@ -164,7 +164,7 @@ fn projecting_rates_that_constraints_allow_changes_nothing() {
 fn reference_positions_and_total_mass_are_those_given() {
     check(CASES, chains(ORDINARY), |chain| {
         let system = chain.system();
-        for (x, [p, s]) in system.reference().iter().zip(&chain.nodes) {
+        for (x, [p, s]) in system.bodies().reference.iter().zip(&chain.nodes) {
             let given = [p.x, p.y, s.x, s.y];
             let pairs = x.as_flattened().iter().zip(given);
             let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

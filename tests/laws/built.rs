@@ -1,13 +1,13 @@
 //! From the description of a mechanism to the product's system.
 
-use flexbody::body::{Marker, Node};
+use flexbody::bodies::{Bodies, LineChain, LumpedMass, Marker, Node};
 use flexbody::system::joints::{JointEquations, Primitive};
 use flexbody::system::loads::{
     AppliedLoad, DistributedForce, Force, JointSpring, LineLoad, LoadedLine, Moment, Spring,
 };
 use flexbody::system::{
-    Angle, Attachment, BuildError, Coordinate, Drive, DrivenSystem, Evaluation, LineChain,
-    LumpedMass, NotAssembled, Parts, Signal, State, StepOutcome, System, Workspace,
+    Angle, Attachment, BuildError, Coordinate, Drive, DrivenSystem, Evaluation, NotAssembled,
+    Parts, Signal, State, StepOutcome, System, Workspace,
 };
 use nalgebra::Vector2;
 use proptest::test_runner::TestCaseError;
@@ -136,9 +136,9 @@ impl Mechanism {
     /// Returns the parts of the system.
     pub fn parts(&self) -> Parts {
         let (mut rigid, mut lumped_masses) = (Vec::new(), Vec::new());
-        let mut bodies = Vec::new();
+        let mut ranges = Vec::new();
         for (index, (body, first)) in self.bodies.iter().zip(&self.firsts).enumerate() {
-            bodies.push(*first..first + body.sizes()[0]);
+            ranges.push(*first..first + body.sizes()[0]);
             let (mass, inertia) = match body {
                 Body::Cable(_) => continue,
                 Body::Rigid { mass, inertia } => (*mass, *inertia),
@@ -184,13 +184,13 @@ impl Mechanism {
             joints.push(joint);
         }
         Parts {
-            nodes: self.nodes.clone(),
-            bodies,
-            chains: self.chains(),
-            lumped_masses,
-            frames: Vec::new(),
-            rod_chains: Vec::new(),
-            rods: Vec::new(),
+            bodies: Bodies {
+                reference: self.nodes.clone(),
+                ranges,
+                chains: self.chains(),
+                lumped_masses,
+                ..Bodies::default()
+            },
             rigid,
             joints,
             drives,

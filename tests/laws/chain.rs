@@ -3,12 +3,12 @@
 
 use std::f64::consts::PI;
 
-use flexbody::body::{Marker, Node};
+use flexbody::bodies::{Bodies, LineChain, Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
 use flexbody::system::joints::{JointEquations, Primitive};
 use flexbody::system::loads::AppliedLoad;
-use flexbody::system::{Attachment, LineChain, Parts, State, System, Workspace};
+use flexbody::system::{Attachment, Parts, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -172,13 +172,12 @@ impl Chain {
         let nodes: Vec<Node> = self.nodes.iter().map(node).collect();
         let joints = self.joints.iter();
         Parts {
-            bodies: std::iter::once(0..nodes.len()).collect(),
-            nodes,
-            chains: vec![self.flexible()],
-            lumped_masses: Vec::new(),
-            frames: Vec::new(),
-            rod_chains: Vec::new(),
-            rods: Vec::new(),
+            bodies: Bodies {
+                ranges: std::iter::once(0..nodes.len()).collect(),
+                reference: nodes,
+                chains: vec![self.flexible()],
+                ..Bodies::default()
+            },
             rigid: Vec::new(),
             joints: joints.map(|held| self.joint(held)).collect(),
             drives: Vec::new(),
@@ -301,7 +300,7 @@ impl Chain {
 /// Coordinates whose rates come closest to nodal ones in the mass norm.
 pub fn project(system: &System, rates: &[Node]) -> Vec<f64> {
     let mut f = vec![[[0.0; 2]; 2]; rates.len()];
-    system.add_inertia(1.0, rates, &mut f);
+    system.bodies().add_inertia(1.0, rates, &mut f);
     let (mut y, mut q) = scratch(system);
     system.elimination().reduce(&f, &mut y, &mut q);
     q
@@ -325,7 +324,7 @@ pub fn state(system: &System, q: &[f64], v: &[f64]) -> (State, Workspace) {
 /// Nodal rates from those of the coordinates.
 pub fn expand(system: &System, q: &[f64]) -> Vec<Node> {
     let (mut y, _) = scratch(system);
-    let mut x = vec![[[0.0; 2]; 2]; system.reference().len()];
+    let mut x = vec![[[0.0; 2]; 2]; system.bodies().reference.len()];
     system.elimination().expand(q, &mut y, &mut x);
     x
 }
@@ -343,11 +342,11 @@ pub fn expansion(system: &System) -> DMatrix<f64> {
         .map(|column| {
             let mut q = vec![0.0; system.coordinates()];
             q[column] = 1.0;
-            flat(&system.chains()[0], &expand(system, &q))
+            flat(&system.bodies().chains[0], &expand(system, &q))
         })
         .collect();
     if columns.is_empty() {
-        DMatrix::zeros(8 * system.chains()[0].elements().len(), 0)
+        DMatrix::zeros(8 * system.bodies().chains[0].elements().len(), 0)
     } else {
         DMatrix::from_columns(&columns)
     }
@@ -355,11 +354,11 @@ pub fn expansion(system: &System) -> DMatrix<f64> {
 
 /// The transposed matrix as `reduce` applies it to forces on elements, column by column.
 pub fn reduction(system: &System) -> DMatrix<f64> {
-    let chain = &system.chains()[0];
+    let chain = &system.bodies().chains[0];
     let size = 8 * chain.elements().len();
     let mut t = DMatrix::zeros(system.coordinates(), size);
     for column in 0..size {
-        let mut force = vec![[[0.0; 2]; 2]; system.reference().len()];
+        let mut force = vec![[[0.0; 2]; 2]; system.bodies().reference.len()];
         let node = chain.nodes(column / 8)[column % 8 / 4];
         force[node].as_flattened_mut()[column % 4] = 1.0;
         let (mut y, mut q) = scratch(system);

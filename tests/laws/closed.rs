@@ -1,7 +1,7 @@
 //! Mechanisms with known answers: natural frequencies, what is held twice, parts that know nothing of each
 //! other.
 
-use flexbody::body::Node;
+use flexbody::bodies::Node;
 use flexbody::elements::StrainMeasure;
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, Tolerance, advance};

@@ -1,7 +1,7 @@
 //! Equations of a mechanism over the coordinates of its unconnected parts, by differences and dense
 //! matrices: `[M C^T; C 0] [x''; lambda] = [F; r]`.
 
-use flexbody::body::{Elimination, Tangent};
+use flexbody::bodies::{Elimination, Tangent};
 use flexbody::elements::{Element, Nodal};
 use nalgebra::{DMatrix, DVector, Matrix2x4, Rotation2, Vector2};
 

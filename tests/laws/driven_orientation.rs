@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use flexbody::body::{Marker, Node};
+use flexbody::bodies::{Bodies, Marker, Node};
 use flexbody::math::jet::{Jet, Number};
 use flexbody::math::rotation::{product, rotation_vector};
 use flexbody::scene::Scene;
@@ -140,6 +140,7 @@ fn conditions_have_the_derivatives_of_their_values() {
         let drives: Vec<[Jet; 3]> = (course.iter())
             .map(|[p, v, a]| [Jet::new(*p, *v, *a), Jet::from_re(*v), Jet::from_re(*a)])
             .collect();
+        let bodies = Bodies::default();
         for about in 0..3 {
             let axis = |k: usize| {
                 let mut direction = [0.0; 3];
@@ -156,8 +157,8 @@ fn conditions_have_the_derivatives_of_their_values() {
                 offset: 0.0,
                 release: None,
             };
-            let value = constraint.value(&view(&moving, &still, &drives));
-            let view = view(&x, &v, &course);
+            let value = constraint.value(&view(&moving, &still, &drives, &bodies));
+            let view = view(&x, &v, &course, &bodies);
             let rate = constraint.rate(&view) + constraint.along(&view, &v);
             let second = constraint.bias(&view) + constraint.along(&view, &a);
             let size = value.largest().max(1.0);
@@ -171,12 +172,13 @@ fn view<'a, N: Number>(
     x: &'a [Node<3, N>],
     v: &'a [Node<3, N>],
     drives: &'a [[N; 3]],
+    bodies: &'a Bodies<3>,
 ) -> View<'a, 3, N> {
     View {
         x,
         v,
         drives,
-        chains: &[],
+        bodies,
         travel: &[],
         angles: &[],
         released: &[],

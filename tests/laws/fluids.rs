@@ -1,6 +1,6 @@
 //! Fluids along cables in random states: damping by differences, power.
 
-use flexbody::body::{Node, NodeBlock, RotationMaps};
+use flexbody::bodies::{Node, NodeBlock};
 use flexbody::math::quadrature::GAUSS_5;
 use flexbody::math::space::Vector;
 use flexbody::system::loads::{AppliedLoad, Fluid, FluidSegment, LineLoad, LoadedLine};
@@ -29,7 +29,7 @@ fn fluid(frame: &Frame) -> Option<AppliedLoad> {
         buoyant: 0.3,
         inert: 0.4,
     };
-    let points = GAUSS_5.len() * frame.chains[chain].elements().len();
+    let points = GAUSS_5.len() * frame.bodies.chains[chain].elements().len();
     Some(AppliedLoad::Fluid(Box::new(Fluid {
         on: LoadedLine::Chain(chain),
         strips: (0..points).map(strip).collect(),
@@ -43,12 +43,7 @@ fn fluid(frame: &Frame) -> Option<AppliedLoad> {
     })))
 }
 
-fn at<'a>(
-    frame: &'a Frame,
-    x: &'a [Node],
-    v: &'a [Node],
-    none: &'a RotationMaps,
-) -> Instant<'a, 2> {
+fn at<'a>(frame: &'a Frame, x: &'a [Node], v: &'a [Node]) -> Instant<'a, 2> {
     Instant {
         time: T,
         inputs: &[],
@@ -56,16 +51,14 @@ fn at<'a>(
         drives: &[],
         x,
         v,
-        chains: &frame.chains,
-        sections: (&[], none),
+        bodies: &frame.bodies,
         angles: (&[], &[]),
-        winches: &[],
     }
 }
 
 fn force(frame: &Frame, load: &AppliedLoad, x: &[Node], v: &[Node]) -> DVector<f64> {
     let mut f = vec![[[0.0; 2]; 2]; x.len()];
-    load.add_force(at(frame, x, v, &RotationMaps::default()), &mut f);
+    load.add_force(at(frame, x, v), &mut f);
     DVector::from_column_slice(f.as_flattened().as_flattened())
 }
 
@@ -83,11 +76,7 @@ fn law(frame: &Frame, load: &AppliedLoad) -> Outcome {
             }
         }
     };
-    load.add_tangent(
-        at(frame, x, v, &RotationMaps::default()),
-        &mut |_, _, _| {},
-        &mut enter,
-    );
+    load.add_tangent(at(frame, x, v), &mut |_, _, _| {}, &mut enter);
     let exact = |i: usize| {
         let unit = frame.unit(i);
         -derivative(1e-3, |s| force(frame, load, x, &along(v, &unit, s)))
@@ -103,7 +92,7 @@ fn law(frame: &Frame, load: &AppliedLoad) -> Outcome {
     prop_assert!(lowest > -1e-12 * damping.amax());
     let moving = DVector::from_column_slice(v.as_flattened().as_flattened());
     let power = force(frame, load, x, v).dot(&moving);
-    let [supplied, dissipated] = load.power(at(frame, x, v, &RotationMaps::default()));
+    let [supplied, dissipated] = load.power(at(frame, x, v));
     within("power", (power - supplied + dissipated).abs(), 1e-10)?;
     prop_assert!(dissipated >= 0.0);
     Ok(())

@@ -1,10 +1,10 @@
 //! Constraints one by one, on cables and rigid bodies in random states: derivatives by
 //! differences.
 
-use flexbody::body::{Node, add_node};
+use flexbody::bodies::{Bodies, Node, add_node};
 use flexbody::elements::Element;
+use flexbody::system::Drive;
 use flexbody::system::joints::{Constraint, ConstraintKind, View};
-use flexbody::system::{Drive, LineChain};
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ const CASES: u32 = 200;
 /// Two bodies in random states: coordinates, rates, and everything that constraints and loads look at.
 pub struct Frame {
     pub made: Mechanism,
-    pub chains: Vec<LineChain>,
+    pub bodies: Bodies,
     pub x: Vec<Node>,
     pub v: Vec<Node>,
 }
@@ -43,7 +43,10 @@ pub fn frame(made: Mechanism) -> Frame {
         add_node(x, 1.0, &dx);
     }
     Frame {
-        chains: made.chains(),
+        bodies: Bodies {
+            chains: made.chains(),
+            ..Bodies::default()
+        },
         made,
         x,
         v,
@@ -82,7 +85,7 @@ impl Frame {
             .collect();
         let travel = match &constraint.kind {
             ConstraintKind::PointOnCurve(along) => {
-                vec![along.nearest(&self.chains[along.chain], x)]
+                vec![along.nearest(&self.bodies.chains[along.chain], x)]
             }
             _ => Vec::new(),
         };
@@ -90,7 +93,7 @@ impl Frame {
             x,
             v,
             drives: &drives,
-            chains: &self.chains,
+            bodies: &self.bodies,
             travel: &travel,
             angles: &[],
             released: &[],

@@ -1,6 +1,6 @@
 //! A chain that is longer than its reference length is one of that length, whose slopes are by it.
 
-use flexbody::body::{Assembly, Chain, Links, Node, map_node, no_node};
+use flexbody::bodies::{Assembly, Chain, Links, Node, map_node, no_node};
 use flexbody::elements::cable::{Cable, Inertia, LineOf, Parameters};
 use flexbody::elements::{Element, StrainMeasure};
 use flexbody::math::sparse::Matrix;

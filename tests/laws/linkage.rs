@@ -1,7 +1,7 @@
 //! Random mechanisms of rigid bodies in space, and Newton's and Euler's equations of every body by itself with multipliers:
 //! dense, in global components, joints differentiated numerically along twists.
 
-use flexbody::body::{Marker, Node, RigidBodyFrame};
+use flexbody::bodies::{Bodies, Marker, Node, RigidBodyFrame};
 use flexbody::system::joints::{Across, JointEquations, Perpendicular, Primitive};
 use flexbody::system::{Attachment, Direction, Parts, State, System, Workspace};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
@@ -432,14 +432,14 @@ impl Mechanism {
                 moments: body.moments.into(),
                 places: [None; 3],
             });
+        let mut bodies = Bodies {
+            reference: self.nodes(|body| (body.center, body.axes)),
+            ranges: (0..count).map(|i| 2 * i..2 * i + 2).collect(),
+            ..Bodies::default()
+        };
+        frames.for_each(|frame| bodies.frames.push(frame));
         let mut parts = Parts {
-            nodes: self.nodes(|body| (body.center, body.axes)),
-            bodies: (0..count).map(|i| 2 * i..2 * i + 2).collect(),
-            chains: Vec::new(),
-            lumped_masses: Vec::new(),
-            frames: frames.collect(),
-            rod_chains: Vec::new(),
-            rods: Vec::new(),
+            bodies,
             rigid: Vec::new(),
             joints: self.joints.iter().map(|joint| self.joint(joint)).collect(),
             drives: Vec::new(),

@@ -1,7 +1,7 @@
 //! Random mechanisms: bodies of all kinds, what holds them and what acts on them, in a description of
 //! its own from which both a system (`built.rs`) and dense equations (`dense.rs`) are made.
 
-use flexbody::body::Node;
+use flexbody::bodies::Node;
 use flexbody::elements::Element;
 use flexbody::elements::cable::Cable;
 use flexbody::math::function::Function;

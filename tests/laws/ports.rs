@@ -1,7 +1,7 @@
 //! Forces and moments that come in at markers of rigid bodies of space: what moves by them, against dense equations of every
 //! body by itself; orientations that bodies are pulled towards; quaternions that go on over full turns.
 
-use flexbody::body::Marker;
+use flexbody::bodies::Marker;
 use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
 use flexbody::math::function::Function;
 use flexbody::math::rotation;

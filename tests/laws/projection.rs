@@ -1,6 +1,6 @@
 //! Back to the constraints by the shortest way, and initial configurations.
 
-use flexbody::body::Node;
+use flexbody::bodies::Node;
 use flexbody::system::{DrivenSystem, NotAssembled};
 use nalgebra::{Rotation2, Vector2};
 use proptest::prelude::*;

@@ -1,6 +1,6 @@
 //! Rigid bodies of space in random mechanisms, against Newton's and Euler's equations of every body by itself.
 
-use flexbody::body::{Marker, Node};
+use flexbody::bodies::{Marker, Node};
 use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, Tolerance, advance};
 use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
@@ -123,13 +123,13 @@ fn elimination_fits(
     let n = system.coordinates();
     let mut model = DrivenSystem::new(system, &[], work, &state);
     model.renew_beyond(&mut state, 0.0);
-    let (mut with, mut without) = (vec![0.0; n], vec![0.0; n]);
+    let mut without = vec![0.0; n];
     let at = (&state.coordinates, &state.rates);
     model.acceleration(0.0, at.0, at.1, &mut without);
     let mut other = DVector::from_fn(n, |_, _| chance.number());
     let kept = other.clone();
     model.take_out_normal(other.as_mut_slice());
-    model.accelerate(0.0, at.0, at.1, &mut with);
+    let with = model.accelerate(0.0, at.0, at.1).to_vec();
     let mut along = kept.clone();
     model.take_out_normal(along.as_mut_slice());
     let (with, without) = (DVector::from_vec(with), DVector::from_vec(without));
@@ -147,7 +147,7 @@ fn elimination_fits(
     let off = state.rates.clone();
     assert!(model.project(&mut state), "{run}");
     let mut change = DVector::from_fn(n, |k, _| state.rates[k] - off[k]);
-    model.accelerate(0.0, &state.coordinates, &state.rates, &mut vec![0.0; n]);
+    model.accelerate(0.0, &state.coordinates, &state.rates);
     model.take_out_normal(change.as_mut_slice());
     assert!(change.amax() < 1e-11, "{run}: {:e} along", change.amax());
     let mut left = 0.0_f64;
@@ -388,8 +388,7 @@ pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Par
             ..state.clone()
         };
         model.project(&mut moved);
-        let mut a = vec![0.0; n];
-        model.accelerate(0.0, &moved.coordinates, &rest, &mut a);
+        let mut a = model.accelerate(0.0, &moved.coordinates, &rest).to_vec();
         model.linearize(0.0, &state.coordinates, &rest);
         model.take_out_normal(&mut a);
         a

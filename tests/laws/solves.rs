@@ -1,6 +1,6 @@
 //! Solves with the tangent in the coordinates `q`, against dense matrices and differences.
 
-use flexbody::body::{Jacobian, Tangent, add_node};
+use flexbody::bodies::{Jacobian, Tangent, add_node};
 use flexbody::elements::{Element, Nodal};
 use flexbody::system::loads::{AppliedLoad, Force, Moment};
 use flexbody::system::{Attachment, DrivenSystem, Dynamics, Signal, System, fastest};
@@ -30,8 +30,8 @@ fn dense(chain: &Chain, loads: Vec<AppliedLoad>) -> Dense {
     let q = chain.coordinates(&system, 0.25);
     let v = chain.coordinates(&system, 1.0);
     let t = expansion(&system);
-    let body = &system.chains()[0];
-    let e = flat(body, system.reference()) + &t * DVector::from_column_slice(&q);
+    let body = &system.bodies().chains[0];
+    let e = flat(body, &system.bodies().reference) + &t * DVector::from_column_slice(&q);
     let rate = &t * DVector::from_column_slice(&v);
     let part =
         |x: &DVector<f64>, j: usize| Nodal::from_column_slice(&x.as_slice()[8 * j..8 * j + 8]);
@@ -164,14 +164,16 @@ fn turned_solve(chain: &Chain, angle: f64) -> Outcome {
     let (system, n) = (&here.system, here.q.len());
     let turn = Rotation2::new(angle).into_inner();
     // Coordinates of the same shape, turned about the origin.
-    let way: Vec<_> = (expand(system, &here.q).iter().zip(system.reference()))
-        .map(|(change, reference)| {
-            [0, 1].map(|k| {
-                let reference = Vector2::from(reference[k]);
-                (turn * (reference + Vector2::from(change[k])) - reference).into()
-            })
+    let way: Vec<_> = (expand(system, &here.q)
+        .iter()
+        .zip(&system.bodies().reference))
+    .map(|(change, reference)| {
+        [0, 1].map(|k| {
+            let reference = Vector2::from(reference[k]);
+            (turn * (reference + Vector2::from(change[k])) - reference).into()
         })
-        .collect();
+    })
+    .collect();
     let there = project(system, &way);
 
     let (state, mut work) = state(system, &here.q, &here.v);
@@ -299,11 +301,11 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
             ..
         } = dense(&chain, Vec::new());
         let [mut x, rate] = [&q, &v].map(|q| expand(&system, q));
-        for (x, reference) in x.iter_mut().zip(system.reference()) {
+        for (x, reference) in x.iter_mut().zip(&system.bodies().reference) {
             add_node(x, 1.0, reference);
         }
         let elimination = system.elimination();
-        let body = &system.chains()[0];
+        let body = &system.bodies().chains[0];
         let elastic = vec![true; x.len()];
         let mut tangent: Tangent<2> = Tangent::new(
             elimination,

@@ -1,6 +1,6 @@
 //! Chains of cables in space: what bodies of the plane promise holds for any dimension.
 
-use flexbody::body::{
+use flexbody::bodies::{
     Assembly, Chain, ConnectivityRow, Elimination, Jacobian, Links, Node, Tangent, map_node,
 };
 use flexbody::elements::cable::{Cable, Inertia, Parameters};

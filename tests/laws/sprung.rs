@@ -1,7 +1,7 @@
 //! Springs, dampers, stops and bushings of random mechanisms, by their energies and laws along numerical derivatives of what
 //! they stretch: rotations by the logarithm of matrices, angles by arc tangents.
 
-use flexbody::body::Marker;
+use flexbody::bodies::Marker;
 use flexbody::math::function::Function;
 use flexbody::system::joints::{Coupler, JointEquations, Primitive};
 use flexbody::system::loads::{AppliedLoad, JointLimit, JointSpring, SixBushing};

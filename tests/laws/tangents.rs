@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use flexbody::body::Node;
+use flexbody::bodies::Node;
 use flexbody::system::{DrivenSystem, Dynamics, Evaluation, System, linearized};
 use nalgebra::{Complex, DMatrix, DVector};
 use proptest::prelude::*;

@@ -159,7 +159,7 @@ fn inside_the_system_too_a_file_imports_lower_rooms_or_its_own() {
 #[test]
 fn lists_of_imports_are_understood() {
     let source = Source {
-        path: "src/body/planted.rs".into(),
+        path: "src/bodies/planted.rs".into(),
         text: String::new(),
         code: "use crate::{elements::{Element, Nodal}, math};\nuse crate::fmi2::abi;".into(),
     };

@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
-use flexbody::body::no_node;
+use flexbody::bodies::no_node;
 use flexbody::elements::{beam, rod};
 use flexbody::math::eigen;
 use flexbody::math::lanes::{self, PACK};
@@ -91,11 +91,15 @@ fn kernels_of<const D: usize>(
 ) {
     let mut group = criterion.benchmark_group(format!("{place}, {elements} elements"));
     group.throughput(Throughput::Elements(u64::from(elements)));
-    let nodes = bench.system.reference().to_vec();
+    let nodes = bench.system.bodies().reference.to_vec();
     let (rest, mut force) = (vec![no_node(); nodes.len()], vec![no_node(); nodes.len()]);
     group.bench_function("force", |b| {
         b.iter(|| {
-            bench.system.chains()[0].add_force((black_box(&nodes), &rest), [1.0, 0.0], &mut force)
+            bench.system.bodies().chains[0].add_force(
+                (black_box(&nodes), &rest),
+                [1.0, 0.0],
+                &mut force,
+            )
         });
     });
     let elimination = bench.system.elimination();

@@ -1,6 +1,6 @@
 //! What runs write: the same columns for every method.
 
-use flexbody::body::Marker;
+use flexbody::bodies::Marker;
 use flexbody::scene::{Output, OutputKind, OutputTarget};
 use flexbody::system::{Evaluation, State, Workspace};
 

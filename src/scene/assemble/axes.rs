@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::Builder;
-use crate::body::{Marker, axes_at};
+use crate::bodies::{Marker, axes_at};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
 use crate::scene::resolved::{self, Action, DirectionSource, Hold, Pivot, Place};
 use crate::system::joints::{Across, Clamp, Perpendicular, Primitive};
@@ -22,7 +22,7 @@ impl<const D: usize> Builder<'_, D> {
         if !marker.is_framed() {
             return Direction::Of(*marker);
         }
-        let axes = axes_at(marker.nodes[0], &self.parts.nodes);
+        let axes = axes_at(marker.nodes[0], &self.parts.bodies.reference);
         let direction = Vector3::from(components(&direction));
         Direction::Of(marker.directed(axes.map(|axis| axis.dot(&direction))))
     }
@@ -169,7 +169,7 @@ impl<const D: usize> Builder<'_, D> {
 
     /// How both bodies stand to each other; the direction of a cable across two axes of a rigid body.
     pub(super) fn standing(&self, ends: [Attachment<D>; 2]) -> Vec<Primitive<D>> {
-        let nodes = &self.parts.nodes;
+        let nodes = &self.parts.bodies.reference;
         let cable = ends.iter().position(|end| !end.is_rigid());
         let along: Vector<D> = match cable {
             Some(cable) => ends[cable].direction(nodes).normalize(),

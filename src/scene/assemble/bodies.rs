@@ -2,8 +2,9 @@
 
 use super::Builder;
 
-use crate::body::{
-    Marker, Node, RigidBodyFrame, RodChain, carried_nodes, middle, planar_axes, untwisted,
+use crate::bodies::{
+    LineChain, LumpedMass, Marker, Node, RigidBodyFrame, RigidRod, RodChain, carried_nodes, middle,
+    planar_axes, untwisted,
 };
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam};
@@ -15,7 +16,6 @@ use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
 use crate::scene::{Error, LineBody, LineModel, RigidBody, SectionNumbers, Strain};
-use crate::system::{LineChain, LumpedMass, RigidRod};
 
 /// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
 const STEPS: u32 = 256;
@@ -36,7 +36,7 @@ impl<const D: usize> Builder<'_, D> {
     /// # Errors
     /// A mesh that is not possible, or an initial motion that cannot be computed.
     pub(super) fn body(&mut self, index: usize) -> Result<(), Error> {
-        let first = self.parts.nodes.len();
+        let first = self.parts.bodies.reference.len();
         let motion = self.resolved.scene.bodies[index].motion();
         let mut arm = [0.0; 3];
         match self.resolved.bodies[index] {
@@ -52,10 +52,10 @@ impl<const D: usize> Builder<'_, D> {
                 }
             }
         }
-        let nodes = first..self.parts.nodes.len();
+        let nodes = first..self.parts.bodies.reference.len();
         let mut axes = Vec::new();
-        axes.extend((self.parts.frames.last()).map(|frame| frame.node + 1));
-        let sections = (self.parts.rod_chains.last()).filter(|rod| rod.line() == first);
+        axes.extend((self.parts.bodies.frames.list().last()).map(|frame| frame.node + 1));
+        let sections = (self.parts.bodies.rod_chains.last()).filter(|rod| rod.line() == first);
         axes.extend(sections.into_iter().flat_map(RodChain::axes_nodes));
         axes.retain(|node| nodes.contains(node));
         let still = sections.map_or(nodes.end, |rod| rod.inner().start);
@@ -67,7 +67,7 @@ impl<const D: usize> Builder<'_, D> {
             self.motions
                 .deform(field, &mesh, cable.body.shape.length())?;
         }
-        self.parts.bodies.push(nodes);
+        self.parts.bodies.ranges.push(nodes);
         Ok(())
     }
 
@@ -92,10 +92,10 @@ impl<const D: usize> Builder<'_, D> {
         let largest = solid.moments.iter().copied().fold(0.0, f64::max);
         let axes = body.axes() * solid.axes;
         let axis = |k: usize| vector::<D, f64>(axes.column(k).into_owned().into()).into();
-        let node = self.parts.nodes.len();
+        let node = self.parts.bodies.reference.len();
         // What rounding left of the moment of a thin rod about itself is none.
         let rounded = |moment| if moment > 1e-9 * largest { moment } else { 0.0 };
-        self.parts.frames.push(RigidBodyFrame {
+        self.parts.bodies.frames.push(RigidBodyFrame {
             node,
             mass: solid.mass,
             moments: solid.moments.map(rounded),
@@ -103,14 +103,14 @@ impl<const D: usize> Builder<'_, D> {
         });
         let center = vector::<D, f64>(body.point(solid.center.into())).into();
         let nodes = [[center, axis(0)], [axis(1), axis(2)]];
-        self.parts.nodes.extend(nodes);
+        self.parts.bodies.reference.extend(nodes);
         solid.along([0.0; 3])
     }
 
     /// A point of a rigid body in its frame, m.
     pub(super) fn point(&self, rigid: Rigid<'_>, point: [f64; 3]) -> Marker {
         let (index, body) = (rigid.id.index(), rigid.body);
-        let node = self.parts.bodies[index].start;
+        let node = self.parts.bodies.ranges[index].start;
         if D == 2 || !body.inertia().is_some() {
             return Marker::rigid(index, node, [point[0], point[1]]);
         }
@@ -131,8 +131,8 @@ impl<const D: usize> Builder<'_, D> {
             let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
             ways.map(|way| vector::<D, f64>(way).into())
         };
-        self.parts.nodes.extend(mesh.iter().map(node));
-        self.parts.chains.push(chain);
+        self.parts.bodies.reference.extend(mesh.iter().map(node));
+        self.parts.bodies.chains.push(chain);
         if cable.is_rod() {
             self.sections((cable, axial), &mesh, first);
         }
@@ -144,10 +144,10 @@ impl<const D: usize> Builder<'_, D> {
 
     /// The directions of the sections of the planar beam built last keep their length, and have its rotary inertia.
     fn directions(&mut self, body: usize) {
-        let chain = self.parts.rod_chains.last();
+        let chain = self.parts.bodies.rod_chains.last();
         for (node, inertia) in chain.into_iter().flat_map(RodChain::planar_inertia) {
             self.parts.rigid.push((node, true));
-            self.parts.lumped_masses.push(LumpedMass {
+            self.parts.bodies.lumped_masses.push(LumpedMass {
                 marker: Marker::rigid(body, node, [0.0; 2]),
                 mass: 0.0,
                 added: 0.0,
@@ -158,7 +158,7 @@ impl<const D: usize> Builder<'_, D> {
 
     /// The sections of a rod along its line, whose first node is this one: their frames, and the twist inside elements.
     fn sections(&mut self, (rod, axial_time): (&LineBody, f64), mesh: &[f64], first: usize) {
-        let line = self.parts.nodes[first..].to_vec();
+        let line = self.parts.bodies.reference[first..].to_vec();
         let twists = mesh.iter().map(|s| rod.sections_about(*s)(*s).1);
         let tangent = |j: usize, part: f64| {
             let s = mesh[j] + part * (mesh[j + 1] - mesh[j]);
@@ -169,7 +169,12 @@ impl<const D: usize> Builder<'_, D> {
             2 => line.iter().map(|[_, slope]| [[0.0; D], *slope]).collect(),
             _ => carried_nodes(&line, rod.first_axis(), (tangent, steps), twists),
         };
-        let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
+        let carried = self
+            .parts
+            .bodies
+            .rod_chains
+            .iter()
+            .map(|chain| chain.count() + 1);
         let carried = carried.sum();
         let length_of = |j: usize| (mesh[j + 1] - mesh[j]) * rod.shape.length();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {
@@ -210,13 +215,13 @@ impl<const D: usize> Builder<'_, D> {
             (SectionElement::Rod(Box::new(rod)), inertia)
         });
         let chain = RodChain::new::<D>(elements.collect(), first, carried);
-        self.parts.nodes.extend(axes);
+        self.parts.bodies.reference.extend(axes);
         let inner = (0..chain.count()).map(|j| match D {
             2 => middle([&line[j], &line[j + 1]], length_of(j)),
             _ => untwisted(),
         });
-        self.parts.nodes.extend(inner);
-        self.parts.rod_chains.push(chain);
+        self.parts.bodies.reference.extend(inner);
+        self.parts.bodies.rod_chains.push(chain);
     }
 
     /// A cable that does not bend, about its middle; gives back how far along it from there its first end is, m.
@@ -226,10 +231,10 @@ impl<const D: usize> Builder<'_, D> {
         let mass = cable.line_density_of(&section) * length;
         let added = self.resolved.added_mass(index, &section) * length;
         let [x, y, _] = cable.shape.tangent(0.5);
-        self.parts.rods.push(RigidRod {
-            node: self.parts.nodes.len(),
+        self.parts.bodies.rods.push(RigidRod {
+            node: self.parts.bodies.reference.len(),
             length,
-            mass: self.parts.lumped_masses.len(),
+            mass: self.parts.bodies.lumped_masses.len(),
         });
         self.lump(
             index,
@@ -245,12 +250,12 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     fn lump(&mut self, index: usize, lump: &Lump) {
-        let node = self.parts.nodes.len();
+        let node = self.parts.bodies.reference.len();
         let direction: Vector<D> = turned(axis(0), lump.angle.sin_cos());
         let position: Vector<D> = vector(lump.position);
-        (self.parts.nodes).push([position.into(), direction.into()]);
+        (self.parts.bodies.reference).push([position.into(), direction.into()]);
         self.parts.rigid.push((node, lump.inertia > 0.0));
-        self.parts.lumped_masses.push(LumpedMass {
+        self.parts.bodies.lumped_masses.push(LumpedMass {
             marker: Marker::rigid(index, node, [0.0; 2]),
             mass: lump.mass,
             added: lump.added,
@@ -262,8 +267,8 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn along(&self, cable: Cable<'_>, s: f64) -> Marker {
         match cable.id.form {
             Form::Chain(chain) => {
-                let (chain, marker) = (&self.parts.chains[chain], self.on_line_of(cable, s));
-                let sections = self.parts.rod_chains.iter();
+                let (chain, marker) = (&self.parts.bodies.chains[chain], self.on_line_of(cable, s));
+                let sections = self.parts.bodies.rod_chains.iter();
                 let mut sections = sections.filter(|rod| rod.line() == chain.nodes(0)[0]);
                 let section = sections.next().and_then(|rod| rod.section_at(&marker));
                 section.unwrap_or(marker)
@@ -277,11 +282,11 @@ impl<const D: usize> Builder<'_, D> {
         let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {
-                let chain = &self.parts.chains[chain];
+                let chain = &self.parts.bodies.chains[chain];
                 Marker::along(body, chain, s * chain.length())
             }
             Form::Rod(rod) => {
-                let RigidRod { node, length, .. } = self.parts.rods[rod];
+                let RigidRod { node, length, .. } = self.parts.bodies.rods[rod];
                 Marker::rigid(body, node, [(s - 0.5) * length, 0.0])
             }
         }

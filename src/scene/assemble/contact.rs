@@ -1,13 +1,12 @@
 //! Contacts of markers and of bodies with surfaces.
 
 use super::{Builder, unit};
-use crate::body::Marker;
+use crate::bodies::{Marker, RigidRod};
 use crate::elements::Element;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
 use crate::scene::description::Surface;
 use crate::scene::resolved::{Cable, ContactBody, Form, ResolvedContact};
-use crate::system::RigidRod;
 use crate::system::loads::{self, AppliedLoad, ContactPoint, PANELS};
 
 impl<const D: usize> Builder<'_, D> {
@@ -35,7 +34,7 @@ impl<const D: usize> Builder<'_, D> {
         let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {
-                let chain = &self.parts.chains[chain];
+                let chain = &self.parts.bodies.chains[chain];
                 let elements = chain.elements().iter().enumerate();
                 let places = elements.flat_map(|(j, element)| {
                     GAUSS_5.map(|point| ContactPoint {
@@ -46,7 +45,7 @@ impl<const D: usize> Builder<'_, D> {
                 places.collect()
             }
             Form::Rod(rod) => {
-                let RigidRod { node, length, .. } = self.parts.rods[rod];
+                let RigidRod { node, length, .. } = self.parts.bodies.rods[rod];
                 let part = length / PANELS as f64;
                 let places = (0..PANELS).flat_map(|panel| {
                     GAUSS_5.map(|point| {

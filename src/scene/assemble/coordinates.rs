@@ -47,7 +47,7 @@ impl<const D: usize> Builder<'_, D> {
     /// Returns the value in the shapes and positions that the scene describes, m or rad.
     pub(super) fn at_start(&self, coordinate: &Coordinate<D>) -> f64 {
         let angles = vec![0.0; self.parts.angles.len()];
-        coordinate.value(&self.parts.nodes, &angles)
+        coordinate.value(&self.parts.bodies.reference, &angles)
     }
 
     pub(super) fn joint_spring(
@@ -89,7 +89,7 @@ impl<const D: usize> Builder<'_, D> {
                 std::array::from_fn(|k| Direction::Fixed(axis(k)))
             }
         };
-        let nodes = &self.parts.nodes;
+        let nodes = &self.parts.bodies.reference;
         let axes: [Vector<D>; D] = first.map(|axis| axis.value(nodes));
         let second = axes.map(|axis| self.fixed(&ends[1], axis));
         // In space alone.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::body::{Node, add_node, no_node, turn_inner};
+use crate::bodies::{Node, add_node, no_node, turn_inner};
 use crate::math::expression::Expression;
 use crate::math::space::{Vector, components, spun, vector};
 use crate::scene::{Error, InitialMotion};

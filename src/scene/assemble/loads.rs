@@ -1,7 +1,7 @@
 //! Loads: what acts on markers, in joints and along bodies, springs, and what the master sets.
 
 use super::{Builder, each};
-use crate::body::RodChain;
+use crate::bodies::RodChain;
 use crate::math::function::Function;
 use crate::math::quadrature::GAUSS_5;
 use crate::scene::Error;
@@ -85,7 +85,7 @@ impl<const D: usize> Builder<'_, D> {
     fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> AppliedLoad<D> {
         let end = self.along(cable, 0.0);
         let first = |chain: &RodChain| chain.frames().next();
-        let mut firsts = self.parts.rod_chains.iter().filter_map(first);
+        let mut firsts = self.parts.bodies.rod_chains.iter().filter_map(first);
         let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
         AppliedLoad::DistributedMoment(Box::new(DistributedMoment {
             on: on.expect("a body with sections is among the rods"),

@@ -23,13 +23,12 @@ use super::resolved::{
     Resolved,
 };
 use super::{Error, OutputKind, Scene};
-use crate::body::{Marker, Node};
+use crate::bodies::{Bodies, LumpedMass, Marker, Node};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, Attachment, AxisTurn, BuildError, Coordinate, LumpedMass, Parts, State, StressPoint,
-    System,
+    Angle, Attachment, AxisTurn, BuildError, Coordinate, Parts, State, StressPoint, System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -96,8 +95,8 @@ impl<const D: usize> Assembled<D> {
             ..
         } = state;
         let system = &self.system;
-        let bodies = system.bodies();
-        for (node, held, now) in system.frames().quaternions(frames, coordinates) {
+        let bodies = &system.bodies().ranges;
+        for (node, held, now) in system.bodies().frames.quaternions(frames, coordinates) {
             let body = bodies.binary_search_by_key(&node, |nodes| nodes.start);
             if body.is_ok_and(|body| self.held(now, body)[0] < 0.0) {
                 *held = held.map(|part| -part);
@@ -160,7 +159,7 @@ impl Resolved<'_> {
         builder.inputs();
         builder.ports();
         let points = builder.section_points();
-        let nodes = builder.parts.nodes.clone();
+        let nodes = builder.parts.bodies.reference.clone();
         let principal = self.bodies.iter().map(|body| self.principal(body));
         let (frames, centers): (Vec<Matrix3<f64>>, Vec<_>) = principal.unzip();
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
@@ -184,13 +183,7 @@ impl Resolved<'_> {
     fn parts<const D: usize>(&self) -> Parts<D> {
         let scene = self.scene;
         Parts {
-            nodes: Vec::new(),
-            bodies: Vec::new(),
-            chains: Vec::new(),
-            lumped_masses: Vec::new(),
-            frames: Vec::new(),
-            rod_chains: Vec::new(),
-            rods: Vec::new(),
+            bodies: Bodies::default(),
             rigid: Vec::new(),
             joints: Vec::new(),
             drives: Vec::new(),
@@ -266,13 +259,14 @@ impl<const D: usize> Builder<'_, D> {
             let section = Some(self.marker(mass.marker));
             let section = section.filter(|of| D == 2 && of.nodes != marker.nodes);
             let inertia = if section.is_some() { 0.0 } else { mass.inertia };
-            self.parts.lumped_masses.push(LumpedMass {
+            self.parts.bodies.lumped_masses.push(LumpedMass {
                 marker,
                 mass: mass.mass,
                 added: 0.0,
                 inertia,
             });
             self.parts
+                .bodies
                 .lumped_masses
                 .extend(section.map(|of| LumpedMass {
                     marker: Marker::rigid(of.body, of.nodes[1], [0.0; 2]),
@@ -288,7 +282,7 @@ impl<const D: usize> Builder<'_, D> {
         let second = self.marker(ends.second);
         let first = match ends.first {
             First::Ground(point) => {
-                let here = second.position(&self.parts.nodes);
+                let here = second.position(&self.parts.bodies.reference);
                 Attachment::Ground(point.map_or(here, vector))
             }
             First::Marker(marker) => Attachment::Body(self.marker(marker)),
@@ -311,7 +305,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     fn distance_at_start(&self, ends: &[Attachment<D>; 2]) -> f64 {
-        let nodes = &self.parts.nodes;
+        let nodes = &self.parts.bodies.reference;
         (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
 
@@ -370,7 +364,7 @@ impl<const D: usize> Builder<'_, D> {
     /// From the direction of the first end to that of the second at the start, where none is given.
     fn angle(&self, ends: [Attachment<D>; 2], given: Option<f64>) -> f64 {
         let turn = None;
-        given.unwrap_or_else(|| Angle { ends, turn }.value(&self.parts.nodes, 0.0))
+        given.unwrap_or_else(|| Angle { ends, turn }.value(&self.parts.bodies.reference, 0.0))
     }
 
     /// The equations of what a joint holds; none of a spring.

@@ -5,7 +5,7 @@
 //! `body/frame/section_frame.rs`.
 
 use super::{Linear, Target};
-use crate::body::{ConnectivityRow, Marker, Node, no_node};
+use crate::bodies::{ConnectivityRow, Marker, Node, no_node};
 use crate::math::space::{Vector, axis, normals};
 use crate::system::end::Attachment;
 

@@ -9,7 +9,7 @@
 use nalgebra::Vector3;
 
 use super::{Gradient, View};
-use crate::body::{Marker, Node};
+use crate::bodies::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::rotation::{
     Quaternion, carried, inverse, product, quaternion, rotation_vector, unit_with_rates,

@@ -32,12 +32,11 @@ use rows::Rows;
 pub use target::Target;
 pub use unit::UnitLength;
 
-use super::LineChain;
 use super::coordinate::Translation;
 use super::direction::AxisTurn;
 use super::end::{Add, Attachment};
 use super::gradient::Gradient;
-use crate::body::{ConnectivityRow, Marker, Node, RotationMaps};
+use crate::bodies::{Bodies, ConnectivityRow, LineChain, Marker, Node, RotationMaps};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -115,8 +114,8 @@ pub struct View<'a, const D: usize, N = f64> {
     pub v: &'a [Node<D, N>],
     /// Driven coordinates with two derivatives.
     pub drives: &'a [[N; 3]],
-    /// Flexible bodies.
-    pub chains: &'a [LineChain<D>],
+    /// Bodies.
+    pub bodies: &'a Bodies<D>,
     /// Where on their chains slides are, m.
     pub travel: &'a [N],
     /// Angles that the system counts, rad: what angles are nearest to.

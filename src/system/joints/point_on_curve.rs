@@ -2,10 +2,9 @@
 //! foot of `p` on the curve, for every normal `n`. It transmits a force across the curve only.
 
 use super::{ConstraintKind, Gradient, Rows, View};
-use crate::body::{Marker, Node};
+use crate::bodies::{LineChain, Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, normal};
-use crate::system::LineChain;
 use crate::system::end::Attachment;
 
 /// Iterations for the foot of a point on a curve.
@@ -90,7 +89,11 @@ impl<const D: usize> PointOnCurve<D> {
     }
 
     fn foot<N: Number>(&self, view: &View<'_, D, N>) -> (Foot<D, N>, Vector<D, N>, N) {
-        let at = foot(&view.chains[self.chain], view.travel[self.slide], view.x);
+        let at = foot(
+            &view.bodies.chains[self.chain],
+            view.travel[self.slide],
+            view.x,
+        );
         let slope = at.marker.direction(view.x);
         let stretch = slope.norm();
         (at, slope / stretch, stretch)

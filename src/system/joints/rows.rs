@@ -3,7 +3,7 @@
 //! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eq. 9 (linear constraints in nodal coordinates).
 
 use super::{Linear, Target};
-use crate::body::{ConnectivityRow, Node};
+use crate::bodies::{ConnectivityRow, Node};
 use crate::math::space::Vector;
 use crate::system::end::Attachment;
 

@@ -2,7 +2,7 @@
 //! de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems (1994), section 2.2.
 
 use super::{Gradient, View};
-use crate::body::{Marker, no_block};
+use crate::bodies::{Marker, no_block};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::{Add, Attachment};

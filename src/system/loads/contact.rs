@@ -9,14 +9,14 @@
 
 use nalgebra::SMatrix;
 
-use super::line_load::Values;
 use super::{Add, Instant};
-use crate::body::{Marker, Node};
+use crate::bodies::winch::{PaidOut, longer_by};
+use crate::bodies::{Marker, Node};
+use crate::elements::shape::Values;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
 use crate::system::end::{Attachment, between};
-use crate::system::winch::{PaidOut, longer_by};
 
 /// Surface of a contact, fixed in the frame of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

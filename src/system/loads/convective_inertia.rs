@@ -1,12 +1,11 @@
 //! Inertia forces of the material of a cable that a winch pays out, which passes through its mesh ([`Winch`]): those that
 //! accelerations of the nodes do not tell.
 
-use super::{Instant, Values};
-use crate::body::Node;
+use super::Instant;
+use crate::bodies::winch::PaidOut;
+use crate::bodies::{LineChain, Node};
+use crate::elements::shape::{Values, on_coordinates};
 use crate::math::jet::Number;
-use crate::system::LineChain;
-use crate::system::loads::on_coordinates;
-use crate::system::winch::PaidOut;
 
 /// Inertia forces of material that a winch moves through the mesh of its cable.
 #[derive(Clone, Debug)]
@@ -24,10 +23,10 @@ impl ConvectiveInertia {
     }
 
     fn cable<'a, const D: usize, N: Number>(&self, at: Instant<'a, D, N>) -> PaidOut<'a, D, N> {
-        let winch = &at.winches[self.winch];
+        let winch = &at.bodies.winches[self.winch];
         PaidOut {
             winch,
-            chain: &at.chains[self.chain],
+            chain: &at.bodies.chains[self.chain],
             now: winch.now(at.drives),
         }
     }
@@ -54,12 +53,12 @@ impl ConvectiveInertia {
         at: Instant<'_, D, N>,
         f: &mut [Node<D, N>],
     ) {
-        let [_, rate, second] = at.drives[at.winches[self.winch].drive];
+        let [_, rate, second] = at.drives[at.bodies.winches[self.winch].coordinate];
         // Derivatives may not vanish where values do.
         if rate.largest() == 0.0 && second.largest() == 0.0 {
             return;
         }
-        for j in 0..at.chains[self.chain].elements().len() {
+        for j in 0..at.bodies.chains[self.chain].elements().len() {
             self.add_part(at, j, f);
         }
     }
@@ -71,7 +70,7 @@ impl ConvectiveInertia {
         element: usize,
         f: &mut [Node<D, N>],
     ) {
-        let chain = &at.chains[self.chain];
+        let chain = &at.bodies.chains[self.chain];
         let values = self.values(at, element);
         let forces = on_coordinates(&values, chain.element_length(element));
         chain.add_to(element, &forces, f);

@@ -1,16 +1,14 @@
 //! A dead force per reference length of a cable or a rod.
 
-use nalgebra::RowVector4;
-
-use super::line_load::{LineLoad, Values};
+use super::line_load::LineLoad;
 use super::{Instant, PANELS};
-use crate::body::Node;
-use crate::elements::{Element, Nodal, shape};
+use crate::bodies::winch::{PaidOut, longer_by};
+use crate::bodies::{LineChain, Node, RigidRod};
+use crate::elements::Element;
+use crate::elements::shape::{self, Values, weights};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
-use crate::system::winch::{PaidOut, longer_by};
-use crate::system::{LineChain, RigidRod};
 
 /// Line that a load is distributed along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,23 +28,6 @@ pub struct DistributedForce<const D: usize = 2> {
     pub density: LineLoad<D>,
 }
 
-/// Weights at the Gauss points, m, of a vector per length of an element of this length (m) on its coordinates: position and slope at both
-/// ends.
-fn weights(length: f64) -> [[f64; 4]; GAUSS_5.len()] {
-    GAUSS_5.map(|point| (shape::values(point.at, length) * (point.weight * length)).into())
-}
-
-/// Forces on the coordinates of an element of this length (m) of what has these values per length at the Gauss points.
-pub(in crate::system) fn on_coordinates<const D: usize, N: Number>(
-    values: &Values<D, N>,
-    length: f64,
-) -> Nodal<D, N> {
-    let terms = values.iter().zip(weights(length));
-    terms.fold(Nodal::zeros(), |sum, (value, weights)| {
-        sum + value * RowVector4::from(weights).map(N::of)
-    })
-}
-
 impl<const D: usize> DistributedForce<D> {
     /// Returns the uniform part of the load in global axes, N/m.
     pub(in crate::system) fn uniform<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
@@ -56,7 +37,7 @@ impl<const D: usize> DistributedForce<D> {
     /// The cable, if a winch pays it out.
     fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
         match self.on {
-            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.chains)),
+            LoadedLine::Chain(_) => at.paid_out(self.first_node(&at.bodies.chains)),
             LoadedLine::Rod(_) => None,
         }
     }
@@ -108,7 +89,7 @@ impl<const D: usize> DistributedForce<D> {
             return;
         }
         let chain = match self.on {
-            LoadedLine::Chain(chain) => &at.chains[chain],
+            LoadedLine::Chain(chain) => &at.bodies.chains[chain],
             LoadedLine::Rod(rod) => {
                 for panel in 0..PANELS {
                     let values = self.changing(at, panel);
@@ -141,7 +122,7 @@ impl<const D: usize> DistributedForce<D> {
                 }
             }
         };
-        self.each(at.chains, |node, weights| add(node, weights, &load));
+        self.each(&at.bodies.chains, |node, weights| add(node, weights, &load));
         self.each_changing(at, add);
     }
 
@@ -154,7 +135,7 @@ impl<const D: usize> DistributedForce<D> {
                 sum += load.dot(&Vector::from(field[node][k])) * N::of(weight);
             }
         };
-        self.each(at.chains, |node, weights| add(node, weights, &load));
+        self.each(&at.bodies.chains, |node, weights| add(node, weights, &load));
         self.each_changing(at, add);
         sum
     }

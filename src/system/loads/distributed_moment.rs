@@ -7,7 +7,7 @@
 
 use super::Instant;
 use super::line_load::LineLoad;
-use crate::body::{Marker, Node, RodChain};
+use crate::bodies::{Marker, Node, RodChain};
 use crate::elements::section::Vectors;
 use crate::math::jet::Number;
 
@@ -41,14 +41,14 @@ impl DistributedMoment {
         };
         let moments = moments.map(Into::into);
         if self.follower {
-            at.sections.0[self.on].outward(element, at.x, &moments)
+            at.bodies.rod_chains[self.on].outward(element, at.x, &moments)
         } else {
             moments
         }
     }
 
     fn rod<'a, const D: usize, N>(&self, at: Instant<'a, D, N>) -> &'a RodChain {
-        &at.sections.0[self.on]
+        &at.bodies.rod_chains[self.on]
     }
 
     /// Adds its forces on an element.
@@ -79,7 +79,7 @@ impl DistributedMoment {
         let mut sum = N::of(0.0);
         for element in 0..rod.count() {
             let force = rod.loaded(element, at.x, &self.moments(at, element));
-            sum += rod.power_of((element, &force), (at.x, at.v), at.sections.1);
+            sum += rod.power_of((element, &force), (at.x, at.v), &at.bodies.frames);
         }
         sum
     }

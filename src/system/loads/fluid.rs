@@ -10,20 +10,20 @@
 //! Technology 2 (1950) 149-154 (drag and inertia); M. Hall, A. Goupee, Validation of a lumped-mass mooring line model with DeepCwind
 //! semisubmersible model test data, Ocean Engineering 104 (2015) 590-603, Eqs. 9-14 (along and across a line).
 
+use crate::elements::shape::Values;
 use nalgebra::SMatrix;
 
 use super::distributed::LoadedLine;
-use super::line_load::{LineLoad, Values};
+use super::line_load::LineLoad;
 use super::{Add, Instant, PANELS};
-use crate::body::{Node, no_block};
+use crate::bodies::winch::{PaidOut, longer_by};
+use crate::bodies::{LineChain, Node, no_block};
 use crate::elements::{Element, shape};
 use crate::math::function::Function;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, spun};
-use crate::system::LineChain;
 use crate::system::signal::Signal;
-use crate::system::winch::{PaidOut, longer_by};
 
 /// Coefficients of a fluid at a point of a line, per reference length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -224,12 +224,12 @@ impl<const D: usize> Fluid<D> {
         let current = self.current(segment, |signal| signal.value(at));
         let rates = self.current(segment, |signal| signal.rate(at));
         let paid_out = match self.on {
-            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.chains)),
+            LoadedLine::Chain(_) => at.paid_out(self.first_node(&at.bodies.chains)),
             LoadedLine::Rod(_) => None,
         };
         for (point, (current, rate)) in current.into_iter().zip(rates).enumerate() {
             let strip = &self.strips[GAUSS_5.len() * segment + point];
-            let place = self.place(at.chains, segment, point);
+            let place = self.place(&at.bodies.chains, segment, point);
             let on = (&place, (segment, GAUSS_5[point].at));
             let flow = self.flow(at, on, (current, paid_out.as_ref()));
             let force = flow.drag(strip.drag) + rate * N::of(strip.inert)

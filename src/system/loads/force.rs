@@ -4,7 +4,7 @@
 use nalgebra::SMatrix;
 
 use super::{Add, Instant};
-use crate::body::{Marker, no_block};
+use crate::bodies::{Marker, no_block};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
 use crate::system::end::Attachment;

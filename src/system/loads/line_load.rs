@@ -5,13 +5,11 @@
 //! Source: M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), 25.4.29 (Gauss's rule).
 
 use super::Instant;
+use crate::elements::shape::Values;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
 use crate::system::signal::Signal;
-
-/// Values at the Gauss points of a segment.
-pub type Values<const K: usize, N> = [Vector<K, N>; GAUSS_5.len()];
 
 /// A vector per reference length, 1/m times its unit.
 #[derive(Clone, Debug)]

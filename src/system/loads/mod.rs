@@ -20,14 +20,13 @@ mod spring;
 pub use bushing::{Bushing, RotationalBushing};
 pub use contact::{Contact, ContactPoint, ContactSurface};
 pub use convective_inertia::ConvectiveInertia;
-pub(in crate::system) use distributed::on_coordinates;
 pub use distributed::{DistributedForce, LoadedLine};
 pub use distributed_moment::DistributedMoment;
 pub use fluid::{Fluid, FluidSegment};
 pub use force::Force;
 pub use joint_limit::JointLimit;
 pub use joint_spring::JointSpring;
-pub use line_load::{LineLoad, Values};
+pub use line_load::LineLoad;
 pub use moment::Moment;
 pub use orientation_bushing::OrientationBushing;
 pub use six_bushing::SixBushing;
@@ -37,10 +36,10 @@ pub use spring::Spring;
 use super::end::{Add, Attachment};
 use super::instant::Instant;
 use super::signal::Signal;
-use crate::body::{Node, RodChain};
+use crate::bodies::{LineChain, Node, RodChain};
+use crate::elements::shape::Values;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::LineChain;
 
 /// Even parts of a body that does not bend in which what changes along it is integrated.
 pub const PANELS: usize = 8;
@@ -130,15 +129,15 @@ impl<const D: usize> AppliedLoad<D> {
     ) -> Option<Values<D, N>> {
         match self {
             Self::DistributedForce(load) => (load.density.changes()
-                && load.first_node(at.chains) == first)
+                && load.first_node(&at.bodies.chains) == first)
                 .then(|| load.changing(at, segment)),
             Self::Contact(load) => (load.is_distributed() && load.first_node() == first)
                 .then(|| load.changing(at, segment)),
             Self::Fluid(load) => {
-                (load.first_node(at.chains) == first).then(|| load.values(at, segment))
+                (load.first_node(&at.bodies.chains) == first).then(|| load.values(at, segment))
             }
             Self::ConvectiveInertia(load) => {
-                (load.first_node(at.chains) == first).then(|| load.values(at, segment))
+                (load.first_node(&at.bodies.chains) == first).then(|| load.values(at, segment))
             }
             _ => None,
         }

@@ -9,7 +9,7 @@
 use nalgebra::{SMatrix, Vector3};
 
 use super::{Add, Instant, spatial_moment};
-use crate::body::Marker;
+use crate::bodies::Marker;
 use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{Vector, components};

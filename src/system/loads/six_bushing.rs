@@ -10,7 +10,7 @@
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::{Add, Instant};
-use crate::body::Node;
+use crate::bodies::Node;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::coordinate::Translation;

@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use super::Instant;
-use crate::body::{Marker, Node};
+use crate::bodies::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components, vector};
 use crate::system::direction::Direction;

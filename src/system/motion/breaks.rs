@@ -7,7 +7,7 @@
 //! of a System of Rigid Bodies, part I, chapter VIII, after Gauss's principle).
 
 use super::dynamics::DrivenSystem;
-use crate::body::{add_node, no_node};
+use crate::bodies::{add_node, no_node};
 use crate::math::function::Function;
 use crate::math::switches::grain;
 use crate::system::joints::JointEquations;
@@ -155,7 +155,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
         self.work.kinematics.smooth_interval = Some([before, before]);
         system.forward_kinematics(time, &state.coordinates, rates, self.work);
         let motion = (&self.work.kinematics.x[..], &self.work.kinematics.v[..]);
-        let energy = system.kinetic(&self.work.kinematics.drives, motion);
+        let energy = system.bodies.kinetic(&self.work.kinematics.drives, motion);
         // Material keeps its velocity, not the mesh that it passes through.
         let Workspace {
             kinematics,
@@ -163,7 +163,9 @@ impl<const D: usize> DrivenSystem<'_, D> {
             ..
         } = &mut *self.work;
         scratch.other.fill(no_node());
-        system.add_passing(&kinematics.drives, 1.0, &kinematics.x, &mut scratch.other);
+        system
+            .bodies
+            .add_passing(&kinematics.drives, 1.0, &kinematics.x, &mut scratch.other);
         self.work.kinematics.smooth_interval = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
         let Workspace {
@@ -181,7 +183,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
         if system.tracks_work {
             // Drives alone do work: the other impulses act where velocities have no part before or after.
             let motion = (&self.work.kinematics.x[..], &self.work.kinematics.v[..]);
-            state.work[0] += system.kinetic(&self.work.kinematics.drives, motion) - energy;
+            state.work[0] += system.bodies.kinetic(&self.work.kinematics.drives, motion) - energy;
         }
         self.work.kinematics.smooth_interval = None;
         if kept {

@@ -3,8 +3,7 @@
 
 use nalgebra::Complex;
 
-use crate::body::{Node, RENEWED, largest_turn};
-use crate::elements::Element;
+use crate::bodies::{Node, RENEWED, largest_turn};
 use crate::system::instant::Instant;
 use crate::system::signal::{Trajectory, moved};
 use crate::system::{State, System, Workspace};
@@ -43,7 +42,7 @@ pub trait Dynamics {
     fn has_rotations(&self) -> bool {
         false
     }
-    /// Remembers the configuration of the last acceleration as that of a stage, at most [`STAGES`](crate::body::STAGES).
+    /// Remembers the configuration of the last acceleration as that of a stage, at most [`STAGES`](crate::bodies::STAGES).
     fn set_stage(&mut self, stage: usize);
     /// Solves for the first stages in place, as many as there are vectors. `forward`, a square matrix by rows, takes
     /// the right-hand sides to one for the real factors, where their number is odd, then to real and imaginary part
@@ -279,18 +278,9 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
             size += scale;
         };
         // Differences element by element: the sums of both energies would cancel.
-        for chain in &system.chains {
-            for (j, element) in chain.elements().iter().enumerate() {
-                let [now, then] = [after, before].map(|x| element.energy(&chain.element(j, x)));
-                add(now - then, now + then);
-            }
-        }
-        for chain in system.rod_chains() {
-            for j in 0..chain.count() {
-                let [now, then] = [after, before].map(|x| chain.element(j).energy(&chain.at(j, x)));
-                add(now - then, now + then);
-            }
-        }
+        (system.bodies).for_each_strain_energy([after, before], |[now, then]| {
+            add(now - then, now + then);
+        });
         for (weight, (a, b)) in system.weight.iter().zip(after.iter().zip(before)) {
             let ways = a.as_flattened().iter().zip(b.as_flattened());
             let fall = weight.as_flattened().iter().zip(ways);
@@ -303,7 +293,8 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
             add(-work, work.abs());
         }
         if system.is_turning() {
-            let difference = system.centrifugal(after) - system.centrifugal(before);
+            let of = |x| system.bodies.centrifugal(system.rotation, x);
+            let difference = of(after) - of(before);
             add(-difference, difference.abs());
         }
         (sum, size)
@@ -389,7 +380,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.operations += LINEARIZE;
         let system = self.system;
-        if !(system.constraints.is_empty() && system.has_no_frames()) {
+        if !(system.constraints.is_empty() && system.bodies.has_no_frames()) {
             // Multipliers stiffen, so do forces on bodies that turn, and solves need the Jacobian here.
             self.accelerate(time, q, v);
         } else {
@@ -415,7 +406,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     }
 
     fn has_rotations(&self) -> bool {
-        !self.system.has_no_frames()
+        !self.system.bodies.has_no_frames()
     }
 
     fn set_stage(&mut self, stage: usize) {

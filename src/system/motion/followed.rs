@@ -22,14 +22,15 @@ impl<const D: usize> DrivenSystem<'_, D> {
         {
             *driven = course.orders(state.time);
         }
-        if let Some(drive) = system.taken_in(self.work) {
+        if let Some(drive) = system.bodies.taken_in(&self.work.kinematics.drives) {
             return StepOutcome::WinchEmpty(drive);
         }
-        if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains().is_empty() {
+        if state.angles.is_empty() && state.travel.is_empty() && system.bodies.rod_chains.is_empty()
+        {
             return StepOutcome::AsIs;
         }
         system.forward_kinematics(state.time, &state.coordinates, None, self.work);
-        if let Some((body, element)) = system.overbent(&self.work.kinematics.x) {
+        if let Some((body, element)) = system.bodies.overbent(&self.work.kinematics.x) {
             return StepOutcome::ElementOverDeformed(body, element);
         }
         for (i, angle) in system.angles.iter().enumerate() {
@@ -42,7 +43,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
             let ConstraintKind::PointOnCurve(along) = &constraint.kind else {
                 continue;
             };
-            let length = system.chains[along.chain].length();
+            let length = system.bodies.chains[along.chain].length();
             let is_released = constraint.is_released(&self.work.kinematics.released);
             if !is_released && !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
                 let joint = constraint.joint.expect("a slide is part of a joint");

@@ -4,7 +4,6 @@ pub(in crate::system) mod breaks;
 pub(in crate::system) mod dynamics;
 mod followed;
 pub(in crate::system) mod forces;
-mod lengthening;
 pub(in crate::system) mod multipliers;
 pub(in crate::system) mod rank;
 mod rods;

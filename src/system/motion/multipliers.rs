@@ -11,7 +11,7 @@
 //! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
 //! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
 
-use crate::body::{Jacobian, Node, SparseRows, no_node};
+use crate::bodies::{Jacobian, Node, SparseRows, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::joints::{Constraint, View};
@@ -78,8 +78,8 @@ impl<const D: usize> System<D> {
                 continue;
             }
             (constraints.jacobian).fill(&self.elimination, row, |tell| {
-                constraint.for_each_pulled((&view, &self.frames), |node, term| {
-                    tell(node, &self.shortened(node, view.drives, term));
+                constraint.for_each_pulled((&view, &self.bodies.frames), |node, term| {
+                    tell(node, &self.bodies.shortened(node, view.drives, term));
                 });
             });
         }
@@ -101,7 +101,7 @@ impl<const D: usize> System<D> {
             visit(ConstraintRow {
                 constraint,
                 view: &view,
-                size: constraint.size(&self.chains),
+                size: constraint.size(&self.bodies.chains),
                 rows: work.constraints.jacobian.rows(),
                 row,
             });
@@ -114,7 +114,7 @@ impl<const D: usize> System<D> {
             x: &at.x,
             v: &at.v,
             drives: &at.drives,
-            chains: &self.chains,
+            bodies: &self.bodies,
             travel: &at.travel,
             angles: &at.angles,
             released: &at.released,
@@ -135,8 +135,8 @@ impl<const D: usize> System<D> {
         for (_, (constraint, index)) in constraints.filter(|(row, _)| jacobian.is_independent(*row))
         {
             assembly.add_corner(*index, 1.0, matrix);
-            constraint.for_each_pulled((view, &self.frames), |node, term| {
-                let term = self.shortened(node, view.drives, term);
+            constraint.for_each_pulled((view, &self.bodies.frames), |node, term| {
+                let term = self.bodies.shortened(node, view.drives, term);
                 assembly.add_gradient((*index, node), &term, matrix);
             });
         }
@@ -182,13 +182,13 @@ impl<const D: usize> System<D> {
             ..
         } = work;
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
-        let is_still = self.driven.is_empty() && self.winches.is_empty();
-        let is_driven = !(is_still && self.has_no_frames());
+        let is_still = self.driven.is_empty() && self.bodies.winches.is_empty();
+        let is_driven = !(is_still && self.bodies.has_no_frames());
         if is_driven {
             let motion = (&kinematics.x[..], &kinematics.v[..]);
             self.driven_acceleration(&kinematics.targets, &mut scratch.other);
-            (self.frames).add_centripetal(motion, &mut scratch.other);
-            self.add_lengthened(&kinematics.drives, motion, &mut scratch.other);
+            self.bodies
+                .add_bias(&kinematics.drives, motion, &mut scratch.other);
         }
         self.fill_right(
             &self.view(kinematics),
@@ -295,7 +295,7 @@ impl<const D: usize> System<D> {
         );
         let mut largest = 0.0;
         for (right, constraint) in right.iter().zip(&self.constraints) {
-            largest = larger(largest, right.abs() / constraint.size(&self.chains));
+            largest = larger(largest, right.abs() / constraint.size(&self.bodies.chains));
         }
         largest
     }
@@ -338,13 +338,14 @@ impl<const D: usize> System<D> {
 
     /// Residual of a constraint, relative to its size.
     fn relative<N: Number>(&self, constraint: &Constraint<D>, view: &View<'_, D, N>) -> f64 {
-        constraint.value(view).plain().abs() / constraint.size(&self.chains)
+        constraint.value(view).plain().abs() / constraint.size(&self.bodies.chains)
     }
 
     /// Largest residual of velocities, relative to the size of the constraint, 1/s.
     pub(in crate::system) fn velocity_residual<N: Number>(&self, view: &View<'_, D, N>) -> f64 {
-        let residual =
-            |c: &Constraint<D>| constraint_rate(c, view).plain().abs() / c.size(&self.chains);
+        let residual = |c: &Constraint<D>| {
+            constraint_rate(c, view).plain().abs() / c.size(&self.bodies.chains)
+        };
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 }

@@ -3,7 +3,7 @@
 //! for at the start and at every state that a step is accepted at.
 
 use super::multipliers::RANK;
-use crate::body::{Jacobian, no_node};
+use crate::bodies::{Jacobian, no_node};
 use crate::math::sparse::{graph, parts};
 use crate::math::vector::dot;
 use crate::system::joints::{Constraint, ConstraintKind, Primitive};
@@ -112,7 +112,7 @@ impl<const D: usize> System<D> {
         };
         let joined: Vec<Vec<usize>> = self.constraints.iter().map(ends).collect();
         let mut y = vec![0.0; self.elimination.scratch()];
-        let mut mobilities = vec![None; self.reference.len()];
+        let mut mobilities = vec![None; self.bodies.reference.len()];
         for node in joined.iter().flatten() {
             mobilities[*node]
                 .get_or_insert_with(|| [0, 1].map(|vector| self.mobility(*node, vector, &mut y)));
@@ -121,7 +121,7 @@ impl<const D: usize> System<D> {
         let part = self.connected(&joined);
         for vector in 0..2 {
             let of = |node: &usize| mobilities[*node].expect("a joined node")[vector];
-            let mut least = vec![f64::INFINITY; self.reference.len()];
+            let mut least = vec![f64::INFINITY; self.bodies.reference.len()];
             for node in joined.iter().flatten().filter(|node| of(node) > 0.0) {
                 least[part[*node]] = least[part[*node]].min(of(node));
             }
@@ -148,13 +148,14 @@ impl<const D: usize> System<D> {
     fn connected(&self, joined: &[Vec<usize>]) -> Vec<usize> {
         let of_bodies = self
             .bodies
+            .ranges
             .iter()
             .flat_map(|body| body.clone().map(|node| (body.start, node)));
         let of_constraints = joined
             .iter()
             .flat_map(|nodes| nodes.iter().map(|node| (nodes[0], *node)));
         let edges: Vec<(usize, usize)> = of_bodies.chain(of_constraints).collect();
-        let mut part = vec![0; self.reference.len()];
+        let mut part = vec![0; self.bodies.reference.len()];
         for (index, nodes) in parts(&graph(&vec![1; part.len()], &edges))
             .iter()
             .enumerate()
@@ -288,7 +289,7 @@ impl<const D: usize> System<D> {
         exactly.holders.retain(|h| !nearly.holders.contains(h));
         let aligned = self.aligned();
         exactly.bodies.retain(|body| {
-            let is_aligned = self.bodies[*body].clone().any(|node| aligned[node]);
+            let is_aligned = self.bodies.ranges[*body].clone().any(|node| aligned[node]);
             !is_aligned && !nearly.bodies.contains(body)
         });
         Redundant { exactly, nearly }
@@ -297,7 +298,7 @@ impl<const D: usize> System<D> {
     /// By nodes, whether a joint in the plane gives one body the direction of another there: the unit length of one is then that of
     /// both, and nothing that a person has said is redundant.
     fn aligned(&self) -> Vec<bool> {
-        let mut aligned = vec![false; self.reference.len()];
+        let mut aligned = vec![false; self.bodies.reference.len()];
         let aligns = |held: &Primitive<D>| matches!(held, Primitive::Direction(_));
         let joints = self.joints.iter();
         let joints = joints.filter(|joint| joint.holds.iter().any(aligns));
@@ -342,7 +343,11 @@ impl<const D: usize> System<D> {
             match (constraint.joint, &constraint.kind) {
                 (Some(joint), _) => held.holders.push(joint),
                 (None, ConstraintKind::UnitLength(unit)) => {
-                    let body = self.bodies.iter().position(|b| b.contains(&unit.node));
+                    let body = self
+                        .bodies
+                        .ranges
+                        .iter()
+                        .position(|b| b.contains(&unit.node));
                     held.bodies.extend(body);
                 }
                 (None, _) => {}

@@ -1,37 +1,10 @@
 //! Rods in the equations of motion: their torques, and rotations of carried frames among the coordinates, of which spins are no rates.
 
-use crate::body::{Derivative, Node, SectionFrameState};
-use crate::math::jet::Number;
+use crate::bodies::{Derivative, SectionFrameState};
 use crate::system::workspace::Scratch;
 use crate::system::{Kinematics, State, System, Workspace};
 
 impl<const D: usize> System<D> {
-    /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
-    pub fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
-        let mut found = self.rod_chains().iter().filter_map(|chain| {
-            let element = chain.overbent(x)?;
-            let body = (self.bodies.iter()).position(|nodes| nodes.start == chain.line())?;
-            Some((body, element))
-        });
-        found.next()
-    }
-
-    /// Adds to forces over the nodes that have coordinates the moments of rods and beams on their sections, and what spins ask for.
-    pub(in crate::system) fn add_rod_forces<N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        torques: &[[N; 3]],
-        force: &mut [Node<D, N>],
-    ) {
-        for (frame, torque) in self.frames.carried().iter().zip(torques) {
-            let moment = force[frame.node][1].iter_mut().zip(torque);
-            moment.for_each(|(sum, torque)| *sum += *torque);
-        }
-        for chain in &self.rod_chains {
-            chain.add_gyroscopic(motion, &self.frames, force);
-        }
-    }
-
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
     /// angular velocities rates.
     pub(in crate::system) fn to_rotations(
@@ -40,10 +13,10 @@ impl<const D: usize> System<D> {
         scratch: &mut Scratch<D>,
         q: &mut [f64],
     ) {
-        if self.has_no_frames() {
+        if self.bodies.has_no_frames() {
             return;
         }
-        self.frames.to_rotations(&at.turns, q);
+        self.bodies.frames.to_rotations(&at.turns, q);
         self.change_carried(Derivative::First, &at.carries, scratch, q);
     }
 
@@ -71,7 +44,7 @@ impl<const D: usize> System<D> {
         let kept = work.linearization.stages[1 + stage]
             .iter_mut()
             .zip(&work.kinematics.carries);
-        for ((kept, carry), frame) in kept.zip(self.frames.carried()) {
+        for ((kept, carry), frame) in kept.zip(self.bodies.frames.carried()) {
             if frame.has_shear {
                 *kept = *carry;
             }
@@ -88,8 +61,10 @@ impl<const D: usize> System<D> {
         work: &mut Workspace<D>,
         q: &mut [f64],
     ) {
-        if !self.has_no_frames() {
-            self.frames.to_spins(&work.linearization.base_turns, q);
+        if !self.bodies.has_no_frames() {
+            self.bodies
+                .frames
+                .to_spins(&work.linearization.base_turns, q);
             self.change_at(Derivative::Back, stage, work, q);
         }
     }
@@ -101,8 +76,10 @@ impl<const D: usize> System<D> {
         work: &mut Workspace<D>,
         q: &mut [f64],
     ) {
-        if !self.has_no_frames() {
-            self.frames.to_rotations(&work.linearization.base_turns, q);
+        if !self.bodies.has_no_frames() {
+            self.bodies
+                .frames
+                .to_rotations(&work.linearization.base_turns, q);
             self.change_at(Derivative::First, stage, work, q);
         }
     }
@@ -115,8 +92,8 @@ impl<const D: usize> System<D> {
     /// Takes the part out of second derivatives of `q` that constraints, which see small rotations, do not allow where the last acceleration
     /// was.
     pub(in crate::system) fn take_out_normal(&self, work: &mut Workspace<D>, q: &mut [f64]) {
-        if !self.has_no_frames() {
-            self.frames.to_spins(&work.kinematics.turns, q);
+        if !self.bodies.has_no_frames() {
+            self.bodies.frames.to_spins(&work.kinematics.turns, q);
             let carries = &work.kinematics.carries;
             self.change_carried(Derivative::Back, carries, &mut work.scratch, q);
         }
@@ -126,10 +103,10 @@ impl<const D: usize> System<D> {
 
     /// Angular accelerations become second derivatives of rotations.
     pub(in crate::system) fn to_second(&self, work: &mut Workspace<D>, a: &mut [f64]) {
-        if self.has_no_frames() {
+        if self.bodies.has_no_frames() {
             return;
         }
-        self.frames.to_second(&work.kinematics.turns, a);
+        self.bodies.frames.to_second(&work.kinematics.turns, a);
         let carries = &work.kinematics.carries;
         self.change_carried(Derivative::Second, carries, &mut work.scratch, a);
     }
@@ -142,12 +119,12 @@ impl<const D: usize> System<D> {
         scratch: &mut Scratch<D>,
         q: &mut [f64],
     ) {
-        if self.frames.carried().is_empty() {
+        if self.bodies.frames.carried().is_empty() {
             return;
         }
         let Scratch { y, other } = scratch;
         self.elimination.expand(q, y, other);
-        self.frames.turn_carried(order, carries, other, y);
+        self.bodies.frames.turn_carried(order, carries, other, y);
         self.elimination.coordinates_of(y);
         q.copy_from_slice(y);
     }
@@ -159,32 +136,33 @@ impl<const D: usize> System<D> {
         size: f64,
         work: &mut Workspace<D>,
     ) -> bool {
-        if self.has_no_frames() {
+        if self.bodies.has_no_frames() {
             return false;
         }
-        let mut is_large = self.frames.largest(&state.coordinates) > size;
-        if !self.frames.carried().is_empty() {
+        let mut is_large = self.bodies.frames.largest(&state.coordinates) > size;
+        if !self.bodies.frames.carried().is_empty() {
             self.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
-            is_large |= self.frames.largest_carry(&work.kinematics.carries) > size;
+            is_large |= self.bodies.frames.largest_carry(&work.kinematics.carries) > size;
         }
         if !is_large {
             return false;
         }
         let (q, v) = (&mut state.coordinates, &mut state.rates);
-        if !self.frames.carried().is_empty() {
+        if !self.bodies.frames.carried().is_empty() {
             // Over the free coordinates.
             let (free, rates) = (&mut work.scratch.y, &mut work.change);
             self.elimination.displacements(q, free);
             self.elimination.displacements(v, rates);
             let at = (&work.kinematics.x[..], &work.kinematics.carries[..]);
-            self.frames
+            self.bodies
+                .frames
                 .renew_carried(at, &mut state.frames, [&mut *free, &mut *rates]);
             self.elimination.coordinates_of(free);
             self.elimination.coordinates_of(rates);
             q.copy_from_slice(free);
             v.copy_from_slice(rates);
         }
-        self.frames.renew(&mut state.frames, q, v);
+        self.bodies.frames.renew(&mut state.frames, q, v);
         work.kinematics.frames.copy_from_slice(&state.frames);
         // A tangent that is kept is one of the new coordinates from now on.
         let (time, q) = (state.time, &state.coordinates);

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use crate::body::{Articulated, Link, RigidBodyFrame, no_node};
+use crate::bodies::{Articulated, Link, RigidBodyFrame, no_node};
 use crate::math::space::{Vector, components, moment};
 use crate::system::end::Attachment;
 use crate::system::joints::{Constraint, ConstraintKind, LinearConstraint, Target, View};
@@ -43,7 +43,7 @@ struct Pair<const D: usize> {
 impl<const D: usize> Tree<D> {
     /// The tree that these constraints make of all that moves; nothing where they make none.
     pub fn of(system: &System<D>) -> Option<Self> {
-        let frames = system.frames.list();
+        let frames = system.bodies.frames.list();
         let is_whole = system.coordinates() == 6 * frames.len() && system.driven.is_empty();
         let turns = |frame: &RigidBodyFrame| frame.places.iter().all(Option::is_some);
         if frames.is_empty() || !is_whole || !frames.iter().all(turns) {
@@ -130,7 +130,7 @@ impl<const D: usize> Tree<D> {
 
 /// Where the centre of mass of a body is among the coordinates, and how many of these make a metre.
 fn center<const D: usize>(system: &System<D>, frame: usize, y: &mut [f64]) -> Option<(usize, f64)> {
-    let frame = &system.frames.list()[frame];
+    let frame = &system.bodies.frames.list()[frame];
     let mut force = no_node();
     for axis in 0..D {
         force[0][axis] = frame.mass * (1.0 + axis as f64);
@@ -221,7 +221,7 @@ fn body<const D: usize>(system: &System<D>, end: &Attachment<D>) -> Option<Optio
     if !marker.is_framed() {
         return None;
     }
-    system.frames.body_of(marker.nodes[0]).map(Some)
+    system.bodies.frames.body_of(marker.nodes[0]).map(Some)
 }
 
 /// Whether a row holds a point of the second end at that of the first, along this axis.
@@ -267,7 +267,7 @@ impl<const D: usize> System<D> {
             return constraints.is_tree;
         }
         let view = self.view(kinematics);
-        let frames = self.frames.list();
+        let frames = self.bodies.frames.list();
         let of_turn = |turn: usize, link: &Link| {
             let node = frames[link.frame].node;
             let mut of_body = Vector3::zeros();
@@ -293,7 +293,7 @@ impl<const D: usize> System<D> {
         };
         let right = &constraints.right;
         constraints.articulated.bring(
-            self.frames.list(),
+            self.bodies.frames.list(),
             |turn| right[tree.turns[turn]],
             |link| match &tree.pins[link] {
                 Some(pin) => {

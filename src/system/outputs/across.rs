@@ -1,7 +1,8 @@
 //! How fast a line turns across itself.
 
+use crate::bodies::LineChain;
 use crate::math::space::{Vector, components};
-use crate::system::{Evaluation, LineChain, System};
+use crate::system::{Evaluation, System};
 
 impl<const D: usize> Evaluation<D> {
     /// Square of the largest angular velocity across the tangent, against space, at the nodes of a line, rad^2/s^2.

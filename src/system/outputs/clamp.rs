@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
-use crate::body::Marker;
+use crate::bodies::Marker;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, moment};
 use crate::system::System;
@@ -17,7 +17,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force (N) and moment (N m) of the ground on the section that a clamp holds.
     pub(super) fn clamped(&self, system: &System<D>, clamp: &Clamp) -> (Vector<D, N>, [N; 3]) {
         let (mut force, mut turning) = (Vector::zeros(), Vector3::zeros());
-        let Some((chain, j, xi)) = system.element_after(&clamp.line) else {
+        let Some((chain, j, xi)) = system.bodies.element_after(&clamp.line) else {
             return (force, turning.into());
         };
         // The element after the node, and the one before it.

@@ -11,8 +11,9 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Node, add_node, carried_node, map_node, no_node, product, turned};
+use crate::bodies::{Node, add_node, carried_node, map_node, no_node, product, turned};
 use crate::math::jet::{Jet, Number, part, set_part};
+use crate::system::joints::View;
 use crate::system::signal::Drive;
 use crate::system::{Evaluation, State, System, Workspace};
 
@@ -48,17 +49,20 @@ pub struct Derivatives<const D: usize> {
 impl<const D: usize> Derivatives<D> {
     /// Storage for a system.
     pub fn new(system: &System<D>) -> Self {
-        let nodes = vec![[[Jet::from_re(0.0); D]; 2]; system.reference.len()];
+        let nodes = vec![[[Jet::from_re(0.0); D]; 2]; system.bodies.reference.len()];
         let q = vec![0.0; system.coordinates()];
-        let none = vec![no_node(); system.reference.len()];
+        let none = vec![no_node(); system.bodies.reference.len()];
         let lambda = vec![0.0; system.constraints.len()];
         Self {
             values: Evaluation::new(system),
             f: nodes.clone(),
             pulled: nodes.clone(),
-            spin_rates: vec![Vector3::from_element(Jet::from_re(0.0)); system.frames.list().len()],
-            torques: vec![[Jet::from_re(0.0); 3]; system.frames.carried().len()],
-            carried_rates: vec![[Jet::from_re(0.0); 3]; system.frames.carried().len()],
+            spin_rates: vec![
+                Vector3::from_element(Jet::from_re(0.0));
+                system.bodies.frames.list().len()
+            ],
+            torques: vec![[Jet::from_re(0.0); 3]; system.bodies.frames.carried().len()],
+            carried_rates: vec![[Jet::from_re(0.0); 3]; system.bodies.frames.carried().len()],
             driven: nodes,
             q: [q.clone(), q],
             one: none.clone(),
@@ -203,22 +207,9 @@ impl<const D: usize> Derivatives<D> {
             *f = map_node(weight, Jet::from_re);
         }
         let values = &self.values;
-        if !system.winches().is_empty() {
-            let (motion, out) = ((&values.x[..], &values.v[..]), &mut self.f);
-            system.add_lengthening(&values.drives, motion, &mut self.pulled, out);
-        }
-        self.torques.fill([Jet::from_re(0.0); 3]);
-        if elastic {
-            for chain in &system.chains {
-                let longer = system.length_now(chain, &values.drives).longer();
-                chain.add_force_of((&values.x, &values.v), longer, &mut self.f);
-            }
-            for chain in &system.rod_chains {
-                let motion = (&values.x[..], &values.v[..]);
-                let out = (&mut self.f[..], &mut self.torques[..]);
-                chain.add_force_of(motion, &system.frames, out);
-            }
-        }
+        let motion = (&values.x[..], &values.v[..]);
+        let out = (&mut self.f[..], &mut self.torques[..]);
+        (system.bodies).add_forces_of(&values.drives, motion, out, &mut self.pulled, elastic);
         let at = values.instant(system);
         for load in &system.loads {
             load.add_force(at, &mut self.f);
@@ -231,13 +222,11 @@ impl<const D: usize> Derivatives<D> {
                     *x = carried_node(system.rotation, x, v);
                 }
                 self.other.fill(no_node());
-                system.add_inertia(-1.0, &self.one, &mut self.other);
+                system.bodies.add_inertia(-1.0, &self.one, &mut self.other);
                 add_order(&self.other, order, &mut self.f);
             }
-            for chain in &system.rod_chains {
-                let motion = (&values.x[..], &values.v[..]);
-                chain.add_turning(motion, system.rotation, &system.frames, &mut self.f);
-            }
+            let motion = (&values.x[..], &values.v[..]);
+            (system.bodies).add_turning(system.rotation, motion, &mut self.f);
         }
     }
 
@@ -264,8 +253,7 @@ impl<const D: usize> Derivatives<D> {
             }
         }
         let (x, v) = (&self.values.x, &self.values.v);
-        system.frames.add_centripetal((x, v), &mut self.driven);
-        system.add_lengthened(&self.values.drives, (x, v), &mut self.driven);
+        (system.bodies).add_bias(&self.values.drives, (x, v), &mut self.driven);
         if !system.constraints.is_empty() {
             self.turn_constraints(system, k, work);
         }
@@ -297,23 +285,30 @@ impl<const D: usize> Derivatives<D> {
 
     /// Derivative `k` of forces on the nodes; of moments on rigid bodies of space, along their axes.
     fn pull(&mut self, system: &System<D>, k: usize, work: &mut Workspace<D>) {
-        if system.frames.is_empty() && system.winches().is_empty() {
+        if system.bodies.has_identity_map() {
             return take(&self.f, k, &mut self.one);
         }
         self.pulled.copy_from_slice(&self.f);
-        system.pull_back(&self.values.drives, &mut self.pulled);
-        let (x, v) = (&self.values.x, &self.values.v);
-        system.frames.pull_back((x, Some(v)), &mut self.pulled);
-        system.add_rod_forces((x, v), &self.torques, &mut self.pulled);
+        let (motion, drives) = (
+            (&self.values.x[..], &self.values.v[..]),
+            &self.values.drives,
+        );
+        (system.bodies).pull_back_motion(drives, motion, &self.torques, &mut self.pulled);
         take(&self.pulled, k, &mut self.one);
         let elimination = &system.elimination;
         elimination.expand(&work.acceleration, &mut work.scratch.y, &mut self.other);
-        for (frame, rate) in system.frames.list().iter().zip(&mut self.spin_rates) {
+        for (frame, rate) in system.bodies.frames.list().iter().zip(&mut self.spin_rates) {
             for (rate, value) in rate.iter_mut().zip(&self.other[frame.node][1]) {
                 rate.re = *value;
             }
         }
-        for (frame, rate) in system.frames.carried().iter().zip(&mut self.carried_rates) {
+        for (frame, rate) in system
+            .bodies
+            .frames
+            .carried()
+            .iter()
+            .zip(&mut self.carried_rates)
+        {
             let found = self.other[frame.node][1].iter();
             for (rate, value) in rate.iter_mut().zip(found) {
                 rate.re = *value;
@@ -323,7 +318,7 @@ impl<const D: usize> Derivatives<D> {
 
     /// Derivative `k` of accelerations of axes, from that of angular accelerations in their places.
     fn turn_axes(&mut self, system: &System<D>, k: usize) {
-        let frames = system.frames.list().iter();
+        let frames = system.bodies.frames.list().iter();
         for (frame, spin_rate) in frames.zip(&mut self.spin_rates) {
             let found = &self.other[frame.node][1];
             for (rate, value) in spin_rate.iter_mut().zip(found) {
@@ -345,7 +340,7 @@ impl<const D: usize> Derivatives<D> {
 
     /// Computes derivative `k` of the accelerations of section axes.
     fn turn_carried(&mut self, system: &System<D>, k: usize) {
-        let frames = system.frames.carried().iter();
+        let frames = system.bodies.frames.carried().iter();
         for (frame, spin_rate) in frames.zip(&mut self.carried_rates) {
             for (rate, value) in spin_rate.iter_mut().zip(&self.other[frame.node][1]) {
                 set_part(rate, k, *value);
@@ -381,9 +376,9 @@ impl<const D: usize> Derivatives<D> {
             let bias = constraint.bias(&view);
             let mut right = -part(bias, k);
             right -= part(constraint.along(&view, &self.driven), k);
-            constraint.for_each_pulled((&view, &system.frames), |node, term| {
+            constraint.for_each_pulled((&view, &system.bodies.frames), |node, term| {
                 // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
-                let term = system.shortened(node, view.drives, term);
+                let term = system.bodies.shortened(node, view.drives, term);
                 for order in 1..=k {
                     let times = if (k, order) == (2, 1) { 2.0 } else { 1.0 };
                     let term = map_node(&term, |term| part(term, order));
@@ -406,25 +401,37 @@ impl<const D: usize> Derivatives<D> {
         for k in 0..=order {
             take(&self.values.acceleration, k, &mut self.one);
             self.other.fill(no_node());
-            system.add_inertia(1.0, &self.one, &mut self.other);
+            system.bodies.add_inertia(1.0, &self.one, &mut self.other);
             add_order(&self.other, k, &mut self.values.linear_constraint_forces);
         }
         self.lengthen_supply(system);
-        let mut linear_constraint_forces =
-            std::mem::take(&mut self.values.linear_constraint_forces);
-        let view = self.values.view(system);
-        for (constraint, lambda) in system.constraints.iter().zip(&self.values.lambda) {
+        let Evaluation {
+            x,
+            v,
+            drives,
+            travel,
+            angles,
+            released,
+            lambda,
+            linear_constraint_forces: found,
+            ..
+        } = &mut self.values;
+        let view = View {
+            x,
+            v,
+            drives,
+            bodies: &system.bodies,
+            travel,
+            angles,
+            released,
+        };
+        for (constraint, lambda) in system.constraints.iter().zip(lambda) {
             constraint.for_each(&view, |node, term| {
-                let linear_constraint_forces =
-                    linear_constraint_forces[node].as_flattened_mut().iter_mut();
-                for (linear_constraint_forces, term) in
-                    linear_constraint_forces.zip(term.as_flattened())
-                {
-                    *linear_constraint_forces += *term * *lambda;
-                }
+                let found = found[node].as_flattened_mut().iter_mut();
+                (found.zip(term.as_flattened()))
+                    .for_each(|(found, term)| *found += *term * *lambda);
             });
         }
-        self.values.linear_constraint_forces = linear_constraint_forces;
     }
 }
 

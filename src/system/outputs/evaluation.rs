@@ -2,15 +2,15 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Marker, Node, RigidBodyFrame, RodChain, axes_at, combined, spin_at};
-use crate::elements::{Element, Nodal};
+use crate::bodies::{Marker, Node, axes_at, combined, spin_at};
+use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::math::rotation::{NO_TURN, Quaternion};
-use crate::math::space::{Vector, axis, moment};
+use crate::math::space::{Vector, axis};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
 use crate::system::motion::forces::weighted;
-use crate::system::{Attachment, DrivenSystem, LineChain, State, System, Workspace};
+use crate::system::{Attachment, DrivenSystem, State, System, Workspace};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Storage for a system.
     pub fn new(system: &System<D>) -> Self {
         let zero = N::of(0.0);
-        let nodes = vec![[[zero; D]; 2]; system.reference.len()];
+        let nodes = vec![[[zero; D]; 2]; system.bodies.reference.len()];
         Self {
             time: zero,
             inputs: Vec::new(),
@@ -57,7 +57,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             angles: vec![zero; system.angles.len()],
             travel: vec![zero; system.slides.len()],
             drives: vec![[zero; 3]; system.drives.len()],
-            frames: vec![NO_TURN; system.frames.count()],
+            frames: vec![NO_TURN; system.bodies.frames.count()],
             released: vec![false; system.releases.len()],
         }
     }
@@ -134,9 +134,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Axial strain and curvature (1/m) at a marker of a cable; zero elsewhere. At a node they are those just after it,
     /// but at the last end.
     pub fn strain(&self, system: &System<D>, marker: &Marker) -> (N, N) {
-        let at = system.element_after(marker);
+        let at = system.bodies.element_after(marker);
         at.map_or((N::of(0.0), N::of(0.0)), |(chain, j, xi)| {
-            let by = system.length_now(chain, &self.drives).by;
+            let by = system.bodies.length_now(chain, &self.drives).by;
             let e = chain.element(j, &self.x) * by;
             let element = &chain.elements()[j];
             let curvature = element.strain(&e, xi).1 * by;
@@ -147,7 +147,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Principal axes of the rigid body of space that a marker belongs to, in global components; the global ones where it
     /// belongs to none.
     pub fn axes(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 3] {
-        if system.frames.has_axes(marker.nodes[0]) {
+        if system.bodies.frames.has_axes(marker.nodes[0]) {
             axes_at(marker.nodes[0], &self.x).map(<[N; 3]>::from)
         } else {
             std::array::from_fn(|k| axis::<3, N>(k).into())
@@ -157,7 +157,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Quaternion of the principal axes that the state holds of the body that a marker belongs to: less than half a turn from
     /// the one now.
     pub fn held(&self, system: &System<D>, marker: &Marker) -> Quaternion {
-        let index = system.frames.index_of(marker.nodes[0]);
+        let index = system.bodies.frames.index_of(marker.nodes[0]);
         index.map_or(NO_TURN, |index| self.frames[index])
     }
 
@@ -165,7 +165,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// body.
     pub fn spin(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
         let node = marker.nodes[0];
-        if !system.frames.has_axes(node) {
+        if !system.bodies.frames.has_axes(node) {
             let spin = Attachment::<D, N>::Body(marker.lift()).spin(&self.x, &self.v);
             return [N::of(0.0), N::of(0.0), spin];
         }
@@ -177,7 +177,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn spin_rate(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
         let (x, v, a) = (&self.x, &self.v, &self.acceleration);
         let node = marker.nodes[0];
-        if !system.frames.has_axes(node) {
+        if !system.bodies.frames.has_axes(node) {
             let rate = Attachment::<D, N>::Body(marker.lift()).spin_rate(x, v, a);
             return [N::of(0.0), N::of(0.0), rate];
         }
@@ -195,10 +195,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             drives: &self.drives,
             x: &self.x,
             v: &self.v,
-            chains: &system.chains,
-            sections: (&system.rod_chains, &system.frames),
+            bodies: &system.bodies,
             angles: (&system.angles, &self.angles),
-            winches: &system.winches,
         }
     }
 
@@ -207,7 +205,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             x: &self.x,
             v: &self.v,
             drives: &self.drives,
-            chains: &system.chains,
+            bodies: &system.bodies,
             travel: &self.travel,
             angles: &self.angles,
             released: &self.released,
@@ -218,16 +216,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn power(&self, system: &System<D>) -> [N; 2] {
         let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
         let (at, view) = (self.instant(system), self.view(system));
-        let powers = (system.chains.iter()).map(|chain| {
-            let longer = system.length_now(chain, &self.drives).longer();
-            chain.dissipation((&self.x, &self.v), longer)
-        });
-        let by_rods = system.rod_chains().iter();
-        let motion = (&self.x[..], &self.v[..]);
-        let by_rods = by_rods.map(|chain| chain.dissipation(motion, &system.frames));
-        let by_cables = powers
-            .chain(by_rods)
-            .fold(N::of(0.0), |sum, power| sum + power);
+        let by_bodies = (system.bodies).dissipation(&self.drives, (&self.x, &self.v));
         let rate_of = |place: usize| {
             let target = &system.linear[system.driven[place].row].target;
             target.derivatives(&self.drives)[1]
@@ -236,7 +225,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             at,
             &view,
             rate_of,
-            (&self.linear_constraint_forces, by_cables),
+            (&self.linear_constraint_forces, by_bodies),
             multiplied,
         )
     }
@@ -253,17 +242,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Kinetic energy, J.
     pub fn kinetic_energy(&self, system: &System<D>) -> N {
-        system.kinetic(&self.drives, (&self.x, &self.v))
+        (system.bodies).kinetic(&self.drives, (&self.x, &self.v))
     }
 
     /// Strain energy, J.
     pub fn strain_energy(&self, system: &System<D>) -> N {
-        let energies = system
-            .chains
-            .iter()
-            .map(|chain| chain.strain_energy(&self.x, system.length_now(chain, &self.drives).by))
-            .chain((system.rod_chains().iter()).map(|chain| chain.strain_energy(&self.x)));
-        energies.fold(N::of(0.0), |sum, energy| sum + energy)
+        system.bodies.strain_energy(&self.drives, &self.x)
     }
 
     /// Energy in springs, J.
@@ -278,131 +262,25 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn gravity_energy(&self, system: &System<D>) -> N {
         let falls = system.weight.iter().zip(&self.x);
         let mut fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
-        for winch in system.winches() {
-            let more = N::of(1.0) / winch.now(&self.drives).by - N::of(1.0);
-            let sum = self.sum_of(&system.chains[winch.chain]);
-            fall += sum.dot(&system.gravity.map(N::of)) * more;
-        }
+        fall += (system.bodies).fall_of_paid_out(system.gravity, &self.drives, &self.x);
         if !system.is_turning() {
             return -fall;
         }
-        -fall - system.centrifugal(&self.x)
+        -fall - system.bodies.centrifugal(system.rotation, &self.x)
     }
 
     /// Momentum (kg m/s) and angular momentum about the origin (kg m^2/s), in the plane its third component.
     pub fn momentum(&self, system: &System<D>) -> (Vector<D, N>, [N; 3]) {
-        let (mut linear, mut angular) = (Vector::zeros(), Vector3::zeros());
-        let mut add = |x: Vector<D, N>, p: Vector<D, N>, translates: bool| {
-            if translates {
-                linear += p;
-            }
-            angular += Vector3::from(moment(&x, &p));
-        };
-        for chain in &system.chains {
-            let paid_out = system.paid_out(chain, &self.drives);
-            for (j, element) in chain.elements().iter().enumerate() {
-                let x: Nodal<D, N> = chain.element(j, &self.x);
-                let mut p = chain.element(j, &self.v) * element.mass().map(N::of);
-                if let Some((winch, now)) = &paid_out {
-                    p = p / now.by + winch.passing_momentum(chain, j, &self.x, now);
-                }
-                for k in 0..4 {
-                    add(x.column(k).into(), p.column(k).into(), k % 2 == 0);
-                }
-            }
-        }
-        for lump in &system.lumped_masses {
-            let marker = lump.marker.lift();
-            let (m, j) = (N::of(lump.moved()), N::of(lump.inertia));
-            let (x, d) = (marker.position(&self.x), marker.direction(&self.x));
-            let (p, s) = (marker.position(&self.v) * m, marker.direction(&self.v) * j);
-            add(x, p, true);
-            add(d, s, false);
-        }
-        for (node, part, mass) in system.frames.list().iter().flat_map(RigidBodyFrame::masses) {
-            let [x, v] = [&self.x, &self.v].map(|of| Vector::from(of[node][part]));
-            add(x, v * N::of(mass), system.is_center(node, part));
-        }
-        for chain in system.rod_chains() {
-            let motion = (&self.x[..], &self.v[..]);
-            chain.for_each_momentum(motion, &system.frames, |frame, momentum| {
-                angular += combined(&frame.axes(&self.x), &momentum.into());
-            });
-            if D == 2 {
-                angular[2] += chain.planar_momentum(motion, &system.frames);
-            }
-        }
-        (linear, angular.into())
+        (system.bodies).momentum(&self.drives, (&self.x, &self.v))
     }
 
     /// Center of mass, m.
     pub fn center_of_mass(&self, system: &System<D>) -> Vector<D, N> {
-        let (mut sum, mut mass) = (Vector::zeros(), N::of(system.mass()));
-        for chain in &system.chains {
-            let longer = N::of(1.0) / system.length_now(chain, &self.drives).by;
-            sum += self.sum_of(chain) * longer;
-            mass += (longer - N::of(1.0)) * N::of(chain.mass());
-        }
-        for lump in &system.lumped_masses {
-            sum += lump.marker.lift().position(&self.x) * N::of(lump.mass);
-        }
-        for frame in system.frames.list() {
-            sum += Vector::from(self.x[frame.node][0]) * N::of(frame.mass);
-        }
-        sum / mass
-    }
-
-    /// Sum of the positions of a chain of its reference length, each times its mass, kg m.
-    fn sum_of(&self, chain: &LineChain<D>) -> Vector<D, N> {
-        let mut sum = Vector::zeros();
-        for (j, element) in chain.elements().iter().enumerate() {
-            sum += chain.element(j, &self.x) * element.weight().map(N::of);
-        }
-        sum
+        (system.bodies).center_of_mass(&self.drives, &self.x)
     }
 }
 
 impl<const D: usize> System<D> {
-    /// Whether a vector of a rigid body of space is its centre of mass.
-    fn is_center(&self, node: usize, part: usize) -> bool {
-        part == 0 && matches!(self.frames.of_node::<D>(node), Some((_, false)))
-    }
-
-    /// Chain, element and place inside it of a marker of a cable.
-    pub(in crate::system) fn element(
-        &self,
-        marker: &Marker,
-    ) -> Option<(&LineChain<D>, usize, f64)> {
-        let first = self.bodies[marker.body].start;
-        let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;
-        let (j, xi) = match self.sections(chain) {
-            Some(sections) if marker.element.is_none() => sections.element_at(marker.nodes[0]),
-            _ => marker.element?,
-        };
-        Some((chain, j, xi))
-    }
-
-    /// Bending and torsion of a rod whose line is this chain.
-    pub fn sections(&self, chain: &LineChain<D>) -> Option<&RodChain> {
-        let first = chain.nodes(0)[0];
-        self.rod_chains().iter().find(|rod| rod.line() == first)
-    }
-
-    /// Returns the chain, the element and the place inside it of a marker of a cable. At an inner node it is the
-    /// element after the node.
-    pub(in crate::system) fn element_after(
-        &self,
-        marker: &Marker,
-    ) -> Option<(&LineChain<D>, usize, f64)> {
-        let (chain, j, xi) = self.element(marker)?;
-        let is_before = xi == 1.0 && j + 1 < chain.elements().len();
-        Some(if is_before {
-            (chain, j + 1, 0.0)
-        } else {
-            (chain, j, xi)
-        })
-    }
-
     /// Multiplier of a linear row from the forces that rows supply; zero for one that repeats others.
     pub(super) fn row_multiplier<N: Number>(
         &self,

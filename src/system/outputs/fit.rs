@@ -9,13 +9,13 @@
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
-use crate::body::{Marker, Node, axes_at};
+use crate::bodies::{LineChain, Marker, Node, axes_at};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::rotation::axes;
 use crate::math::space::{Vector, components};
-use crate::system::{Evaluation, LineChain, System};
+use crate::system::{Evaluation, System};
 
 /// Weight of section frames beside places in the fit of a rod or beam of space: what places leave open, the roll about a straight
 /// line, the frames decide, and nothing else noticeably.
@@ -57,7 +57,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         chain: &LineChain<D>,
         drawn: &[Node<D>],
     ) -> RigidFit<N> {
-        let by = system.length_now(chain, &self.drives).longer_by();
+        let by = system.bodies.length_now(chain, &self.drives).longer_by();
         let (drawn_mean, mean) = self.means(chain, drawn);
         let mut moments = Matrix3::<N>::zeros();
         let mut inertia = Matrix3::<f64>::zeros();
@@ -93,7 +93,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         drawn: &[Node<D>],
         (mut moments, inertia): (Matrix3<N>, Matrix3<f64>),
     ) -> [Vector3<N>; 3] {
-        if let Some(sections) = system.sections(chain) {
+        if let Some(sections) = system.bodies.sections(chain) {
             let weight = FRAMES * inertia.trace() / chain.length();
             for j in 0..sections.count() {
                 let (before, now) = (sections.at(j, drawn).axes, sections.at(j, &self.x).axes);
@@ -126,12 +126,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         marker: &Marker,
         from: Option<&Marker>,
     ) -> [N; 3] {
-        let first = system.bodies()[marker.body].start;
-        let chain = system.chains().iter().find(|c| c.nodes(0)[0] == first);
+        let first = system.bodies().ranges[marker.body].start;
+        let chain = system.bodies.chains.iter().find(|c| c.nodes(0)[0] == first);
         let Some(chain) = chain else {
             return [N::of(0.0); 3];
         };
-        let by = system.length_now(chain, &self.drives).longer_by();
+        let by = system.bodies.length_now(chain, &self.drives).longer_by();
         let as_drawn = |of: &Marker| full(of.position(drawn)).map(N::of) * by;
         let now = |of: &Marker| full(of.lift().position(&self.x));
         let fit = match from {
@@ -170,7 +170,7 @@ impl<const D: usize> Evaluation<D> {
         drawn: &[Node<D>],
     ) -> f64 {
         let fit = self.rigid_fit(system, chain, drawn);
-        let by = system.length_now(chain, &self.drives).longer_by();
+        let by = system.bodies.length_now(chain, &self.drives).longer_by();
         let first = chain.nodes(0)[0];
         let at = |x: &[Node<D>], node: usize| full(Vector::from(x[node][0]));
         let nodes = first..first + chain.node_count();

@@ -17,12 +17,12 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use crate::body::Node;
+use crate::bodies::{LineChain, Node};
 use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::math::rotation::rotation_vector;
 use crate::math::space::{Vector, components};
-use crate::system::{Evaluation, LineChain, System};
+use crate::system::{Evaluation, System};
 
 /// An element that is bent uniformly by `w` rad is bent too far by about `w^5 / 240`.
 const STIFFENING: f64 = 1.0 / 240.0;
@@ -58,7 +58,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         // Curvatures are those by reference length, by which elements have not become longer.
         if largest > N::of(0.0) {
-            largest.root() * system.length_now(chain, &self.drives).longer_by()
+            largest.root() * system.bodies.length_now(chain, &self.drives).longer_by()
         } else {
             largest
         }
@@ -85,7 +85,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let [a, b] = sums.map(|sum| sum.norm_squared());
         let square = if a > b { a } else { b };
         if square > N::of(0.0) {
-            square.root() * system.length_now(chain, &self.drives).longer_by()
+            square.root() * system.bodies.length_now(chain, &self.drives).longer_by()
         } else {
             square
         }

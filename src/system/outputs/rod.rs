@@ -7,13 +7,13 @@ use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
 use super::section::integral;
-use crate::body::Marker;
+use crate::bodies::{Marker, RigidRod};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, carried, moment};
+use crate::system::System;
 use crate::system::end::Attachment;
 use crate::system::loads::PANELS;
-use crate::system::{RigidRod, System};
 
 /// Part of the length of a rod within which what acts is at one place.
 const ROUNDOFF: f64 = 1e-9;
@@ -123,7 +123,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         rod: &RigidRod,
         [from, to]: [f64; 2],
     ) -> (Vector<D, N>, Vector3<N>) {
-        let own = &system.lumped_masses[rod.mass];
+        let own = &system.bodies.lumped_masses[rod.mass];
         let [density, moved] = [own.mass, own.moved()].map(|mass| N::of(mass / rod.length));
         let at = Marker::rigid(0, rod.node, [from, 0.0]).lift();
         let [start, slope] = self.inertia_at(system, &at).map(|inertia| -inertia * moved);
@@ -188,7 +188,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         (is_on, is_own): (impl Fn(&Marker) -> bool, impl Fn(usize) -> bool),
         mut call: impl FnMut(&Attachment<D, N>, Forces<D, N>),
     ) {
-        for (index, lump) in system.lumped_masses.iter().enumerate() {
+        for (index, lump) in system.bodies.lumped_masses.iter().enumerate() {
             if !is_own(index) && is_on(&lump.marker) {
                 let marker = lump.marker.lift();
                 let [position, direction] = self.inertia_at(system, &marker);
@@ -224,12 +224,5 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 }
             });
         }
-    }
-}
-
-impl<const D: usize> System<D> {
-    /// The rod that a marker is on.
-    pub(super) fn rod(&self, marker: &Marker) -> Option<&RigidRod> {
-        self.rods.iter().find(|rod| rod.node == marker.nodes[0])
     }
 }

@@ -13,23 +13,24 @@
 use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
-use crate::body::Marker;
-use crate::elements::{Element, Nodal, shape};
+use crate::bodies::{LineChain, Marker};
+use crate::elements::shape::{self, Values};
+use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, GAUSS_5, QuadraturePoint, integrals_to};
 use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
-use crate::system::loads::{self, AppliedLoad, Values};
-use crate::system::{LineChain, System};
+use crate::system::System;
+use crate::system::loads::AppliedLoad;
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force that the element before a node of a cable exerts on the one after it (report Eq. 14), N:
     /// what the one before lacks for equilibrium. Joints and point loads at the node count with what
     /// comes after. Zero at the first end.
     pub fn connectivity_force(&self, system: &System<D>, marker: &Marker) -> Vector<D, N> {
-        if let Some(rod) = system.rod(marker) {
+        if let Some(rod) = system.bodies.rod(marker) {
             return self.rod_force(system, rod, marker);
         }
-        let Some((chain, j, xi)) = system.element(marker) else {
+        let Some((chain, j, xi)) = system.bodies.element(marker) else {
             return Vector::zeros();
         };
         let element = if xi < 0.5 { j.wrapping_sub(1) } else { j };
@@ -50,10 +51,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Force (N) and bending moment (N m) in a section, of the part after on the part before; the latter as of [`Self::section`].
     pub(super) fn cut(&self, system: &System<D>, marker: &Marker) -> (Vector<D, N>, [N; 3]) {
-        if let Some(rod) = system.rod(marker) {
+        if let Some(rod) = system.bodies.rod(marker) {
             return self.rod_section(system, rod, marker);
         }
-        let Some((chain, j, xi)) = system.element_after(marker) else {
+        let Some((chain, j, xi)) = system.bodies.element_after(marker) else {
             return (Vector::zeros(), [N::of(0.0); 3]);
         };
         let (part, e) = (&chain.elements()[j], chain.element(j, &self.x));
@@ -98,7 +99,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
         let load = self.distributed(system, chain.nodes(0)[0]);
         let changing = self.changing(system, (chain.nodes(0)[0], j));
-        let longer = N::of(1.0) / system.length_now(chain, &self.drives).by;
+        let longer = N::of(1.0) / system.bodies.length_now(chain, &self.drives).by;
         let force = |xi: f64| {
             let (weight, moved) = (part.weight_before(xi), part.moved_before(xi));
             let gravity = system.gravity * (weight[0] + weight[2]);
@@ -136,19 +137,19 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         (chain, j): (&LineChain<D>, usize),
     ) -> (Nodal<D, N>, [Vector3<N>; 2]) {
         let part = &chain.elements()[j];
-        let now = system.length_now(chain, &self.drives);
+        let now = system.bodies.length_now(chain, &self.drives);
         let (mut lack, _) = chain.force_of(j, (&self.x, &self.v), now.longer());
         let weight = (system.gravity * part.weight().transpose()).map(N::of);
         lack += (weight - self.inertia(system, (chain, j)) * part.mass().map(N::of)) / now.by;
         let weights = shape::integrals(N::of(1.0), part.length());
         lack += self.distributed(system, chain.nodes(0)[0]) * weights.transpose();
         if let Some(values) = self.changing(system, (chain.nodes(0)[0], j)) {
-            lack += loads::on_coordinates(&values, part.length());
+            lack += shape::on_coordinates(&values, part.length());
         }
         let mut torques = [Vector3::zeros(); 2];
-        if let Some(sections) = system.sections(chain) {
+        if let Some(sections) = system.bodies.sections(chain) {
             let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
-            let mut force = sections.lack(j, motion, (system.rotation, &system.frames));
+            let mut force = sections.lack(j, motion, (system.rotation, &system.bodies.frames));
             if let Some(moments) = self.moments(system, (chain, j)) {
                 force.add(&sections.loaded(j, &self.x, &moments.map(Into::into)));
             }
@@ -178,7 +179,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut sum = Vector::zeros();
         for load in &system.loads {
             if let AppliedLoad::DistributedForce(load) = load
-                && load.first_node(&system.chains) == first
+                && load.first_node(&system.bodies.chains) == first
             {
                 sum += load.uniform(at);
             }
@@ -218,7 +219,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let AppliedLoad::DistributedMoment(load) = load else {
                 continue;
             };
-            if system.rod_chains[load.on].line() == first {
+            if system.bodies.rod_chains[load.on].line() == first {
                 let sum = sum.get_or_insert([Vector3::zeros(); GAUSS_5.len()]);
                 let moments = load.moments(at, j).map(Vector3::from);
                 sum.iter_mut().zip(moments).for_each(|(sum, m)| *sum += m);

@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
-use crate::body::Marker;
+use crate::bodies::Marker;
 use crate::math::jet::Number;
 use crate::math::space::{axis, components};
 use crate::system::System;

@@ -16,7 +16,9 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::probe::{NodeBlocks, Nodes, Probe, SKEW};
 use super::rods::RodElastic;
-use crate::body::{Elimination, Node, RotationMaps, SparseRows, no_block, no_node, turning_block};
+use crate::bodies::{
+    Elimination, Node, RotationMaps, SparseRows, no_block, no_node, turning_block,
+};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number};
 use crate::math::space::{Vector, spin_matrix, spun};
@@ -99,7 +101,7 @@ impl<const D: usize> System<D> {
         let mut elsewhere = Vec::new();
         for (constraint, lambda) in self.constraints.iter().zip(&work.constraints.lambda) {
             let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);
-            let blocks = blocks.pulled(&self.frames, &work.kinematics.x);
+            let blocks = blocks.pulled(&self.bodies.frames, &work.kinematics.x);
             let assembly = &self.elimination.assembly;
             blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
                 elsewhere.push((r, c, value));
@@ -132,7 +134,7 @@ impl<const D: usize> System<D> {
     ) {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
-        for chain in &self.chains {
+        for chain in &self.bodies.chains {
             let is_damped = chain.is_damped() && !at_rest;
             let moves = is_damped && work.kinematics.v.iter().any(|v| *v != no_node());
             made.is_damped |= is_damped;
@@ -209,7 +211,7 @@ impl<const D: usize> System<D> {
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
             for (part, nodes) in load
-                .parts(&self.chains, &self.rod_chains)
+                .parts(&self.bodies.chains, &self.bodies.rod_chains)
                 .iter()
                 .enumerate()
             {
@@ -221,17 +223,15 @@ impl<const D: usize> System<D> {
                         drives: &drives,
                         x,
                         v,
-                        chains: &self.chains,
-                        sections: (&self.rod_chains, &self.frames),
+                        bodies: &self.bodies,
                         angles: (&self.angles, &angles),
-                        winches: &self.winches,
                     };
                     load.add_part(at, part, f);
                 };
                 let blocks = probe.differentiate(nodes, false, &force);
-                let mut blocks = blocks.pulled(&self.frames, &work.kinematics.x);
+                let mut blocks = blocks.pulled(&self.bodies.frames, &work.kinematics.x);
                 // Of a moment about the axis of a joint in space that is skew which the joint holds.
-                let has_potential = !self.frames.is_empty() && load.is_conservative();
+                let has_potential = !self.bodies.frames.is_empty() && load.is_conservative();
                 if !blocks.is_symmetric() && !has_potential {
                     made.follower.get_or_insert(index);
                     let zeros = || General::zeros(assembly.pattern());
@@ -243,10 +243,10 @@ impl<const D: usize> System<D> {
                     // Axes that turn change their rates where they are turned.
                     blocks.add_turned(
                         &by_rates,
-                        &self.frames,
+                        &self.bodies.frames,
                         (&work.kinematics.x, &work.kinematics.v),
                     );
-                    let by_rates = by_rates.pulled(&self.frames, &work.kinematics.x);
+                    let by_rates = by_rates.pulled(&self.bodies.frames, &work.kinematics.x);
                     by_rates.add(assembly, &mut made.damping, &mut none);
                 }
                 blocks.add(assembly, &mut made.stiffness, &mut none);
@@ -268,7 +268,7 @@ impl<const D: usize> System<D> {
     fn linearize_frames(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
-        for frame in self.frames.list() {
+        for frame in self.bodies.frames.list() {
             let node = (frame.node, frame.node);
             let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
             let turned = RotationMaps::geometric(
@@ -310,7 +310,12 @@ impl<const D: usize> System<D> {
         let (assembly, spin) = (&self.elimination.assembly, self.rotation);
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut centrifugal = Matrix::zeros(assembly.pattern());
-        self.add_centrifugal(&work.kinematics.x, &mut centrifugal);
+        (self.bodies).add_centrifugal(
+            self.rotation,
+            &work.kinematics.x,
+            assembly,
+            &mut centrifugal,
+        );
         made.stiffness.add_symmetric(1.0, &centrifugal);
         self.linearize_coriolis(work, made);
         let mut add = |nodes: &[usize], mass: &dyn Fn(Node<D>, usize, usize) -> Node<D>| {
@@ -333,7 +338,7 @@ impl<const D: usize> System<D> {
                 }
             }
         };
-        for chain in &self.chains {
+        for chain in &self.bodies.chains {
             for (j, element) in chain.elements().iter().enumerate() {
                 let (nodes, mass) = (chain.nodes(j), element.mass());
                 add(&nodes, &|x, a, b| {
@@ -345,8 +350,8 @@ impl<const D: usize> System<D> {
                 });
             }
         }
-        let mut scratch = vec![no_node(); self.reference.len()];
-        for lump in &self.lumped_masses {
+        let mut scratch = vec![no_node(); self.bodies.reference.len()];
+        for lump in &self.bodies.lumped_masses {
             let marker = lump.marker;
             let nodes = &marker.nodes[..if marker.is_nodal() { 1 } else { 2 }];
             let scratch = std::cell::RefCell::new(&mut scratch);
@@ -367,7 +372,7 @@ impl<const D: usize> System<D> {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
         let coriolis = spin_matrix::<D>(self.rotation) * 2.0;
-        for frame in self.frames.list() {
+        for frame in self.bodies.frames.list() {
             let nodes = [frame.node, frame.node + 1];
             let mut whole = DMatrix::zeros(4 * D, 4 * D);
             for (node, part, mass) in frame.masses() {
@@ -380,11 +385,11 @@ impl<const D: usize> System<D> {
             let mut blocks = NodeBlocks::new(&[frame.node], DMatrix::zeros(2 * D, 2 * D));
             blocks.add_turned(
                 &by_rates,
-                &self.frames,
+                &self.bodies.frames,
                 (&work.kinematics.x, &work.kinematics.v),
             );
             blocks.add(assembly, &mut made.stiffness, &mut none);
-            let by_rates = by_rates.pulled(&self.frames, &work.kinematics.x);
+            let by_rates = by_rates.pulled(&self.bodies.frames, &work.kinematics.x);
             by_rates.add(assembly, &mut made.damping, &mut none);
         }
     }
@@ -404,9 +409,9 @@ impl<const D: usize> System<D> {
             .map(|d| d.map(Jet::from_re))
             .collect();
         let angles: Vec<Jet> = work.kinematics.angles.iter().map(lift).collect();
-        let mut nodes = constraint.nodes(&self.chains);
+        let mut nodes = constraint.nodes(&self.bodies.chains);
         if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
-            let chain = &self.chains[along.chain];
+            let chain = &self.bodies.chains[along.chain];
             let (element, _) = chain.find(work.kinematics.travel[along.slide]);
             nodes = chain
                 .nodes(element)
@@ -418,13 +423,13 @@ impl<const D: usize> System<D> {
             let mut travel: Vec<Jet> = work.kinematics.travel.iter().map(lift).collect();
             if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
                 let place = &mut travel[along.slide];
-                *place = along.travel(&self.chains[along.chain], x, *place);
+                *place = along.travel(&self.bodies.chains[along.chain], x, *place);
             }
             let view = View {
                 x,
                 v,
                 drives: &drives,
-                chains: &self.chains,
+                bodies: &self.bodies,
                 travel: &travel,
                 angles: &angles,
                 released: &work.kinematics.released,

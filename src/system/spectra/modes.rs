@@ -6,7 +6,7 @@ use super::dense::ROUNDOFF;
 use super::iteration::{self, NoEigenvalues, SLOW};
 use super::linearization::Linearization;
 use super::spectrum::{MIDDLE, SpectrumError, at_rest, is_small};
-use crate::body::no_node;
+use crate::bodies::no_node;
 use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// A natural mode without dampers.

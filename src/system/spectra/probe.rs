@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::body::{Assembly, Node, NodeBlock, RotationMaps, map_node, no_block};
+use crate::bodies::{Assembly, Node, NodeBlock, RotationMaps, map_node, no_block};
 use crate::elements;
 use crate::math::jet::Jet;
 use crate::math::sparse::General;

@@ -1,6 +1,6 @@
 //! Slow responses about a state: displacements that grow as `e^(s t)` under forces that do.
 
-use crate::body::no_node;
+use crate::bodies::no_node;
 use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// Solves `(s^2 I + K) d = a` for accelerations `a` that forces make at a state, without dampers and rates; `rate` is `s`, 1/s. Where

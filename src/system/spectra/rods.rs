@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::linearization::Linearization;
 use super::probe::{Nodes, Probe};
-use crate::body::{Node, RodChain, RotationMaps};
+use crate::bodies::{Node, RodChain, RotationMaps};
 use crate::elements::beam::VELOCITIES;
 use crate::elements::rod::Tangent;
 use crate::math::sparse::Matrix;
@@ -32,12 +32,12 @@ impl RodElastic<'_> {
 impl<const D: usize> System<D> {
     /// Adds the geometric stiffness of forces on section axes, which rotate.
     pub(super) fn linearize_carried(&self, work: &Workspace<D>, made: &mut Linearization<'_, D>) {
-        if self.frames.carried().is_empty() {
+        if self.bodies.frames.carried().is_empty() {
             return;
         }
         let assembly = &self.elimination.assembly;
         let mut stiffness = Matrix::zeros(assembly.pattern());
-        for frame in self.frames.carried() {
+        for frame in self.bodies.frames.carried() {
             RotationMaps::geometric_of_carried(
                 frame,
                 &work.forces.linear_constraint_forces,
@@ -62,23 +62,23 @@ impl<const D: usize> System<D> {
         }
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
-        for chain in &self.rod_chains {
+        for chain in &self.bodies.rod_chains {
             for j in 0..chain.count() {
                 let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
-                    let force = chain.turning(j, (x, v), self.rotation, &self.frames);
+                    let force = chain.turning(j, (x, v), self.rotation, &self.bodies.frames);
                     chain.add_load(j, &force, x, f);
                 };
                 let nodes = chain.all_nodes(j);
                 let blocks = probe.differentiate(&nodes, false, &force);
-                let mut blocks = blocks.pulled(&self.frames, &work.kinematics.x);
+                let mut blocks = blocks.pulled(&self.bodies.frames, &work.kinematics.x);
                 let by_rates = probe.differentiate(&nodes, true, &force);
                 blocks.add_turned(
                     &by_rates,
-                    &self.frames,
+                    &self.bodies.frames,
                     (&work.kinematics.x, &work.kinematics.v),
                 );
                 blocks.add(assembly, &mut made.stiffness, &mut none);
-                let by_rates = by_rates.pulled(&self.frames, &work.kinematics.x);
+                let by_rates = by_rates.pulled(&self.bodies.frames, &work.kinematics.x);
                 by_rates.add(assembly, &mut made.damping, &mut none);
             }
         }
@@ -91,15 +91,15 @@ impl<const D: usize> System<D> {
         at_rest: bool,
         made: &mut Linearization<'a, D>,
     ) {
-        if self.rod_chains.is_empty() {
+        if self.bodies.rod_chains.is_empty() {
             return;
         }
         let assembly = &self.elimination.assembly;
         let [mut stiffness, mut damping] = [0, 1].map(|_| Matrix::zeros(assembly.pattern()));
         let motion = (&work.kinematics.x[..], &work.kinematics.v[..]);
-        for chain in &self.rod_chains {
+        for chain in &self.bodies.rod_chains {
             let first = made.rods.len();
-            chain.for_each_tangent(motion, &self.frames, |kind, element, whole| {
+            chain.for_each_tangent(motion, &self.bodies.frames, |kind, element, whole| {
                 let whole = Whole::from_fn(|r, c| whole[r][c]);
                 match kind {
                     Tangent::Stiffness => made.rods.push(RodElastic {
@@ -113,10 +113,10 @@ impl<const D: usize> System<D> {
                 }
             });
             let matrices = [&mut stiffness, &mut damping];
-            chain.add_tangent(motion, &self.frames, assembly, matrices);
+            chain.add_tangent(motion, &self.bodies.frames, assembly, matrices);
         }
         made.stiffness.add_symmetric(1.0, &stiffness);
-        if !at_rest && self.rod_chains.iter().any(RodChain::is_damped) {
+        if !at_rest && self.bodies.rod_chains.iter().any(RodChain::is_damped) {
             made.is_damped = true;
             made.damping.add_symmetric(1.0, &damping);
         }

@@ -7,7 +7,7 @@
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU, SMatrix};
 
 use super::linearization::{Elastic, Linearization};
-use crate::body::{Node, add_node, no_node};
+use crate::bodies::{Node, add_node, no_node};
 use crate::elements::{Blocks, Nodal};
 use crate::math::row_space::RowSpace;
 use crate::math::space::Vector;

@@ -8,7 +8,7 @@ use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
 use super::dense::{general, noise, quadratic, roots, sort, symmetric};
 use super::iteration::{self, NoEigenvalues};
 use super::linearization::Linearization;
-use crate::body::{Node, add_node, no_node};
+use crate::bodies::{Node, add_node, no_node};
 use crate::math::space::{Vector, components};
 use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
@@ -180,10 +180,15 @@ pub fn eigenvalues<const D: usize>(
     refuse_paid_out(system, work, false)?;
     refuse_driven(system, work)?;
     // How a thin rod turns about itself nobody knows.
-    let thin = system.frames.list().iter().filter(|frame| frame.is_thin());
+    let thin = system
+        .bodies
+        .frames
+        .list()
+        .iter()
+        .filter(|frame| frame.is_thin());
     let spins = thin.map(|frame| frame.spin(&work.kinematics.x, &work.kinematics.v).norm());
     // Nor are gyroscopic terms of rods held here.
-    let of_rods = system.frames.carried().iter();
+    let of_rods = system.bodies.frames.carried().iter();
     let of_rods = of_rods.map(|frame| {
         frame
             .velocity(&work.kinematics.x, &work.kinematics.v)
@@ -246,10 +251,10 @@ fn refuse_paid_out<const D: usize>(
     work: &Workspace<D>,
     at_rest: bool,
 ) -> Result<(), SpectrumError> {
-    for winch in system.winches() {
-        let [travel, rate, _] = work.kinematics.drives[winch.drive];
+    for winch in &system.bodies.winches {
+        let [travel, rate, _] = work.kinematics.drives[winch.coordinate];
         if travel.abs() > 1e-9 * winch.length || !(at_rest || rate == 0.0) {
-            let mut bodies = system.bodies.iter();
+            let mut bodies = system.bodies.ranges.iter();
             let body = bodies.position(|nodes| nodes.contains(&winch.nodes[0]));
             return Err(SpectrumError::PaidOut(
                 body.expect("a winch pays out a body"),
@@ -271,15 +276,15 @@ fn refuse_turning<const D: usize>(
     let elimination = &system.elimination;
     let (mut y, mut v) = (
         vec![0.0; elimination.scratch()],
-        vec![no_node(); system.reference.len()],
+        vec![no_node(); system.bodies.reference.len()],
     );
     elimination.expand(&state.coordinates, &mut y, &mut v);
     let mut x = v.clone();
-    for (x, reference) in x.iter_mut().zip(&system.reference) {
+    for (x, reference) in x.iter_mut().zip(&system.bodies.reference) {
         add_node(x, 1.0, reference);
     }
     elimination.expand(&state.rates, &mut y, &mut v);
-    for chain in &system.chains {
+    for chain in &system.bodies.chains {
         let first = chain.nodes(0)[0];
         let shared = rotation(&x, &v, first..first + chain.node_count());
         let Some(turn) = shared.filter(|turn| turn.norm() > 0.0) else {
@@ -310,7 +315,7 @@ fn refuse_driven<const D: usize>(
     {
         return Ok(());
     }
-    let turns = system.chains.iter().map(|chain| {
+    let turns = system.bodies.chains.iter().map(|chain| {
         let first = chain.nodes(0)[0];
         rotation(
             &work.kinematics.x,
@@ -321,7 +326,7 @@ fn refuse_driven<const D: usize>(
     if let Some(turn) = turns.flatten().find(|turn| turn.norm() > 0.0) {
         return Err(SpectrumError::Turns(turn.norm()));
     }
-    let carried = system.frames.carried().iter();
+    let carried = system.bodies.frames.carried().iter();
     let rates = carried.map(|frame| {
         frame
             .velocity(&work.kinematics.x, &work.kinematics.v)
@@ -382,9 +387,9 @@ pub(super) fn at_rest<'a, const D: usize>(
     refuse_paid_out(system, work, true)?;
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
-        let parts = system.loads[load].parts(&system.chains, &system.rod_chains);
+        let parts = system.loads[load].parts(&system.bodies.chains, &system.bodies.rod_chains);
         let acted: Vec<usize> = parts.into_iter().flatten().collect();
-        let mut bodies = system.bodies.iter();
+        let mut bodies = system.bodies.ranges.iter();
         let body = bodies.position(|nodes| acted.iter().any(|node| nodes.contains(node)));
         return Err(SpectrumError::NotConservative(
             body.expect("a load acts on a body"),

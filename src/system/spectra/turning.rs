@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::linearization::Linearization;
-use crate::body::{Node, add_node, map_node, no_node};
+use crate::bodies::{Node, add_node, map_node, no_node};
 use crate::math::jet::{Jet, moving};
 use crate::math::row_space::RowSpace;
 use crate::math::space::{Vector, components, vector};
@@ -74,7 +74,7 @@ impl<const D: usize> System<D> {
             assembly.put(&y, &mut x);
             made.damping.multiply(assembly.pattern(), &x, &mut sum);
             assembly.take(&sum, &mut y);
-            for frame in self.frames.list() {
+            for frame in self.bodies.frames.list() {
                 let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
                 frame.add_moment(&-(frame.inertia_rate(&spin) * frame.read(unit)), &mut y);
             }
@@ -115,16 +115,16 @@ impl<const D: usize> System<D> {
             x: &x,
             v: &v,
             drives: &drives,
-            chains: &self.chains,
+            bodies: &self.bodies,
             travel: &travel,
             angles: &angles,
             released: &work.kinematics.released,
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
-            self.constraints[*row].for_each_pulled((&view, &self.frames), |node, term| {
+            self.constraints[*row].for_each_pulled((&view, &self.bodies.frames), |node, term| {
                 let mut change = map_node(term, |t| t.v1);
-                if let Some((frame, _)) = self.frames.of_node::<D>(node) {
+                if let Some((frame, _)) = self.bodies.frames.of_node::<D>(node) {
                     // Of rotations about axes that stand still.
                     let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
                     let moment = components(&term[1].map(|t| t.re).into());

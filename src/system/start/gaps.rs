@@ -6,33 +6,19 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::placement::Gap;
-use crate::body::{Node, NodeKind, product, turn_inner};
+use crate::bodies::{Node, NodeKind, product, turn_inner};
 use crate::math::space::{Vector, moment, rotated, spins};
 use crate::system::joints::{Constraint, ConstraintKind, Linear, View};
 use crate::system::{System, Workspace};
 
 impl<const D: usize> System<D> {
-    /// Points of nodes, without what are axes.
-    fn points<'a>(&'a self, x: &'a [Node<D>]) -> impl Iterator<Item = Vector<D>> + 'a {
-        let is_point = |node: &usize| self.frames.kind(*node) == NodeKind::Point;
-        (0..x.len()).filter(is_point).map(|node| x[node][0].into())
-    }
-
-    /// Largest distance from the first node, m; 1 where there is none.
-    pub(in crate::system) fn extent(&self, x: &[Node<D>]) -> f64 {
-        let first = Vector::from(x[0][0]);
-        let far = self.points(x).map(|point| (point - first).norm());
-        let largest = far.fold(0.0, f64::max);
-        if largest > 0.0 { largest } else { 1.0 }
-    }
-
     /// Returns the point that placement rotates a body about: the mean of its nodes, m.
     pub(super) fn center(&self, body: usize, x: &[Node<D>]) -> Vector<D> {
-        let nodes = self.bodies[body].clone();
-        if self.frames.of_node::<D>(nodes.start).is_some() {
+        let nodes = self.bodies.ranges[body].clone();
+        if self.bodies.frames.of_node::<D>(nodes.start).is_some() {
             return x[nodes.start][0].into();
         }
-        let points = nodes.filter(|node| self.frames.kind(*node) == NodeKind::Point);
+        let points = nodes.filter(|node| self.bodies.frames.kind(*node) == NodeKind::Point);
         let points: Vec<Vector<D>> = points.map(|node| x[node][0].into()).collect();
         points.iter().sum::<Vector<D>>() / points.len() as f64
     }
@@ -47,7 +33,7 @@ impl<const D: usize> System<D> {
     ) {
         for node in nodes {
             let [p, d] = x[node].map(Vector::from);
-            let p = match self.frames.kind(node) {
+            let p = match self.bodies.frames.kind(node) {
                 NodeKind::Point => about + way + rotated(p - about, turn),
                 NodeKind::Axes => rotated(p, turn),
                 NodeKind::Inner => {
@@ -61,7 +47,7 @@ impl<const D: usize> System<D> {
 
     /// Lists the position and angle gaps of every joint that exceed `least`, relative to the size of the system.
     pub(super) fn gaps_by_joint(&self, x: &[Node<D>], work: &Workspace<D>, least: f64) -> Vec<Gap> {
-        let size = self.extent(x);
+        let size = self.bodies.extent(x);
         let gaps = self.gaps(x, work, size);
         // Squares of the sines of angles, or of lengths, and how many.
         let mut sums: Vec<(Gap, usize)> = Vec::new();
@@ -126,7 +112,7 @@ impl<const D: usize> System<D> {
     pub(super) fn find_slides(&self, x: &[Node<D>], travel: &mut [f64]) {
         for (travel, constraint) in travel.iter_mut().zip(&self.slides) {
             if let ConstraintKind::PointOnCurve(along) = &self.constraints[*constraint].kind {
-                *travel = along.nearest(&self.chains[along.chain], x);
+                *travel = along.nearest(&self.bodies.chains[along.chain], x);
             }
         }
     }
@@ -134,7 +120,7 @@ impl<const D: usize> System<D> {
     /// Whether a row is one of what joints see: not that a rigid body of space has no coordinates but its own.
     fn is_seen(&self, linear: &Linear<D>) -> bool {
         let mut nodes = linear.row.terms.iter().map(|(node, _)| *node);
-        !nodes.any(|node| self.frames.holds(node))
+        !nodes.any(|node| self.bodies.frames.holds(node))
     }
 
     /// Returns the left-hand side of a row minus its target.
@@ -172,16 +158,16 @@ impl<const D: usize> System<D> {
     ) -> DMatrix<f64> {
         let count = self.linear.len() + self.all_constraints().count();
         let free = D + spins(D).len();
-        let mut jacobian = DMatrix::zeros(count, free * self.bodies.len());
+        let mut jacobian = DMatrix::zeros(count, free * self.bodies.ranges.len());
         let mut of_node = vec![0; x.len()];
-        for (body, nodes) in self.bodies.iter().enumerate() {
+        for (body, nodes) in self.bodies.ranges.iter().enumerate() {
             of_node[nodes.clone()].fill(body);
         }
         let mut enter = |row: usize, node: usize, c: &Node<D>, scale: f64| {
             let body = of_node[node];
             let about = self.center(body, x);
             let ([p, d], [on, by]) = (x[node].map(Vector::from), c.map(Vector::from));
-            let is_second = self.frames.kind(node) == NodeKind::Axes;
+            let is_second = self.bodies.frames.kind(node) == NodeKind::Axes;
             for k in (0..D).filter(|_| !is_second) {
                 jacobian[(row, free * body + k)] += on[k] * size / scale;
             }

@@ -1,7 +1,7 @@
 //! Systems in which nothing changes: loads and motions held as they are at an instant, loads at a fraction of
 //! their size, joints still apart by a fraction of their gaps. What equilibria are sought in.
 
-use crate::body::{Node, add_node, no_node};
+use crate::bodies::{Node, add_node, no_node};
 use crate::math::function::Function;
 use crate::math::space::{Vector, carried};
 use crate::system::loads::AppliedLoad;
@@ -52,10 +52,8 @@ impl<const D: usize> System<D> {
                 drives: &work.kinematics.drives,
                 x: &work.kinematics.x,
                 v: &work.kinematics.v,
-                chains: &self.chains,
-                sections: (&self.rod_chains, &self.frames),
+                bodies: &self.bodies,
                 angles: (&self.angles, &work.kinematics.angles),
-                winches: &self.winches,
             };
             *load = load.held(at, fraction);
         }
@@ -75,13 +73,13 @@ impl<const D: usize> System<D> {
     /// Turns about a point at a rate, rad/s: loads get the centrifugal force.
     pub(in crate::system) fn turn(&mut self, rate: [f64; 3], center: Vector<D>) {
         let arm = carried(rate, center, Vector::zeros());
-        let mut arms = vec![[arm.into(), [0.0; D]]; self.reference.len()];
-        for frame in self.frames.list() {
+        let mut arms = vec![[arm.into(), [0.0; D]]; self.bodies.reference.len()];
+        for frame in self.bodies.frames.list() {
             // Its second node holds axes alone.
             arms[frame.node + 1] = no_node();
         }
         let mut weight = std::mem::take(&mut self.weight);
-        self.add_inertia(1.0, &arms, &mut weight);
+        self.bodies.add_inertia(1.0, &arms, &mut weight);
         self.weight = weight;
         self.rotation = rate;
         // The Coriolis force is that of the rates at rest, not of those that the scratch still holds.
@@ -99,7 +97,7 @@ impl<const D: usize> System<D> {
 
     /// Holds joints apart by a fraction of their gaps.
     pub(in crate::system) fn open(&mut self, open: &OpenGaps<D>, fraction: f64) {
-        for (x, change) in self.reference.iter_mut().zip(&open.reference) {
+        for (x, change) in self.bodies.reference.iter_mut().zip(&open.reference) {
             add_node(x, fraction, change);
         }
         for (constraint, offset) in self.constraints.iter_mut().zip(&open.offsets) {

@@ -9,13 +9,13 @@ use nalgebra::{DVector, Vector3};
 
 use super::equilibrium;
 use super::held::OpenGaps;
-use crate::body::{Node, add_node, no_node};
+use crate::bodies::{LineChain, Node, add_node, no_node};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins};
 use crate::system::instant::Instant;
 use crate::system::joints::{ConstraintKind, View};
 use crate::system::loads::AppliedLoad;
-use crate::system::{DrivenSystem, Dynamics, LineChain, State, System, Workspace};
+use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// Most iterations.
 const ITERATIONS: usize = 200;
@@ -83,8 +83,8 @@ impl<const D: usize> System<D> {
         self.turn_driven(&mut x, work);
         let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
-        self.frames.keep_held(nodes, &mut x);
-        self.frames.frames_at(&x, &mut state.frames);
+        self.bodies.frames.keep_held(nodes, &mut x);
+        self.bodies.frames.frames_at(&x, &mut state.frames);
         work.resume(&state);
         self.forward_kinematics(time, &state.coordinates, None, work);
         match left {
@@ -149,7 +149,7 @@ impl<const D: usize> System<D> {
         work: &mut Workspace<D>,
         state: &mut State,
     ) -> Option<()> {
-        if self.chains.is_empty() {
+        if self.bodies.chains.is_empty() {
             return None;
         }
         let mut open = OpenGaps {
@@ -182,9 +182,14 @@ impl<const D: usize> System<D> {
         equilibrium::close(self, inputs, (&open, nodes), work, state).ok()?;
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
-        let gaps = self.gaps(&work.kinematics.x, work, self.extent(&work.kinematics.x));
+        let gaps = self.gaps(
+            &work.kinematics.x,
+            work,
+            self.bodies.extent(&work.kinematics.x),
+        );
         let fits = gaps.iter().all(|gap| gap.abs() <= CLOSE);
         let stretched = self
+            .bodies
             .chains
             .iter()
             .any(|c| c.mean_strain(&work.kinematics.x) > STRETCHED);
@@ -194,7 +199,7 @@ impl<const D: usize> System<D> {
     /// Size of the largest body, with what joins it: length of a cable, reach of the ends of joints from the centre
     /// of mass of a rigid body, length of a distance, m. 0 where there are only particles.
     pub fn body_size(&self) -> f64 {
-        let cables = self.chains.iter().map(LineChain::length);
+        let cables = self.bodies.chains.iter().map(LineChain::length);
         let joints = self.joints.iter().flat_map(|joint| {
             let reach = joint.ends.each_ref().map(|end| match end.marker() {
                 Some(marker) if marker.element.is_none() => marker.arm(),
@@ -232,18 +237,9 @@ impl<const D: usize> System<D> {
         work: &mut Workspace<D>,
         q: &mut [f64],
     ) {
-        self.gather_momentum(dx, &work.kinematics.x, &mut work.forces.f);
+        self.bodies
+            .momentum_of(dx, &work.kinematics.x, &mut work.forces.f);
         self.reduce_momentum(work, q);
-    }
-
-    /// `M dx` of a nodal displacement or velocity at coordinates `x`, over the nodes.
-    fn gather_momentum(&self, dx: &[Node<D>], x: &[Node<D>], momentum: &mut [Node<D>]) {
-        momentum.fill(no_node());
-        self.add_inertia(1.0, dx, momentum);
-        for chain in &self.rod_chains {
-            chain.add_spin_inertia((x, dx), &self.frames, momentum);
-        }
-        (self.frames).pull_back((x, None), momentum);
     }
 
     /// `T^T` of the momentum in `work.forces.f`, in terms of rotations.
@@ -268,16 +264,17 @@ impl<const D: usize> System<D> {
             change,
             ..
         } = &mut *work;
-        if !self.winches.is_empty() {
+        if !self.bodies.winches.is_empty() {
             let (drives, x) = (&kinematics.drives, &kinematics.x);
-            self.add_passing(drives, -1.0, x, &mut scratch.other);
-            self.pull_back(drives, &mut scratch.other);
+            self.bodies.add_passing(drives, -1.0, x, &mut scratch.other);
+            self.bodies.shorten(drives, &mut scratch.other);
             (self.elimination).reduce(&scratch.other, &mut scratch.y, change);
-            self.shorten_rates(drives, x, &mut kinematics.v);
+            self.bodies.shorten_rates(drives, x, &mut kinematics.v);
         }
-        self.gather_momentum(&kinematics.v, &kinematics.x, &mut forces.f);
+        self.bodies
+            .momentum_of(&kinematics.v, &kinematics.x, &mut forces.f);
         self.reduce_momentum(work, rates);
-        if !self.winches.is_empty() {
+        if !self.bodies.winches.is_empty() {
             (rates.iter_mut().zip(&work.change)).for_each(|(rate, more)| *rate += more);
         }
     }
@@ -301,7 +298,7 @@ impl<const D: usize> System<D> {
                 let body = driven.axes[0].body;
                 let about = self.center(body, x);
                 self.move_body(
-                    (self.bodies[body].clone(), about),
+                    (self.bodies.ranges[body].clone(), about),
                     Vector::zeros(),
                     turn.into(),
                     x,
@@ -325,10 +322,8 @@ impl<const D: usize> System<D> {
                     drives: &[],
                     x,
                     v: x,
-                    chains: &self.chains,
-                    sections: (&self.rod_chains, &self.frames),
+                    bodies: &self.bodies,
                     angles: (&self.angles, &state.angles),
-                    winches: &self.winches,
                 });
                 state.angles[turning.counted] = self.angles[turning.counted].value(x, outside);
             }
@@ -338,7 +333,7 @@ impl<const D: usize> System<D> {
 
     /// Moves bodies as a whole until rows and constraints hold, or else to where the least of them is missing that was found.
     fn fit(&self, x: &mut [Node<D>], work: &mut Workspace<D>) -> Result<(), NotAssembled> {
-        let (size, free) = (self.extent(x), D + spins(D).len());
+        let (size, free) = (self.bodies.extent(x), D + spins(D).len());
         let mut best = f64::INFINITY;
         // Sum of squares of gaps where it is least, and where that is.
         let (mut least, mut nearest) = (f64::INFINITY, x.to_vec());
@@ -370,10 +365,10 @@ impl<const D: usize> System<D> {
                 }
                 turn
             };
-            let bodies = 0..self.bodies.len();
+            let bodies = 0..self.bodies.ranges.len();
             let turns = bodies.map(|body| Vector3::from(turn(body)).norm());
             let fraction = (0.5 / turns.fold(0.0, f64::max)).min(1.0);
-            for (body, nodes) in self.bodies.iter().enumerate() {
+            for (body, nodes) in self.bodies.ranges.iter().enumerate() {
                 let way = Vector::from_fn(|k, _| -fraction * step[free * body + k] * size);
                 let turn = turn(body).map(|part| -fraction * part);
                 let about = self.center(body, x);

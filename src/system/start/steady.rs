@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::SteadyRotation;
-use crate::body::{Node, NodeKind, add_node, carried_node, no_node, product, turn_inner};
+use crate::bodies::{Node, NodeKind, add_node, carried_node, no_node, product, turn_inner};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins, spun};
 use crate::system::{State, System, Workspace};
@@ -111,7 +111,7 @@ impl<const D: usize> System<D> {
     pub fn field(&self, steady: &Steady<D>, x: &[Node<D>]) -> Vec<Node<D>> {
         let mut rates = steady.rates(x);
         for (node, rate) in rates.iter_mut().enumerate() {
-            match self.frames.kind(node) {
+            match self.bodies.frames.kind(node) {
                 NodeKind::Point => {}
                 NodeKind::Axes => *rate = x[node].map(|axis| spun(steady.rate, axis.into()).into()),
                 NodeKind::Inner => {
@@ -181,7 +181,7 @@ impl<const D: usize> System<D> {
             let weigh = |field: &Vec<Node<D>>| {
                 if is_weighted {
                     let mut momentum = vec![no_node(); field.len()];
-                    self.add_inertia(1.0, field, &mut momentum);
+                    self.bodies.add_inertia(1.0, field, &mut momentum);
                     momentum
                 } else {
                     field.clone()

@@ -1,10 +1,10 @@
 //! Neighbours of very different mass and length.
 
-use flexbody::body::{Marker, Node};
+use flexbody::bodies::{Bodies, LineChain, Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, StrainMeasure};
 use flexbody::system::joints::{JointEquations, Primitive};
-use flexbody::system::{Attachment, Evaluation, LineChain, Parts, System, Workspace};
+use flexbody::system::{Attachment, Evaluation, Parts, System, Workspace};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::support::{Row, figure, short};
@@ -60,13 +60,12 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         release: None,
     };
     let system = System::new(Parts {
-        bodies: std::iter::once(0..nodes.len()).collect(),
-        nodes,
-        chains: vec![chain],
-        lumped_masses: Vec::new(),
-        frames: Vec::new(),
-        rod_chains: Vec::new(),
-        rods: Vec::new(),
+        bodies: Bodies {
+            ranges: std::iter::once(0..nodes.len()).collect(),
+            reference: nodes,
+            chains: vec![chain],
+            ..Bodies::default()
+        },
         rigid: Vec::new(),
         joints: vec![pin],
         drives: Vec::new(),

@@ -2,7 +2,7 @@
 //! `[M Phi^T; Phi 0] [e''; lambda] = [F; 0]`, by the Schur complement `Phi M^-1 Phi^T`, which couples
 //! neighbouring interfaces. Nothing is projected: `Phi e` drifts with roundoff alone, since it is linear.
 
-use flexbody::body::{add_node, no_node};
+use flexbody::bodies::{add_node, no_node};
 
 use super::Transformation;
 use super::band::{Band, Factors};

@@ -4,7 +4,7 @@
 //! Source: block form of the LDL^T factorization, G. H. Golub, C. F. Van Loan, Matrix Computations,
 //! 4th ed., sections 4.3.6 and 4.5.1.
 
-use flexbody::body::no_node;
+use flexbody::bodies::no_node;
 
 use super::rod::{Mass, Node};
 

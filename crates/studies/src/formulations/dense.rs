@@ -1,6 +1,6 @@
 //! A transformation written out as one dense matrix; a scalar each for both directions of the plane.
 
-use flexbody::body::no_node;
+use flexbody::bodies::no_node;
 use flexbody::math::lanes::{Simd, Vectorized, vectorized};
 
 use super::fronts::Fronts;

@@ -20,7 +20,7 @@ mod rod;
 mod tests;
 
 use clap::ValueEnum;
-use flexbody::body::add_node;
+use flexbody::bodies::add_node;
 
 pub use rod::{Element, Node, Rod, uniform};
 

@@ -1,6 +1,6 @@
 //! The product's elimination: clusters by QR, the rest by its sparse Cholesky factor.
 
-use flexbody::body::{Assembly, ConnectivityRow, Elimination, Links};
+use flexbody::bodies::{Assembly, ConnectivityRow, Elimination, Links};
 use flexbody::math::sparse::Matrix;
 
 use nalgebra::SMatrix;

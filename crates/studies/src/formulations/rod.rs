@@ -1,6 +1,6 @@
 //! The chain that all formulations move.
 
-use flexbody::body::{Chain, no_node};
+use flexbody::bodies::{Chain, no_node};
 use flexbody::elements::Element as _;
 use flexbody::elements::cable::{Cable, Parameters};
 use flexbody::math::lanes::{PACK, Simd, Vectorized, vectorized};
@@ -9,7 +9,7 @@ use nalgebra::{Matrix4, Vector2};
 /// The product's cable.
 pub type Element = Cable<2>;
 /// Position and slope, or rates of them, or forces on them.
-pub type Node = flexbody::body::Node;
+pub type Node = flexbody::bodies::Node;
 /// Scalar mass of an element.
 pub type Mass = [[f64; 4]; 4];
 

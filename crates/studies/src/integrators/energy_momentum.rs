@@ -15,7 +15,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use flexbody::body::{Elimination, Node, no_node};
+use flexbody::bodies::{Elimination, Node, no_node};
 use flexbody::elements::{Element, Nodal};
 use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
 use flexbody::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, QuadraturePoint};
@@ -75,7 +75,7 @@ impl Bar {
         let start = build.start;
         let cables = start.scene.bodies.iter().filter_map(|body| body.flexible());
         let mut bars = Vec::new();
-        for (cable, chain) in cables.zip(start.assembled.system.chains()) {
+        for (cable, chain) in cables.zip(&start.assembled.system.bodies().chains) {
             for (j, element) in chain.elements().iter().enumerate() {
                 let length = element.length();
                 let axial_stiffness = cable.axial_stiffness_of(&cable.section_at(0.5));
@@ -216,7 +216,10 @@ impl EnergyMomentum {
             return Err("energy_momentum: expected cables, found a rigid body".into());
         }
         let n = system.coordinates();
-        let (zero, nodes) = (vec![0.0; n], vec![no_node(); system.reference().len()]);
+        let (zero, nodes) = (
+            vec![0.0; n],
+            vec![no_node(); system.bodies().reference.len()],
+        );
         Ok(Self {
             bars: Bar::all(build),
             elimination: system.elimination().clone(),

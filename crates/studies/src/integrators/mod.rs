@@ -30,7 +30,7 @@ mod verlet;
 
 use std::sync::{Arc, Mutex};
 
-use flexbody::body::Node;
+use flexbody::bodies::Node;
 use flexbody::integrators::{Nystrom, OneStepMethod, RK4, RKN43, RKN64, Radau, RungeKutta};
 use flexbody::system::fastest;
 

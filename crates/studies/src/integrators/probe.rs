@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use flexbody::body::Node;
+use flexbody::bodies::Node;
 use flexbody::system::{DrivenSystem, Dynamics, State, StepOutcome};
 use nalgebra::Complex;
 
@@ -82,7 +82,7 @@ impl Dynamics for Probe<'_> {
         if let Some(nodes) = &self.nodes
             && let Ok(mut nodes) = nodes.lock()
         {
-            nodes.copy_from_slice(&self.model.work.x);
+            nodes.copy_from_slice(&self.model.work.kinematics.x);
         }
     }
 

@@ -16,7 +16,7 @@
 
 use super::newton::{Newton, seed};
 use super::{ROUNDINGS, Rest};
-use crate::body::{Node, NodeKind, no_node};
+use crate::bodies::{Node, NodeKind, no_node};
 use crate::system::{Dynamics, State, System, Workspace};
 
 /// Samples of roundoff.
@@ -36,7 +36,7 @@ impl<const D: usize> Newton<'_, '_, D> {
         let work = &mut *self.model.work;
         let terms = terms(system, time, work);
         let sizes = sizes(system, work);
-        let mut squares: Squares = vec![[[0.0; 2]; 2]; system.bodies().len()];
+        let mut squares: Squares = vec![[[0.0; 2]; 2]; system.bodies.ranges.len()];
         let mut left = self.force.clone();
         gather(system, work, &mut left, 1.0, 0, &mut squares);
         let count = 2 * 2 * D * terms.len();
@@ -97,7 +97,7 @@ fn sizes<const D: usize>(system: &System<D>, work: &Workspace<D>) -> Vec<Node<D>
     let size = system.size();
     let node = |(node, x): (usize, &Node<D>)| {
         let mut sizes = x.map(|part| part.map(|x| x.abs().max(1.0)));
-        if system.frames.kind(node) == NodeKind::Point {
+        if system.bodies.frames.kind(node) == NodeKind::Point {
             sizes[0] = x[0].map(|x| x.abs() + size);
         }
         sizes
@@ -129,6 +129,7 @@ fn rounded<const D: usize>(
         .apply_stiffness(elimination, &mut noise);
     let mut forces = sample(terms, of_terms);
     system
+        .bodies
         .frames
         .pull_back((&work.kinematics.x, None), &mut forces);
     let mut summed = noise.clone();
@@ -148,9 +149,9 @@ fn gather<const D: usize>(
 ) {
     system.elimination.forces(force);
     (system.elimination.assembly).prolong(force, &mut work.scratch.other);
-    for (nodes, squares) in system.bodies().iter().zip(squares) {
+    for (nodes, squares) in system.bodies.ranges.iter().zip(squares) {
         for node in nodes.clone() {
-            let is_point = system.frames.kind(node) == NodeKind::Point;
+            let is_point = system.bodies.frames.kind(node) == NodeKind::Point;
             for (part, forces) in work.scratch.other[node].iter().enumerate() {
                 let kind = usize::from(!(is_point && part == 0));
                 squares[kind][column] += weight * forces.iter().map(|f| f * f).sum::<f64>();

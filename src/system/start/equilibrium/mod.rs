@@ -20,7 +20,7 @@ use std::cell::Cell;
 
 use super::held::OpenGaps;
 use super::steady::Steady;
-use crate::body::Node;
+use crate::bodies::Node;
 use crate::math::space::Vector;
 use crate::math::vector::norm;
 use crate::system::loads::AppliedLoad;
@@ -422,7 +422,7 @@ fn first_step<const D: usize>(
     work: &mut Workspace<D>,
     state: &State,
 ) -> f64 {
-    if system.is_conservative() || system.rod_chains.is_empty() {
+    if system.is_conservative() || system.bodies.rod_chains.is_empty() {
         return 1.0;
     }
     let least = smallest_shift(system, inputs, work, state);

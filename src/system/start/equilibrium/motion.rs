@@ -11,7 +11,7 @@
 
 use super::newton::{AcceptanceTest, ESCAPES, LARGEST_TURN, NOISE, Newton};
 use super::{Failure, FoundEquilibrium, unsymmetric};
-use crate::body::{Node, NodeKind};
+use crate::bodies::{Node, NodeKind};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
 use crate::system::{Dynamics, State, StepOutcome};
@@ -129,9 +129,9 @@ impl<const D: usize> Newton<'_, '_, D> {
         let is_away = |node: usize| {
             let [now, start] = [&now, start].map(|x| Vector::from(x[node][0]));
             let way = (now - start).norm();
-            system.frames.kind(node) == NodeKind::Point && (way > bound || way.is_nan())
+            system.bodies.frames.kind(node) == NodeKind::Point && (way > bound || way.is_nan())
         };
-        let mut bodies = system.bodies().iter();
+        let mut bodies = system.bodies.ranges.iter();
         bodies.position(|nodes| nodes.clone().any(is_away))
     }
 

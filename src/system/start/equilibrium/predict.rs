@@ -63,7 +63,12 @@ impl<const D: usize> System<D> {
     /// Returns a system whose references of rows and offsets of constraints are a part of the way to those of `next`.
     fn closed_by(&self, part: f64, next: &Self) -> Self {
         let mut closed = self.clone();
-        for (x, to) in closed.reference.iter_mut().zip(&next.reference) {
+        for (x, to) in closed
+            .bodies
+            .reference
+            .iter_mut()
+            .zip(&next.bodies.reference)
+        {
             let pairs = x.as_flattened_mut().iter_mut().zip(to.as_flattened());
             pairs.for_each(|(x, to)| *x += part * (to - *x));
         }

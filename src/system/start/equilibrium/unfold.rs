@@ -6,7 +6,7 @@
 use std::cell::Cell;
 
 use super::{BENT, CLOSING, FoundEquilibrium, Path};
-use crate::body::Node;
+use crate::bodies::Node;
 use crate::system::{State, System, Workspace};
 
 /// Bending stiffness shortly before there is none, relative to that at first.
@@ -34,7 +34,7 @@ impl Path<'_> {
                 part.scale_loads(f64::min(1.0, 2.0 * fraction), work);
                 part.stiffen(
                     FADED.powf(f64::max(0.0, 2.0 * fraction - 1.0)),
-                    &held.reference,
+                    &held.bodies.reference,
                 );
             }
             part
@@ -60,7 +60,7 @@ impl<const D: usize> System<D> {
     /// Gives cables without bending stiffness one, from the unstressed shape with these nodal coordinates on: a part of that under which joints
     /// are closed.
     pub(super) fn stiffen(&mut self, part: f64, shape: &[Node<D>]) {
-        for chain in &mut self.chains {
+        for chain in &mut self.bodies.chains {
             let stiffness = BENT * chain.axial_stiffness() * chain.length().powi(2);
             chain.stiffen(part * stiffness, shape);
         }
@@ -69,7 +69,7 @@ impl<const D: usize> System<D> {
     /// Whether an element folds back on itself.
     pub(super) fn is_folded(&self, state: &State, work: &mut Workspace<D>) -> bool {
         let x = self.nodes_of(state, work);
-        self.chains.iter().any(|chain| {
+        self.bodies.chains.iter().any(|chain| {
             let mut elements = 0..chain.elements().len();
             elements.any(|j| chain.is_folded(j, &x))
         })

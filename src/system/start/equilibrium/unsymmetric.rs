@@ -4,7 +4,7 @@
 //!
 //! Source: Y. Saad, M. H. Schultz, GMRES, SIAM J. Sci. Stat. Comput. 7 (1986).
 
-use crate::body::{Node, map_node};
+use crate::bodies::{Node, map_node};
 use crate::math::jet::{Jet, moving, part};
 use crate::math::vector::{dot, norm};
 use crate::system::instant::Instant;
@@ -118,9 +118,13 @@ fn substitute_back(columns: &[Vec<f64>], target: &mut [f64]) {
 fn preconditioned<const D: usize>(model: &mut DrivenSystem<'_, D>, f: &[f64]) -> Vec<f64> {
     model.spend(PRODUCT);
     let mut x = f.to_vec();
-    model.system.project_on_tangent_plane(&mut model.work.constraints, &mut x);
+    model
+        .system
+        .project_on_tangent_plane(&mut model.work.constraints, &mut x);
     model.solve_small(&mut x);
-    model.system.project_on_tangent_plane(&mut model.work.constraints, &mut x);
+    model
+        .system
+        .project_on_tangent_plane(&mut model.work.constraints, &mut x);
     x
 }
 
@@ -143,6 +147,7 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
         .elimination
         .expand(q, &mut work.scratch.y, &mut work.scratch.other);
     system
+        .bodies
         .frames
         .place_changes(&work.kinematics.x, &mut work.scratch.other);
     let jets = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
@@ -169,10 +174,8 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
         drives: &drives,
         x: &x,
         v: &v,
-        chains: &system.chains,
-        sections: (&system.rod_chains, &system.frames),
+        bodies: &system.bodies,
         angles: (&system.angles, &angles),
-        winches: &system.winches,
     };
     let loads = || (system.loads.iter()).filter(|load| !load.is_conservative());
     loads().for_each(|load| load.add_force(at, &mut f));
@@ -199,6 +202,7 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
     }
     let mut out = vec![0.0; q.len()];
     system
+        .bodies
         .frames
         .pull_back((&work.kinematics.x, None), &mut work.forces.f);
     system

@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, Vector3};
 
 use super::Chain;
+use super::assembly::{NodeBlock, no_block};
 use super::connectivity::{ConnectivityRow, Node, add_node};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
@@ -153,6 +154,22 @@ impl Marker {
         ]
     }
 
+    /// Calls with the blocks, for each pair of nodes once, of the matrix `k` over its position (`part` 0) or direction (1).
+    pub fn for_each_block<const D: usize>(
+        &self,
+        part: usize,
+        k: &SMatrix<f64, D, D>,
+        mut call: impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        let terms = self.jacobian::<D>(part);
+        let terms = &terms[..if self.is_nodal() { 1 } else { 2 }];
+        for (a, of_a) in terms {
+            for (b, of_b) in terms.iter().filter(|(b, _)| a <= b) {
+                call(*a, *b, &block_of(of_a, of_b, k));
+            }
+        }
+    }
+
     /// Adds what a force along `position` on the position and along `direction` on the direction
     /// would do, as terms of a row.
     pub fn add_terms<const D: usize>(
@@ -282,4 +299,24 @@ impl<N: Number> Marker<N> {
             }
         }
     }
+}
+
+/// `p^T k q` of the derivatives of two vectors by position and direction of a node each.
+pub fn block_of<const D: usize>(
+    p: &Partial<D>,
+    q: &Partial<D>,
+    k: &SMatrix<f64, D, D>,
+) -> NodeBlock<D> {
+    let mut block = no_block();
+    for (i, p) in p.iter().enumerate() {
+        for (j, q) in q.iter().enumerate() {
+            let part = p.transpose() * k * q;
+            for r in 0..D {
+                for c in 0..D {
+                    block[i][r][j][c] = part[(r, c)];
+                }
+            }
+        }
+    }
+    block
 }

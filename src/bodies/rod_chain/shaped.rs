@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::body::connectivity::Node;
-use crate::body::stages::rotated;
+use crate::bodies::connectivity::Node;
+use crate::bodies::stages::rotated;
 use crate::math::space::vector;
 
 /// Axes of frames carried along a line, whose tangents are those at parts in [0, 1] of its elements, by so many smallest rotations an element

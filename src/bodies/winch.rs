@@ -6,20 +6,21 @@
 //! `a = d^2r/dt^2 + 2 xi c L_0 dr'/dt + (xi c L_0)^2 r'' + xi (L''/L - 2 c^2) L_0 r'`,
 //!
 //! `r' = dr/ds` by the reference length on the way from the winch. The mass is `g M_0`; over coordinates `u` with `x = x_ref + u / sqrt(g)` it is `M_0`, whatever the
-//! length: the identity inertia of [`Elimination`](crate::body::Elimination) stays, and what lengthening adds to accelerations of the nodes
+//! length: the identity inertia of [`Elimination`](super::Elimination) stays, and what lengthening adds to accelerations of the nodes
 //! is known from positions and rates.
 //!
 //! Sources: M. Stangl, J. Gerstmayr, H. Irschik, An alternative approach for the analysis of nonlinear vibrations of pipes conveying fluid,
 //! J. Sound Vib. 310 (2008) 493-511 (material that passes through a mesh); W. D. Zhu, J. Ni, Energetics and stability of translating media
 //! with an arbitrarily varying length, J. Vib. Acoust. 122 (2000) 295-304 (equation of motion, energy that comes in).
 
-use super::LineChain;
-use crate::body::Node;
+mod lengthening;
+
+use super::{LineChain, Node};
+use crate::elements::shape::{Values, on_coordinates};
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
-use crate::system::loads::{Values, on_coordinates};
 
 /// A cable that is paid out.
 #[derive(Clone, Debug)]
@@ -29,7 +30,7 @@ pub struct Winch<const D: usize = 2> {
     /// Whether the winch is at its last end.
     pub at_last: bool,
     /// Driven coordinate: the length that has been paid out, m.
-    pub drive: usize,
+    pub coordinate: usize,
     /// First node of the chain and number of nodes.
     pub nodes: [usize; 2],
     /// Reference length, m.
@@ -108,10 +109,10 @@ impl<N: Number> Length<N> {
 }
 
 impl<const D: usize> Winch<D> {
-    /// Builds the winch of a chain. `at_last` selects the paid-out end, `drive` is the driven coordinate.
+    /// Builds the winch of a chain. `at_last` selects the paid-out end, `coordinate` is the driven one, its length.
     pub fn new(
         (index, chain): (usize, &LineChain<D>),
-        (at_last, drive): (bool, usize),
+        (at_last, coordinate): (bool, usize),
         gravity: Vector<D>,
     ) -> Self {
         let length = chain.length();
@@ -124,7 +125,7 @@ impl<const D: usize> Winch<D> {
         Self {
             chain: index,
             at_last,
-            drive,
+            coordinate,
             nodes: [chain.nodes(0)[0], chain.node_count()],
             length,
             starts: starts.collect(),
@@ -151,7 +152,7 @@ impl<const D: usize> Winch<D> {
 
     /// How long the cable is.
     pub fn now<N: Number>(&self, drives: &[[N; 3]]) -> Length<N> {
-        let [travel, rate, second] = drives[self.drive];
+        let [travel, rate, second] = drives[self.coordinate];
         let length = travel + N::of(self.length);
         let by = N::of(self.length) / length;
         let (rate, second) = (rate / length, second / length);

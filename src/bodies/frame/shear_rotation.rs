@@ -187,7 +187,7 @@ impl ShearRotation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::frame::Axes;
+    use crate::bodies::frame::Axes;
     use crate::math::rotation::normalized;
 
     const FROM: Quaternion = [0.6, -0.3, 0.5, 0.4];

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::{AHEAD, RodChain, SpinInertia, plane};
-use crate::body::assembly::Assembly;
-use crate::body::chain::both;
-use crate::body::connectivity::Node;
-use crate::body::frame::RotationMaps;
+use crate::bodies::assembly::Assembly;
+use crate::bodies::chain::both;
+use crate::bodies::connectivity::Node;
+use crate::bodies::frame::RotationMaps;
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::rod::{self, Rod, Tangent};

@@ -1,12 +1,11 @@
-//! What a cable that is paid out adds to the motion of its nodes ([`Winch`](crate::system::Winch)): coordinates `u` with
+//! What a cable that is paid out adds to the motion of its nodes ([`Winch`]): coordinates `u` with
 //! `x = x_ref + s u`, `s = sqrt(L_0 / L)`, so `x' = s u' + s' u` and `x'' = s u'' + 2 s' u' + s'' u`; forces on `u` are `s` times those on
 //! `x`.
 
-use crate::body::{Node, NodeBlock, map_node};
+use super::{Length, Winch};
+use crate::bodies::{Bodies, Node, NodeBlock, map_node};
 use crate::elements::Nodal;
 use crate::math::jet::Number;
-use crate::system::winch::Length;
-use crate::system::{System, Winch, Workspace};
 
 /// Part of the reference length below which a cable cannot be taken in.
 const SHORTEST: f64 = 1e-3;
@@ -21,7 +20,7 @@ fn change<const D: usize, N: Number>(to: &mut Node<D, N>, by: &Node<D, N>, of: i
     }
 }
 
-impl<const D: usize> System<D> {
+impl<const D: usize> Bodies<D> {
     /// Nodes of cables that are paid out, and how long these are.
     fn lengthened<'a, N: Number>(
         &'a self,
@@ -34,7 +33,7 @@ impl<const D: usize> System<D> {
     }
 
     /// `s` of a node, 1 where it belongs to no cable that is paid out.
-    pub(in crate::system) fn root_at<N: Number>(&self, node: usize, drives: &[[N; 3]]) -> N {
+    pub fn root_at<N: Number>(&self, node: usize, drives: &[[N; 3]]) -> N {
         let winch = self
             .winches
             .iter()
@@ -50,29 +49,17 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes positions for `x_ref + u` to `x_ref + s u`.
-    pub(super) fn lengthen(&self, work: &mut Workspace<D>) {
-        for (_, node, now) in self.lengthened(&work.kinematics.drives) {
+    pub(in crate::bodies) fn lengthen(&self, drives: &[[f64; 3]], x: &mut [Node<D>]) {
+        for (_, node, now) in self.lengthened(drives) {
             let root = now.root[0];
-            change(
-                &mut work.kinematics.x[node],
-                &self.reference[node],
-                |x, from| from + root * (x - from),
-            );
-        }
-    }
-
-    /// Takes rates from `u'` to `s u' + s' u` at the positions in `work`.
-    pub(super) fn lengthen_rates(&self, work: &mut Workspace<D>) {
-        for (_, node, now) in self.lengthened(&work.kinematics.drives) {
-            let ([root, rate, _], way) = (now.root, self.way(node, &work.kinematics.x, &now));
-            change(&mut work.kinematics.v[node], &way, |v, u| {
-                root * v + rate * u
+            change(&mut x[node], &self.reference[node], |x, from| {
+                from + root * (x - from)
             });
         }
     }
 
-    /// Takes rates of nodes for `u'` back from `x'` at positions `x`.
-    pub(in crate::system) fn shorten_rates(
+    /// Takes rates from `u'` to `s u' + s' u` at positions `x`.
+    pub(in crate::bodies) fn lengthen_rates(
         &self,
         drives: &[[f64; 3]],
         x: &[Node<D>],
@@ -80,12 +67,20 @@ impl<const D: usize> System<D> {
     ) {
         for (_, node, now) in self.lengthened(drives) {
             let ([root, rate, _], way) = (now.root, self.way(node, x, &now));
+            change(&mut v[node], &way, |v, u| root * v + rate * u);
+        }
+    }
+
+    /// Takes rates of nodes for `u'` back from `x'` at positions `x`.
+    pub fn shorten_rates(&self, drives: &[[f64; 3]], x: &[Node<D>], v: &mut [Node<D>]) {
+        for (_, node, now) in self.lengthened(drives) {
+            let ([root, rate, _], way) = (now.root, self.way(node, x, &now));
             change(&mut v[node], &way, |v, u| (v - rate * u) / root);
         }
     }
 
     /// Adds the accelerations of nodes that do not follow from those of coordinates, `2 s' u' + s'' u`.
-    pub(in crate::system) fn add_lengthened<N: Number>(
+    pub fn add_lengthened<N: Number>(
         &self,
         drives: &[[N; 3]],
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
@@ -102,7 +97,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes forces on nodes to those on `u`, or second derivatives of `u` to what they are in those of the nodes.
-    pub(in crate::system) fn pull_back<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
+    pub fn shorten<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
         for (_, node, now) in self.lengthened(drives) {
             of[node] = map_node(&of[node], |number| number * now.root[0]);
         }
@@ -110,7 +105,7 @@ impl<const D: usize> System<D> {
 
     /// The force on one node as that on its coordinates.
     #[inline(always)]
-    pub(in crate::system) fn shortened<N: Number>(
+    pub fn shortened<N: Number>(
         &self,
         node: usize,
         drives: &[[N; 3]],
@@ -124,7 +119,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Takes a block over two nodes to one over their coordinates.
-    pub(super) fn shorten_block(
+    pub fn shorten_block(
         &self,
         (a, b): (usize, usize),
         drives: &[[f64; 3]],
@@ -136,7 +131,7 @@ impl<const D: usize> System<D> {
 
     /// Adds what a cable that is paid out has more of than its reference to forces on nodes: weight, and inertia forces of the
     /// accelerations that do not follow from those of coordinates. These are left in `moved`.
-    pub(in crate::system) fn add_lengthening<N: Number>(
+    pub fn add_lengthening<N: Number>(
         &self,
         drives: &[[N; 3]],
         motion: (&[Node<D, N>], &[Node<D, N>]),
@@ -152,30 +147,26 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// The driven coordinate of a winch that has taken in its whole cable at the configuration in `work`.
-    pub(super) fn taken_in(&self, work: &Workspace<D>) -> Option<usize> {
-        let shortest = |winch: &&Winch<D>| {
-            work.kinematics.drives[winch.drive][0] <= (SHORTEST - 1.0) * winch.length
-        };
-        self.winches.iter().find(shortest).map(|winch| winch.drive)
+    /// The driven coordinate of a winch that has taken in its whole cable.
+    pub fn taken_in(&self, drives: &[[f64; 3]]) -> Option<usize> {
+        let shortest =
+            |winch: &&Winch<D>| drives[winch.coordinate][0] <= (SHORTEST - 1.0) * winch.length;
+        self.winches
+            .iter()
+            .find(shortest)
+            .map(|winch| winch.coordinate)
     }
 
-    /// The driven coordinate of a winch that has paid out cable at the configuration in `work`, and how much, m.
-    pub fn paid_out_at_start(&self, work: &Workspace<D>) -> Option<(usize, f64)> {
+    /// The driven coordinate of a winch that has paid out cable, and how much, m.
+    pub fn paid_out_at_start(&self, drives: &[[f64; 3]]) -> Option<(usize, f64)> {
         self.winches.iter().find_map(|winch| {
-            let [travel, ..] = work.kinematics.drives[winch.drive];
-            (travel.abs() > BEGUN * winch.length).then_some((winch.drive, travel))
+            let [travel, ..] = drives[winch.coordinate];
+            (travel.abs() > BEGUN * winch.length).then_some((winch.coordinate, travel))
         })
     }
 
     /// Adds the momentum of material that passes through cables that are paid out, times a factor, to forces on nodes, kg m/s.
-    pub(in crate::system) fn add_passing(
-        &self,
-        drives: &[[f64; 3]],
-        factor: f64,
-        x: &[Node<D>],
-        f: &mut [Node<D>],
-    ) {
+    pub fn add_passing(&self, drives: &[[f64; 3]], factor: f64, x: &[Node<D>], f: &mut [Node<D>]) {
         for winch in &self.winches {
             let (chain, now) = (&self.chains[winch.chain], winch.now(drives));
             for j in 0..chain.elements().len() {

@@ -4,8 +4,8 @@
 
 use nalgebra::{SVector, Vector3};
 
-use crate::body::connectivity::Node;
-use crate::body::frame::{Axes, axes_at, combined};
+use crate::bodies::connectivity::Node;
+use crate::bodies::frame::{Axes, axes_at, combined};
 use crate::math::space::{Vector, components, vector};
 
 /// The sections of beams: nodes of their lines with the first of their frames, and axes where the tangent was made and at the stages.

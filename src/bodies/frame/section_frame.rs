@@ -15,8 +15,8 @@ use nalgebra::Vector3;
 
 use super::shear_rotation::ShearRotation;
 use super::{Axes, RotationMaps, axes_at, combined, set_axes_at, spin_at, turned};
-use crate::body::connectivity::Node;
-use crate::body::stages::rotated;
+use crate::bodies::connectivity::Node;
+use crate::bodies::stages::rotated;
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, quaternion_near};
 use crate::math::space::{components, vector};
@@ -159,7 +159,10 @@ impl SectionFrame {
         set_axes_at(self.node, axes, x);
     }
 
-    pub(in crate::body) fn slope<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Vector3<N> {
+    pub(in crate::bodies) fn slope<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+    ) -> Vector3<N> {
         part(&x[self.line], 1)
     }
 
@@ -268,7 +271,7 @@ impl RotationMaps {
     }
 
     /// The carried frame that a node belongs to, and whether it is its second node.
-    pub(in crate::body) fn carried_of<const D: usize>(
+    pub(in crate::bodies) fn carried_of<const D: usize>(
         &self,
         node: usize,
     ) -> Option<(&SectionFrame, bool)> {

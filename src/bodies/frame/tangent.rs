@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::section_frame::angular;
 use super::{Axes, RigidBodyFrame, RotationMaps, SectionFrame, axes_at, turned};
-use crate::body::assembly::{NodeBlock, no_block};
-use crate::body::connectivity::Node;
+use crate::bodies::assembly::{NodeBlock, no_block};
+use crate::bodies::connectivity::Node;
 
 /// The block of a node whose second vector stands for a rotation.
 pub fn turning_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {

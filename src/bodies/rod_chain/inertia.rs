@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::loaded::add_moment;
 use super::{RodChain, part, plane};
-use crate::body::assembly::{Assembly, no_block};
-use crate::body::connectivity::Node;
-use crate::body::frame::{RotationMaps, SectionFrame};
+use crate::bodies::assembly::{Assembly, no_block};
+use crate::bodies::connectivity::Node;
+use crate::bodies::frame::{RotationMaps, SectionFrame};
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;

@@ -14,8 +14,8 @@
 use nalgebra::Vector3;
 
 use super::RodChain;
-use crate::body::connectivity::Node;
-use crate::body::frame::{RotationMaps, SectionFrame};
+use crate::bodies::connectivity::Node;
+use crate::bodies::frame::{RotationMaps, SectionFrame};
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 

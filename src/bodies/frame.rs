@@ -266,6 +266,11 @@ impl RotationMaps {
         &self.list
     }
 
+    /// Adds a rigid body. [`Bodies::complete`](super::Bodies::complete) finds its nodes.
+    pub fn push(&mut self, frame: RigidBodyFrame) {
+        self.list.push(frame);
+    }
+
     /// The bodies, to be changed.
     pub fn list_mut(&mut self) -> &mut [RigidBodyFrame] {
         &mut self.list

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::{RodChain, plane};
-use crate::body::connectivity::Node;
-use crate::body::frame::{RigidBodyFrame, RotationMaps, axes_at};
+use crate::bodies::connectivity::Node;
+use crate::bodies::frame::{RigidBodyFrame, RotationMaps, axes_at};
 use crate::elements::beam::{Force, Rates};
 use crate::elements::section::Vectors;
 use crate::math::jet::Number;

@@ -1,6 +1,7 @@
 //! Floor 2. Bodies as nodes: chains of elements through them, points on bodies, linear constraints
 //! between nodes and their elimination, and the structured tangent solve.
 
+mod all;
 mod articulated;
 mod assembly;
 mod chain;
@@ -9,11 +10,18 @@ mod elimination;
 mod frame;
 mod jacobian;
 mod layout;
+mod lumped;
+mod map;
 mod marker;
+mod mechanics;
 mod rod_chain;
+mod setup;
 mod stages;
+mod sums;
 mod tangent;
+pub mod winch;
 
+pub use all::Bodies;
 pub use articulated::{Articulated, Link};
 pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use chain::Chain;
@@ -27,7 +35,15 @@ pub use frame::{
     SectionFrame, SectionFrameState, axes_at, combined, spin_at, turned, turning_block,
 };
 pub use jacobian::{Jacobian, SparseRows};
-pub use marker::{Marker, Partial};
+pub use lumped::{LumpedMass, RigidRod};
+pub use map::Rotations;
+pub use marker::{Marker, Partial, block_of};
 pub use rod_chain::{RodChain, carried_nodes, middle, planar_axes, turn_inner, untwisted};
 pub use stages::STAGES;
 pub use tangent::Tangent;
+pub use winch::Winch;
+
+use crate::elements::cable::Cable;
+
+/// The line of a flexible body.
+pub type LineChain<const D: usize = 2> = Chain<Cable<D>, D>;

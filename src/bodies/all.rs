@@ -1,0 +1,173 @@
+//! All bodies of a system: one list for each kind, behind operations over all of them. Kinematics, forces and sums name no kind; a new
+//! kind of body joins in here.
+
+use std::ops::Range;
+
+use super::connectivity::Node;
+use super::frame::{NodeKind, RotationMaps};
+use super::winch::Length;
+use super::{LineChain, LumpedMass, Marker, RigidRod, RodChain, Winch};
+use crate::math::jet::Number;
+use crate::math::space::Vector;
+
+/// Bodies of a system and the nodes that they stand in.
+#[derive(Clone, Debug, Default)]
+pub struct Bodies<const D: usize = 2> {
+    /// Nodal coordinates where `q` and all prescribed coordinates are zero, `[nodes]`.
+    pub reference: Vec<Node<D>>,
+    /// Nodes of every body, `[bodies]`.
+    pub ranges: Vec<Range<usize>>,
+    /// Lines of flexible bodies.
+    pub chains: Vec<LineChain<D>>,
+    /// Sections of rods and beams along these lines: bending, shear and torsion.
+    pub rod_chains: Vec<RodChain>,
+    /// Masses in points: particles, planar rigid bodies, and masses on other bodies.
+    pub lumped_masses: Vec<LumpedMass>,
+    /// Straight rigid bodies whose sections are read.
+    pub rods: Vec<RigidRod>,
+    /// Rigid bodies of space, and frames of sections in space.
+    pub frames: RotationMaps,
+    /// Cables that winches pay out.
+    pub winches: Vec<Winch<D>>,
+}
+
+impl<const D: usize> Bodies<D> {
+    /// Whether nothing has axes of its own, no rigid body of space and no rod: known when compiling for the plane.
+    #[inline(always)]
+    pub fn has_no_frames(&self) -> bool {
+        D == 2 || self.frames.is_empty()
+    }
+
+    /// Whether nodal coordinates are those that are integrated: no rotations and no cable of changing length.
+    #[inline(always)]
+    pub fn has_identity_map(&self) -> bool {
+        self.has_no_frames() && self.winches.is_empty()
+    }
+
+    /// Size: the length of the longest line, or the largest distance of two nodes if that is more, m. Where rigid bodies rotate in space it
+    /// is `reach` instead of the distance.
+    pub fn size(&self, reach: f64) -> f64 {
+        let cables = self.chains.iter().map(LineChain::length);
+        let lengths = cables.chain(self.rods.iter().map(|rod| rod.length));
+        let longest = lengths.fold(0.0, f64::max);
+        if self.chains.len() + self.rods.len() == 1 && self.ranges.len() == 1 {
+            return longest;
+        }
+        longest.max(if self.has_no_frames() {
+            self.extent(&self.reference)
+        } else {
+            reach
+        })
+    }
+
+    /// Length of the longest flexible line, m; 0 without one.
+    pub fn longest(&self) -> f64 {
+        self.chains
+            .iter()
+            .map(LineChain::length)
+            .fold(0.0, f64::max)
+    }
+
+    /// Largest distance of a node from the first one, m; 1 where there is none.
+    pub fn extent(&self, x: &[Node<D>]) -> f64 {
+        let first = Vector::from(x[0][0]);
+        let points = (0..x.len()).filter(|node| self.kind(*node) == NodeKind::Point);
+        let far = points.map(|node| (Vector::from(x[node][0]) - first).norm());
+        let largest = far.fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+
+    /// Returns the meaning of the two vectors of a node.
+    pub fn kind(&self, node: usize) -> NodeKind {
+        self.frames.kind(node)
+    }
+
+    /// Cost of an evaluation of the bodies: numbers of elements, lumped masses and rigid bodies.
+    pub fn cost_units(&self) -> usize {
+        let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
+        elements + self.lumped_masses.len() + self.frames.list().len()
+    }
+
+    /// Whether anything in a body dissipates.
+    pub fn is_damped(&self) -> bool {
+        self.rod_chains.iter().any(RodChain::is_damped)
+            || self.chains.iter().any(LineChain::is_damped)
+    }
+
+    /// The body with this first node.
+    pub fn body_from(&self, first: usize) -> Option<usize> {
+        self.ranges.iter().position(|nodes| nodes.start == first)
+    }
+
+    /// The first rod or beam, among the bodies, with an element that is bent or twisted beyond what its frames hold, and the element.
+    pub fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
+        let mut found = self.rod_chains.iter().filter_map(|chain| {
+            let element = chain.overbent(x)?;
+            Some((self.body_from(chain.line())?, element))
+        });
+        found.next()
+    }
+
+    /// Length of a chain now.
+    #[inline(always)]
+    pub fn length_now<N: Number>(&self, chain: &LineChain<D>, drives: &[[N; 3]]) -> Length<N> {
+        let paid_out = self.paid_out(chain, drives);
+        paid_out.map_or_else(Length::same, |(_, now)| now)
+    }
+
+    /// The winch that pays out a chain, and the length of the chain now.
+    #[inline(always)]
+    pub fn paid_out<N: Number>(
+        &self,
+        chain: &LineChain<D>,
+        drives: &[[N; 3]],
+    ) -> Option<(&Winch<D>, Length<N>)> {
+        let winch = self.winch_of(chain)?;
+        Some((winch, winch.now(drives)))
+    }
+
+    /// The winch that pays out a chain.
+    #[inline(always)]
+    pub fn winch_of(&self, chain: &LineChain<D>) -> Option<&Winch<D>> {
+        let is_own = |winch: &&Winch<D>| winch.nodes[0] == chain.nodes(0)[0];
+        self.winches.iter().find(is_own)
+    }
+
+    /// The line of a body.
+    pub fn line(&self, body: usize) -> Option<&LineChain<D>> {
+        let first = self.ranges[body].start;
+        self.chains.iter().find(|chain| chain.nodes(0)[0] == first)
+    }
+
+    /// Chain, element and place inside it of a marker of a flexible body.
+    pub fn element(&self, marker: &Marker) -> Option<(&LineChain<D>, usize, f64)> {
+        let chain = self.line(marker.body)?;
+        let (j, xi) = match self.sections(chain) {
+            Some(sections) if marker.element.is_none() => sections.element_at(marker.nodes[0]),
+            _ => marker.element?,
+        };
+        Some((chain, j, xi))
+    }
+
+    /// Chain, element and place inside it of a marker of a flexible body. At an inner node it is the element after the node.
+    pub fn element_after(&self, marker: &Marker) -> Option<(&LineChain<D>, usize, f64)> {
+        let (chain, j, xi) = self.element(marker)?;
+        let is_before = xi == 1.0 && j + 1 < chain.elements().len();
+        Some(if is_before {
+            (chain, j + 1, 0.0)
+        } else {
+            (chain, j, xi)
+        })
+    }
+
+    /// Bending and torsion of a rod or beam with this line.
+    pub fn sections(&self, chain: &LineChain<D>) -> Option<&RodChain> {
+        let first = chain.nodes(0)[0];
+        self.rod_chains.iter().find(|rod| rod.line() == first)
+    }
+
+    /// The straight rigid body that a marker is on.
+    pub fn rod(&self, marker: &Marker) -> Option<&RigidRod> {
+        self.rods.iter().find(|rod| rod.node == marker.nodes[0])
+    }
+}
