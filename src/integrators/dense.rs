@@ -8,9 +8,10 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8 (the collocation
 //! polynomial of Radau IIA as dense output).
 
-use super::controller::{Pitch, Trial};
+use super::controller::Trial;
 use super::{
-    AlternativeMethod, OneStepMethod, RELAXATIONS, StepError, Tolerance, outcome, shortest,
+    AlternativeMethod, Goal, OneStepMethod, RELAXATIONS, StateViewMut, StepError, Tolerance,
+    outcome, shortest,
 };
 use crate::math::radau::{A_INVERSE, C};
 use crate::math::sums::{Term, sum};
@@ -35,7 +36,8 @@ pub(super) fn trial(
     method: &dyn OneStepMethod,
     dynamics: &dyn Dynamics,
     state: &State,
-    (until, wanted): (f64, f64),
+    until: f64,
+    wanted: f64,
 ) -> Option<Trial> {
     let longer = LONGER * (until - state.time);
     if !method.is_dense() || state.dense.held < HELD || wanted.is_nan() || wanted <= longer {
@@ -46,11 +48,14 @@ pub(super) fn trial(
     (h > longer).then_some(Trial::whole(h))
 }
 
-/// The step that a method has attempted last is under way.
+/// The step that a method has attempted last is under way: its length `h` (s), the operations that it took, and the
+/// steps for which stage equations could be solved (s).
 pub(super) fn begin(
     method: &mut dyn OneStepMethod,
     state: &mut State,
-    [h, operations, ceiling]: [f64; 3],
+    h: f64,
+    operations: f64,
+    ceiling: f64,
 ) {
     let step = &mut state.dense;
     (step.start, step.length, step.operations) = (state.time, h, operations);
@@ -61,7 +66,7 @@ pub(super) fn begin(
     method.keep(step);
 }
 
-/// Advances within the step under way, to `until` or to the end of the step, whichever comes first. A state that cannot
+/// Advances within the step under way, to the goal or to the end of the step, whichever comes first. A state that cannot
 /// keep constraints, or with an element of a rod that is bent or twisted too far, is taken back to the start of the
 /// step. Shorter steps follow then.
 ///
@@ -72,16 +77,17 @@ pub(super) fn follow(
     method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
-    until: f64,
-    (tolerance, alternative, pitch): (&Tolerance, Option<AlternativeMethod>, Pitch),
+    goal: Goal<'_>,
 ) -> Result<(), StepError> {
+    let until = goal.until;
     let (end, before) = (state.dense.end(), state.time);
     let near = shortest(until, end);
     let is_over = until >= end - near;
     state.time = if until > end + near { end } else { until };
     place(state);
-    state.dense.operations += POINT * pitch.points(state.time - before);
-    match come_to_rest(method, dynamics, state, (state.time >= until, tolerance)) {
+    state.dense.operations += POINT * goal.pitch.points(state.time - before);
+    let is_read = state.time >= until;
+    match come_to_rest(method, dynamics, state, is_read, goal.tolerance) {
         Ok(true) => (),
         Ok(false) | Err(StepError::ConstraintsViolated | StepError::ElementOverDeformed(..)) => {
             take_back(state);
@@ -92,8 +98,9 @@ pub(super) fn follow(
     if is_over {
         state.dense.under_way = 0.0;
         let trial = Trial::whole(state.dense.length);
-        let step = (trial, state.dense.operations, true);
-        if alternative.is_some_and(|alternative| alternative.takes_over(state, step)) {
+        let operations = state.dense.operations;
+        let goes_on = |other: AlternativeMethod| other.takes_over(state, trial, operations, true);
+        if goal.alternative.is_some_and(goes_on) {
             state.dense.length = 0.0;
         }
     }
@@ -106,7 +113,8 @@ fn come_to_rest(
     method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
-    (is_read, tolerance): (bool, &Tolerance),
+    is_read: bool,
+    tolerance: &Tolerance,
 ) -> Result<bool, StepError> {
     outcome(dynamics.accepted(state))?;
     if !is_read {
@@ -114,7 +122,11 @@ fn come_to_rest(
     }
     let (mut first, mut before) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..RELAXATIONS {
-        let read = (state.time, &mut state.coordinates[..], &mut state.rates[..]);
+        let read = StateViewMut {
+            time: state.time,
+            coordinates: &mut state.coordinates,
+            rates: &mut state.rates,
+        };
         let left = method.polish_within(dynamics, &state.dense, read, tolerance);
         if left.is_nan() || left >= first {
             return Ok(false);

@@ -56,6 +56,59 @@ pub enum Attempt {
     Failed(f64),
 }
 
+/// State that a method reads, with `n` coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct StateView<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Coordinates `q`, m sqrt(kg), `n` of them.
+    pub coordinates: &'a [f64],
+    /// Rates `q'` of the coordinates, m sqrt(kg)/s, `n` of them.
+    pub rates: &'a [f64],
+}
+
+impl<'a> StateView<'a> {
+    /// Borrows time, coordinates and rates of a state.
+    pub fn of(state: &'a State) -> Self {
+        Self {
+            time: state.time,
+            coordinates: &state.coordinates,
+            rates: &state.rates,
+        }
+    }
+}
+
+/// State that a method corrects, with `n` coordinates.
+#[derive(Debug)]
+pub struct StateViewMut<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Coordinates `q`, m sqrt(kg), `n` of them.
+    pub coordinates: &'a mut [f64],
+    /// Rates `q'` of the coordinates, m sqrt(kg)/s, `n` of them.
+    pub rates: &'a mut [f64],
+}
+
+impl<'a> StateViewMut<'a> {
+    /// Borrows time, coordinates and rates of a state.
+    pub fn of(state: &'a mut State) -> Self {
+        Self {
+            time: state.time,
+            coordinates: &mut state.coordinates,
+            rates: &mut state.rates,
+        }
+    }
+}
+
+/// Estimated errors of a state, which a method writes.
+#[derive(Debug)]
+pub struct ErrorEstimate<'a> {
+    /// Errors of the `n` coordinates, m sqrt(kg).
+    pub position: &'a mut [f64],
+    /// Errors of the `n` rates, m sqrt(kg)/s.
+    pub velocity: &'a mut [f64],
+}
+
 /// A one-step method of second-order systems.
 pub trait OneStepMethod: Send {
     /// Name in logs and charts.
@@ -81,7 +134,7 @@ pub trait OneStepMethod: Send {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt;
@@ -94,7 +147,7 @@ pub trait OneStepMethod: Send {
     fn polish_accelerations(
         &mut self,
         _dynamics: &mut dyn Dynamics,
-        _state: (f64, &mut [f64], &mut [f64]),
+        _state: StateViewMut<'_>,
         _tolerance: &Tolerance,
     ) -> bool {
         false
@@ -111,7 +164,7 @@ pub trait OneStepMethod: Send {
         &mut self,
         _dynamics: &mut dyn Dynamics,
         _step: &DenseStep,
-        _state: (f64, &mut [f64], &mut [f64]),
+        _state: StateViewMut<'_>,
         _tolerance: &Tolerance,
     ) -> f64 {
         0.0
@@ -123,15 +176,16 @@ pub trait OneStepMethod: Send {
     fn error(
         &mut self,
         _dynamics: &mut dyn Dynamics,
-        _state: (f64, &[f64], &[f64]),
+        _state: StateView<'_>,
         _within: Option<&DenseStep>,
-        error: [&mut [f64]; 2],
+        error: ErrorEstimate<'_>,
     ) {
-        error.into_iter().for_each(|error| error.fill(0.0));
+        error.position.fill(0.0);
+        error.velocity.fill(0.0);
     }
     /// Lets the stiff directions of a state follow that was moved from the one of [`OneStepMethod::error`] by a small part of its error: where a
     /// body rotates, its velocities are to rotate with it, or damping and constraints answer to a deformation that is not there.
-    fn follow(&mut self, _dynamics: &mut dyn Dynamics, _state: (f64, &mut [f64], &mut [f64])) {}
+    fn follow(&mut self, _dynamics: &mut dyn Dynamics, _state: StateViewMut<'_>) {}
     /// Work that came in and that was dissipated over the last attempt, J; zero where the method cannot tell.
     fn work(&self) -> [f64; 2] {
         [0.0; 2]
@@ -184,6 +238,19 @@ const MANY: f64 = 4.0;
 /// Most corrections of a state that is read.
 const RELAXATIONS: usize = 3;
 
+/// End of a way, and how steps lead to it.
+#[derive(Clone, Copy, Debug)]
+struct Goal<'a> {
+    /// Time of the end, s.
+    until: f64,
+    /// Error that a step may make.
+    tolerance: &'a Tolerance,
+    /// Distance of the communication points that the tolerance was found with.
+    pitch: Pitch,
+    /// The method that is not in use, where there are two.
+    alternative: Option<AlternativeMethod>,
+}
+
 /// Advances the state to `until` in steps that each keep the tolerance; lands exactly, and on every
 /// time on the way at which something jumps. On failure the state is that of the last accepted step.
 ///
@@ -196,18 +263,23 @@ pub fn advance(
     until: f64,
     tolerance: &Tolerance,
 ) -> (Counts, Result<(), StepError>) {
-    let aim = (tolerance, Pitch::default());
-    advance_choosing(&mut [method], dynamics, state, until, aim)
+    let goal = Goal {
+        until,
+        tolerance,
+        pitch: Pitch::default(),
+        alternative: None,
+    };
+    advance_choosing(&mut [method], dynamics, state, goal)
 }
 
-/// As [`advance`], with the cheaper of two methods where there are two.
+/// Advances as [`advance`] does, with the cheaper of two methods where there are two. Sets the alternative of the goal.
 fn advance_choosing(
     methods: &mut [&mut dyn OneStepMethod],
     dynamics: &mut dyn Dynamics,
     state: &mut State,
-    until: f64,
-    (tolerance, pitch): (&Tolerance, Pitch),
+    goal: Goal<'_>,
 ) -> (Counts, Result<(), StepError>) {
+    let until = goal.until;
     let mut counts = Counts::default();
     let mut result = Ok(());
     // Where one of two methods gave up last, s.
@@ -221,20 +293,18 @@ fn advance_choosing(
         let alternative = methods
             .get(1 - index)
             .map(|method| AlternativeMethod::of(&**method));
+        let goal = Goal {
+            alternative,
+            ..goal
+        };
         let method = &mut *methods[index];
         if state.dense.is_under_way() {
             dynamics.begin_smooth_interval(state.dense.start, until);
-            result = dense::follow(
-                method,
-                dynamics,
-                state,
-                until,
-                (tolerance, alternative, pitch),
-            );
+            result = dense::follow(method, dynamics, state, goal);
         } else {
-            let end = dynamics.begin_smooth_interval(state.time, until);
-            let goal = (tolerance, alternative, pitch, &mut counts);
-            result = advance_smoothly(method, dynamics, state, end, goal);
+            let until = dynamics.begin_smooth_interval(state.time, until);
+            let goal = Goal { until, ..goal };
+            result = advance_smoothly(method, dynamics, state, goal, &mut counts);
             counts.newton_iterations += method.newton_iterations();
         }
         // What one method cannot do the other may.
@@ -255,14 +325,15 @@ fn advance_smoothly(
     method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
-    until: f64,
-    (tolerance, alternative, pitch, counts): (
-        &Tolerance,
-        Option<AlternativeMethod>,
-        Pitch,
-        &mut Counts,
-    ),
+    goal: Goal<'_>,
+    counts: &mut Counts,
 ) -> Result<(), StepError> {
+    let Goal {
+        until,
+        tolerance,
+        pitch,
+        alternative,
+    } = goal;
     let follows = state.dense.has_ended_at(state.time);
     let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
     let mut counted = dynamics.operations();
@@ -275,7 +346,7 @@ fn advance_smoothly(
             return Ok(());
         }
         if is_fresh || remaining > MANY * state.step {
-            use_cheaper_variant(method, state, (pitch.way(remaining), is_settled));
+            use_cheaper_variant(method, state, pitch.way(remaining), is_settled);
         }
         if dynamics.is_exhausted() {
             return Err(StepError::TooMuchWork);
@@ -283,12 +354,12 @@ fn advance_smoothly(
         if dynamics.renew(state) {
             method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
         }
-        let (trial, is_beyond) = next_trial(method, dynamics, state, (until, pitch));
+        let (trial, is_beyond) = next_trial(method, dynamics, state, goal);
         if is_beyond && !is_fresh {
             // A step that is kept follows from nothing but its start.
             return Ok(());
         }
-        let from = (state.time, &state.coordinates[..], &state.rates[..]);
+        let from = StateView::of(state);
         match bounded(method.attempt(dynamics, from, trial.h, tolerance), method) {
             Attempt::Done(error) if error <= 1.0 => {
                 let judged = trial.among_settled(is_settled);
@@ -297,20 +368,20 @@ fn advance_smoothly(
                 counts.steps += 1;
                 if is_beyond {
                     let operations = dynamics.operations() - counted;
-                    dense::begin(method, state, [trial.h, operations, controller.ceiling()]);
-                    let aim = (tolerance, alternative, pitch);
-                    return dense::follow(method, dynamics, state, until, aim);
+                    dense::begin(method, state, trial.h, operations, controller.ceiling());
+                    return dense::follow(method, dynamics, state, goal);
                 }
                 is_fresh = false;
-                take(method, state, (trial, until));
+                take(method, state, trial, until);
                 project(method, dynamics, state)?;
-                polish_accelerations(method, dynamics, state, (until, tolerance))?;
+                polish_accelerations(method, dynamics, state, goal)?;
                 let since = since(dynamics, &mut counted);
                 let alike = dynamics.steps_in(tolerance.time, trial.h);
                 // The whole of a step that is cut short would have another error.
                 let is_quiet = error / alike < QUIET * trial.part.powi(4);
-                let step = (trial, since, is_quiet);
-                if alternative.is_some_and(|alternative| alternative.takes_over(state, step)) {
+                let goes_on =
+                    |other: AlternativeMethod| other.takes_over(state, trial, since, is_quiet);
+                if alternative.is_some_and(goes_on) {
                     return Ok(());
                 }
             }
@@ -325,16 +396,17 @@ fn advance_smoothly(
     }
 }
 
-/// The step to try next on the way to `until`, and whether it is to lead beyond.
+/// The step to try next on the way to a goal, and whether it is to lead beyond.
 fn next_trial(
     method: &dyn OneStepMethod,
     dynamics: &dyn Dynamics,
     state: &State,
-    (until, pitch): (f64, Pitch),
+    goal: Goal<'_>,
 ) -> (Trial, bool) {
+    let Goal { until, pitch, .. } = goal;
     let wanted = state.step.min(method.longest_step());
     let allowed = pitch.allowed(wanted, method.is_dense());
-    match dense::trial(method, dynamics, state, (until, allowed)) {
+    match dense::trial(method, dynamics, state, until, allowed) {
         Some(trial) => (trial.among(pitch, wanted, allowed), true),
         None => (pitch.trial(wanted, allowed, until - state.time), false),
     }
@@ -370,7 +442,8 @@ fn since(dynamics: &dyn Dynamics, counted: &mut f64) -> f64 {
 fn use_cheaper_variant(
     method: &mut dyn OneStepMethod,
     state: &mut State,
-    (remaining, is_settled): (f64, bool),
+    remaining: f64,
+    is_settled: bool,
 ) {
     let cheaper = method.cheaper(state.step, remaining);
     if let Some((variant, step)) = cheaper.filter(|(variant, _)| *variant == 0 || is_settled) {
@@ -390,7 +463,7 @@ fn bounded(attempt: Attempt, method: &dyn OneStepMethod) -> Attempt {
 }
 
 /// The state is that at the end of the step attempted last.
-fn take(method: &mut dyn OneStepMethod, state: &mut State, (trial, until): (Trial, f64)) {
+fn take(method: &mut dyn OneStepMethod, state: &mut State, trial: Trial, until: f64) {
     method.accept(&mut state.coordinates, &mut state.rates);
     state.time = if trial.is_last {
         until
@@ -424,14 +497,14 @@ fn polish_accelerations(
     method: &mut dyn OneStepMethod,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
-    (until, tolerance): (f64, &Tolerance),
+    goal: Goal<'_>,
 ) -> Result<(), StepError> {
-    if state.time < until {
+    if state.time < goal.until {
         return Ok(());
     }
     for _ in 0..RELAXATIONS {
-        let read = (state.time, &mut state.coordinates[..], &mut state.rates[..]);
-        if !method.polish_accelerations(dynamics, read, tolerance) {
+        let read = StateViewMut::of(state);
+        if !method.polish_accelerations(dynamics, read, goal.tolerance) {
             break;
         }
         project(method, dynamics, state)?;

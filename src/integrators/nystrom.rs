@@ -7,7 +7,7 @@
 //! 235-250: RKN4(3)4FM (Table 3).
 
 use super::selection::cheaper_of_pair;
-use super::{Attempt, OneStepMethod, Tolerance, rescaled};
+use super::{Attempt, ErrorEstimate, OneStepMethod, StateView, Tolerance, rescaled};
 use crate::math::sums::{Term, combine};
 use crate::system::{DenseStep, Dynamics};
 
@@ -214,7 +214,7 @@ impl Nystrom {
 }
 
 /// `out = start + factor * sum of the weighted vectors`.
-fn set(out: &mut [f64], start: &[Term<'_>], factor: f64, (weights, a): (&[f64], &[Vec<f64>])) {
+fn set(out: &mut [f64], start: &[Term<'_>], factor: f64, weights: &[f64], a: &[Vec<f64>]) {
     let weighted = weights.iter().zip(a);
     let weighted = weighted.map(|(weight, a)| (factor * weight, &a[..]));
     combine(out, start.iter().copied().chain(weighted));
@@ -250,31 +250,36 @@ impl OneStepMethod for Nystrom {
     fn error(
         &mut self,
         _: &mut dyn Dynamics,
-        _: (f64, &[f64], &[f64]),
+        _: StateView<'_>,
         _: Option<&DenseStep>,
-        [position, velocity]: [&mut [f64]; 2],
+        error: ErrorEstimate<'_>,
     ) {
-        position.copy_from_slice(&self.error_q);
-        velocity.copy_from_slice(&self.error_v);
+        error.position.copy_from_slice(&self.error_q);
+        error.velocity.copy_from_slice(&self.error_v);
     }
 
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         let tableau = self.tableau();
         for (stage, c) in tableau.c.iter().enumerate().skip(1) {
             let start = [(1.0, q), (c * h, v)];
-            set(&mut self.q, &start, h * h, (tableau.a[stage], &self.a));
+            set(&mut self.q, &start, h * h, tableau.a[stage], &self.a);
             dynamics.acceleration(time + c * h, &self.q, v, &mut self.a[stage]);
         }
-        set(&mut self.v, &[(1.0, v)], h, (tableau.rates, &self.a));
+        set(&mut self.v, &[(1.0, v)], h, tableau.rates, &self.a);
         let [position, velocity] = tableau.error;
-        set(&mut self.error_q, &[], h * h, (position, &self.a));
-        set(&mut self.error_v, &[], h, (velocity, &self.a));
+        set(&mut self.error_q, &[], h * h, position, &self.a);
+        set(&mut self.error_v, &[], h, velocity, &self.a);
         Attempt::Done(rescaled(
             tolerance.norm(&self.error_q, &self.error_v) * dynamics.steps_in(tolerance.time, h),
             tableau.power,

@@ -13,7 +13,9 @@ mod start;
 
 use nalgebra::Complex;
 
-use super::{Attempt, OneStepMethod, Tolerance, dense, size};
+use super::{
+    Attempt, ErrorEstimate, OneStepMethod, StateView, StateViewMut, Tolerance, dense, size,
+};
 use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
 use crate::math::sums::{Term, add, sum};
 use crate::system::{DenseStep, Dynamics};
@@ -131,10 +133,15 @@ impl Radau {
     fn iterate(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> f64 {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         for stage in 0..3 {
             self.place(stage, q, v);
             let at = time + C[stage] * h;
@@ -166,7 +173,7 @@ impl Radau {
     fn newton(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Result<(), f64> {
@@ -215,10 +222,15 @@ impl Radau {
     fn estimate(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> f64 {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         self.stage_v.copy_from_slice(v);
         self.f[0].copy_from_slice(&self.a);
         self.filter(dynamics, h);
@@ -261,12 +273,12 @@ impl Radau {
         }
     }
 
-    fn factor(
-        &mut self,
-        dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
-        h: f64,
-    ) -> bool {
+    fn factor(&mut self, dynamics: &mut dyn Dynamics, state: StateView<'_>, h: f64) -> bool {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         if !self.tangent {
             dynamics.linearize(time, q, v);
             self.tangent = true;
@@ -303,7 +315,7 @@ impl OneStepMethod for Radau {
     fn polish_accelerations(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &mut [f64], &mut [f64]),
+        state: StateViewMut<'_>,
         tolerance: &Tolerance,
     ) -> bool {
         self.relax_at_end(dynamics, state, tolerance)
@@ -330,7 +342,7 @@ impl OneStepMethod for Radau {
         &mut self,
         dynamics: &mut dyn Dynamics,
         step: &DenseStep,
-        state: (f64, &mut [f64], &mut [f64]),
+        state: StateViewMut<'_>,
         tolerance: &Tolerance,
     ) -> f64 {
         self.relax_in_between(dynamics, step, state, tolerance)
@@ -347,14 +359,14 @@ impl OneStepMethod for Radau {
     fn error(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         within: Option<&DenseStep>,
-        error: [&mut [f64]; 2],
+        error: ErrorEstimate<'_>,
     ) {
         self.error_left(dynamics, state, within, error);
     }
 
-    fn follow(&mut self, dynamics: &mut dyn Dynamics, state: (f64, &mut [f64], &mut [f64])) {
+    fn follow(&mut self, dynamics: &mut dyn Dynamics, state: StateViewMut<'_>) {
         self.follow_error(dynamics, state);
     }
 
@@ -379,11 +391,15 @@ impl OneStepMethod for Radau {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
-        let (time, q, v) = state;
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         self.attempted = h;
         // Of rotations a whole turn more is a solution too.
         let has_rotations = dynamics.has_rotations();

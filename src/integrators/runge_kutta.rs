@@ -6,7 +6,7 @@
 //! 3 (their Table II.2.1).
 
 use super::selection::cheaper_of_pair;
-use super::{Attempt, OneStepMethod, Tolerance, rescaled};
+use super::{Attempt, ErrorEstimate, OneStepMethod, StateView, Tolerance, rescaled};
 use crate::math::sums::combine;
 use crate::system::{DenseStep, Dynamics};
 
@@ -209,12 +209,12 @@ impl OneStepMethod for RungeKutta {
     fn error(
         &mut self,
         _: &mut dyn Dynamics,
-        _: (f64, &[f64], &[f64]),
+        _: StateView<'_>,
         _: Option<&DenseStep>,
-        [position, velocity]: [&mut [f64]; 2],
+        error: ErrorEstimate<'_>,
     ) {
-        position.copy_from_slice(&self.error[0]);
-        velocity.copy_from_slice(&self.error[1]);
+        error.position.copy_from_slice(&self.error[0]);
+        error.velocity.copy_from_slice(&self.error[1]);
     }
 
     fn work(&self) -> [f64; 2] {
@@ -224,10 +224,15 @@ impl OneStepMethod for RungeKutta {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         let method = self.method();
         self.v[0].copy_from_slice(v);
         for (stage, weights) in method.a.iter().enumerate().skip(1) {

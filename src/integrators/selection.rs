@@ -10,7 +10,7 @@
 //! price of steps is counted while they are taken is ours (docs/decisions/0034-integrator-by-counted-cost.md).
 
 use super::controller::{Pitch, Trial};
-use super::{Counts, OneStepMethod, StepError, Tolerance, advance_choosing};
+use super::{Counts, Goal, OneStepMethod, StepError, Tolerance, advance_choosing};
 use crate::system::{Dynamics, MethodStatistics, State};
 
 /// Operations before the first trial.
@@ -107,7 +107,13 @@ impl Methods {
             [one, two] => &mut [&mut **one, &mut **two],
             methods => &mut [&mut *methods[0]],
         };
-        advance_choosing(methods, dynamics, state, until, (tolerance, self.pitch))
+        let goal = Goal {
+            until,
+            tolerance,
+            pitch: self.pitch,
+            alternative: None,
+        };
+        advance_choosing(methods, dynamics, state, goal)
     }
 }
 
@@ -130,7 +136,9 @@ impl AlternativeMethod {
     pub fn takes_over(
         self,
         state: &mut State,
-        (step, operations, is_quiet): (Trial, f64, bool),
+        step: Trial,
+        operations: f64,
+        is_quiet: bool,
     ) -> bool {
         let grows = step.has_grown(state.step);
         // What a communication point cuts short counts as a part of the step that it would have been.
@@ -224,7 +232,7 @@ mod tests {
             pace,
             ..State::default()
         };
-        FREE.takes_over(&mut state, (Trial::whole(further), 1.0, true));
+        FREE.takes_over(&mut state, Trial::whole(further), 1.0, true);
         assert_eq!(state.pace.trial, 0.0, "the trial is over");
         state.pace.method
     }
@@ -248,7 +256,7 @@ mod tests {
             pace,
             ..State::default()
         };
-        AlternativeMethod { at_most }.takes_over(&mut state, (Trial::whole(1.0), 1.0, true));
+        AlternativeMethod { at_most }.takes_over(&mut state, Trial::whole(1.0), 1.0, true);
         state.pace.method
     }
 

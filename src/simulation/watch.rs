@@ -11,7 +11,7 @@ use super::inputs::Inputs;
 use super::quantities::{Quantity, Scale, natural};
 use super::shapes::drawn;
 use super::{Source, Variable};
-use crate::integrators::Tolerance;
+use crate::integrators::{ErrorEstimate, StateView, StateViewMut, Tolerance};
 use crate::math::vector::norm;
 use crate::scene::Assembled;
 use crate::system::{DrivenSystem, State};
@@ -263,16 +263,23 @@ impl<const D: usize> Engine<D> {
         let model = DrivenSystem::new(system, &inputs.values, &mut self.work, state);
         let mut model = model.moving(&inputs.slopes);
         let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
-        let at = (state.time, &state.coordinates[..], &state.rates[..]);
+        let at = StateView::of(state);
+        let error = ErrorEstimate {
+            position: q,
+            velocity: v,
+        };
         let within = state.dense.is_under_way().then_some(&state.dense);
         let method = self.methods.at(&state.pace);
-        method.error(&mut model, at, within, [q, v]);
+        method.error(&mut model, at, within, error);
         let add = |(moved, now): (&mut f64, &f64)| *moved = PART * *moved + now;
         q.iter_mut().zip(&state.coordinates).for_each(add);
         v.iter_mut().zip(&state.rates).for_each(add);
         let is_placed = model.project(shifted);
-        let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
-        method.follow(&mut model, (state.time, q, v));
+        let moved = StateViewMut {
+            time: state.time,
+            ..StateViewMut::of(shifted)
+        };
+        method.follow(&mut model, moved);
         if is_placed && model.project(shifted) {
             let shifted = std::mem::take(&mut watch.shifted);
             self.forget();

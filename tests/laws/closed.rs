@@ -4,7 +4,7 @@
 use flexbody::bodies::Node;
 use flexbody::elements::StrainMeasure;
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, Tolerance, advance};
+use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, StateView, Tolerance, advance};
 use flexbody::system::{DrivenSystem, HoldingParts, fastest, natural_frequencies};
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -375,8 +375,7 @@ fn run(mechanism: &Mechanism) -> Vec<Node> {
         state.time = time;
         let mut model = DrivenSystem::new(&moving.system, &[], &mut moving.work, &state);
         method.begin(&mut model, time, &state.coordinates, &state.rates);
-        let from = (time, &state.coordinates[..], &state.rates[..]);
-        method.attempt(&mut model, from, h, &tolerance);
+        method.attempt(&mut model, StateView::of(&state), h, &tolerance);
         method.accept(&mut state.coordinates, &mut state.rates);
         assert!(model.project(&mut state));
     }

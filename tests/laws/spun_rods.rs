@@ -1,7 +1,7 @@
 //! Free rods that spin: energy and angular momentum are kept as the step allows, with the order of the method. Without the gyroscopic
 //! force of spin energy alone would be.
 
-use flexbody::integrators::{Attempt, OneStepMethod, RK4, RungeKutta, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, RK4, RungeKutta, StateView, Tolerance};
 use flexbody::scene::{Assembled, Scene};
 use flexbody::system::{DrivenSystem, Dynamics, Evaluation, State, System, Workspace};
 use nalgebra::Vector3;
@@ -59,7 +59,10 @@ fn changes(element: &str, steps: u32) -> [f64; 2] {
         let time = h * f64::from(step);
         let mut model = DrivenSystem::new(system, &[], &mut work, &state);
         method.begin(&mut model, time, &state.coordinates, &state.rates);
-        let from = (time, &state.coordinates[..], &state.rates[..]);
+        let from = StateView {
+            time,
+            ..StateView::of(&state)
+        };
         let attempt = method.attempt(&mut model, from, h, &tolerance);
         assert!(
             matches!(attempt, Attempt::Done(_)),

@@ -1,7 +1,8 @@
 //! Error control: tolerances are followed, communication points met, the impossible refused.
 
 use flexbody::integrators::{
-    Attempt, Methods, OneStepMethod, RK4, Radau, RungeKutta, StepError, Tolerance, advance,
+    Attempt, Methods, OneStepMethod, RK4, Radau, RungeKutta, StateView, StepError, Tolerance,
+    advance,
 };
 use flexbody::system::{DenseStep, Dynamics, State};
 use nalgebra::{Matrix2, Vector2};
@@ -219,11 +220,11 @@ impl OneStepMethod for Weary {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
-        if state.0 < self.1 {
+        if state.time < self.1 {
             self.0.attempt(dynamics, state, h, tolerance)
         } else {
             Attempt::Failed(0.1)
@@ -280,7 +281,7 @@ impl OneStepMethod for Short {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {

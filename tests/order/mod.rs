@@ -8,7 +8,7 @@ mod work;
 
 use flexbody::integrators::{
     Attempt, Coefficients, DOPRI853, Nystrom, OneStepMethod, RK4, RKN43, RKN64, Radau, RungeKutta,
-    Tolerance, VERLET,
+    StateView, Tolerance, VERLET,
 };
 use nalgebra::{Matrix2, Vector2};
 use problem::Problem;
@@ -125,12 +125,18 @@ impl Row {
 fn force(
     method: &mut dyn OneStepMethod,
     problem: &mut Problem,
-    (time, state): (f64, &mut [Vec<f64>; 2]),
+    time: f64,
+    state: &mut [Vec<f64>; 2],
     h: f64,
 ) -> f64 {
     let [q, v] = state;
     method.begin(problem, time, q, v);
-    match method.attempt(problem, (time, q, v), h, &TIGHT) {
+    let from = StateView {
+        time,
+        coordinates: q,
+        rates: v,
+    };
+    match method.attempt(problem, from, h, &TIGHT) {
         Attempt::Done(error) => {
             method.accept(q, v);
             error * TIGHT.relative
@@ -153,8 +159,8 @@ fn run(
     let h = time / f64::from(steps);
     let mut first = None;
     for step in 0..steps {
-        let at = (f64::from(step) * h, &mut state);
-        let estimate = force(&mut *method, &mut problem, at, h);
+        let at = f64::from(step) * h;
+        let estimate = force(&mut *method, &mut problem, at, &mut state, h);
         first.get_or_insert(estimate);
     }
     let [x, v] = exact(time);
@@ -215,7 +221,7 @@ fn growth(method: &mut dyn OneStepMethod, frequency: f64, ratio: f64) -> f64 {
     let mut state = [vec![1.0, 0.0], vec![0.0, 0.0]];
     let mut largest = [0.0_f64; 2];
     for step in 0..400 {
-        force(method, &mut problem, (0.0, &mut state), 1.0);
+        force(method, &mut problem, 0.0, &mut state, 1.0);
         let size = (state[0][0].powi(2) + (state[1][0] / frequency).powi(2)).sqrt();
         largest[step / 200] = largest[step / 200].max(size);
     }
@@ -292,7 +298,7 @@ fn nystrom_methods_estimate_more_than_the_error_of_any_oscillation() {
             let mut problem = oscillator(frequency, 0.0);
             let mut state = [vec![1.0, 0.0], vec![0.0, 0.0]];
             let mut method = Nystrom::new(tableau, 2, 1.0);
-            let rescaled = force(&mut method, &mut problem, (0.0, &mut state), 1.0);
+            let rescaled = force(&mut method, &mut problem, 0.0, &mut state, 1.0);
             let estimate = (rescaled / TIGHT.relative).powf(power / 4.0) * TIGHT.relative;
             let (sin, cos) = frequency.sin_cos();
             let [position, velocity] = [state[0][0] - cos, state[1][0] + frequency * sin];
@@ -344,7 +350,7 @@ fn radau_keeps_its_order_beside_a_stiff_mode() {
         let mut state = [vec![cos, sin], vec![0.0, 0.0]];
         for _ in 0..steps {
             let h = 2.0 / f64::from(steps);
-            force(&mut method, &mut problem, (0.0, &mut state), h);
+            force(&mut method, &mut problem, 0.0, &mut state, h);
         }
         let slow = state[0][0] * cos + state[0][1] * sin;
         let fast = state[0][1] * cos - state[0][0] * sin;

@@ -1,6 +1,6 @@
 //! What goes along with steps: work, times that no step leads across, states put right on the way.
 
-use flexbody::integrators::{StepError, Tolerance, advance};
+use flexbody::integrators::{StateView, StepError, Tolerance, advance};
 use flexbody::system::{State, StepOutcome};
 use nalgebra::{Matrix2, Vector2};
 
@@ -35,7 +35,12 @@ fn work_is_the_integral_of_power_with_the_order_of_the_method() {
                 let (q, v) = (&mut state.coordinates, &mut state.rates);
                 let time = f64::from(step) * h;
                 method.begin(&mut problem, time, q, v);
-                method.attempt(&mut problem, (time, q, v), h, &TIGHT);
+                let from = StateView {
+                    time,
+                    coordinates: q,
+                    rates: v,
+                };
+                method.attempt(&mut problem, from, h, &TIGHT);
                 method.accept(q, v);
                 work.iter_mut()
                     .zip(method.work())

@@ -5,7 +5,9 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use flexbody::integrators::{Attempt, Counts, OneStepMethod, StepError, Tolerance, advance};
+use flexbody::integrators::{
+    Attempt, Counts, OneStepMethod, StateView, StepError, Tolerance, advance,
+};
 use flexbody::math::switches::grain;
 use flexbody::scene::Experiment;
 use flexbody::system::{
@@ -110,13 +112,17 @@ pub fn integrate(arguments: &Integrate) -> Outcome<()> {
         }
         let started = ThreadTime::now();
         let (counts, outcome) = match arguments.step {
-            Some(step) => fixed(
-                &mut *method,
-                &mut probe,
-                &mut state,
-                (until, step),
-                &tolerance,
-            ),
+            Some(step) => {
+                let mut steps = FixedSteps {
+                    method: &mut *method,
+                    dynamics: &mut probe,
+                    step,
+                    tolerance: &tolerance,
+                    counts: Counts::default(),
+                };
+                let outcome = steps.advance(&mut state, until);
+                (steps.counts, outcome)
+            }
             None => advance(&mut *method, &mut probe, &mut state, until, &tolerance),
         };
         cost.cpu_time += started.elapsed();
@@ -132,90 +138,93 @@ pub fn integrate(arguments: &Integrate) -> Outcome<()> {
     std::fs::write(&arguments.report, report).map_err(|e| at(&arguments.report, e))
 }
 
-/// Steps of equal length from one output or jump to the next.
-fn fixed(
-    method: &mut dyn OneStepMethod,
-    dynamics: &mut dyn Dynamics,
-    state: &mut State,
-    (until, step): (f64, f64),
-    tolerance: &Tolerance,
-) -> (Counts, Result<(), StepError>) {
-    let mut counts = Counts::default();
-    while state.time < until {
-        let (from, near) = (state.time, grain(state.time));
-        // History goes on over outputs but not over jumps.
-        let jumps = dynamics.begin_smooth_interval(from - 8.0 * near, until) <= from + near;
-        let end = dynamics.begin_smooth_interval(from, until);
-        let way = end - from;
-        if from <= 0.0 || jumps {
-            method.begin(dynamics, from, &state.coordinates, &state.rates);
-        }
-        let before = method.newton_iterations();
-        let pieces = (way / step - 1e-9).ceil().max(1.0) as u64;
-        let h = way / pieces as f64;
-        for piece in 1..=pieces {
-            let target = if piece == pieces {
-                end
-            } else {
-                from + piece as f64 * h
-            };
-            if let Err(stop) = whole(method, dynamics, state, (target, tolerance), &mut counts) {
-                return (counts, Err(stop));
-            }
-        }
-        if let StepOutcome::Jumped(drive) = dynamics.end_smooth_interval(state) {
-            return (counts, Err(StepError::Jumped(drive)));
-        }
-        counts.newton_iterations += method.newton_iterations() - before;
-        if !state.coordinates.iter().all(|q| q.is_finite()) {
-            return (counts, Err(StepError::NotFinite));
-        }
-    }
-    (counts, Ok(()))
+/// Steps of equal length with one method.
+struct FixedSteps<'a> {
+    method: &'a mut dyn OneStepMethod,
+    dynamics: &'a mut dyn Dynamics,
+    /// Longest step, s.
+    step: f64,
+    tolerance: &'a Tolerance,
+    counts: Counts,
 }
 
-/// One step to a time, in halves where the iteration does not converge.
-fn whole(
-    method: &mut dyn OneStepMethod,
-    dynamics: &mut dyn Dynamics,
-    state: &mut State,
-    (target, tolerance): (f64, &Tolerance),
-    counts: &mut Counts,
-) -> Result<(), StepError> {
-    let way = target - state.time;
-    let mut h = way;
-    while state.time < target {
-        let now = (state.time, &state.coordinates[..], &state.rates[..]);
-        let left = target - state.time;
-        let last = left <= h * (1.0 + 1e-9);
-        let outcome = method.attempt(dynamics, now, if last { left } else { h }, tolerance);
-        let Attempt::Done(_) = outcome else {
-            counts.rejected += 1;
-            h *= 0.5;
-            if h < way / MOST_PIECES {
-                return Err(StepError::StepTooSmall);
+impl FixedSteps<'_> {
+    /// Advances to a time (s), in equal steps from one output or jump to the next.
+    fn advance(&mut self, state: &mut State, until: f64) -> Result<(), StepError> {
+        while state.time < until {
+            let (from, near) = (state.time, grain(state.time));
+            let dynamics = &mut *self.dynamics;
+            // History goes on over outputs but not over jumps.
+            let jumps = dynamics.begin_smooth_interval(from - 8.0 * near, until) <= from + near;
+            let end = dynamics.begin_smooth_interval(from, until);
+            let way = end - from;
+            if from <= 0.0 || jumps {
+                let (q, v) = (&state.coordinates, &state.rates);
+                self.method.begin(dynamics, from, q, v);
             }
-            continue;
-        };
-        method.accept(&mut state.coordinates, &mut state.rates);
-        state.time = if last { target } else { state.time + h };
-        counts.steps += 1;
-        match dynamics.accepted(state) {
-            StepOutcome::AsIs => {}
-            StepOutcome::Moved => {
-                method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
+            let before = self.method.newton_iterations();
+            let pieces = (way / self.step - 1e-9).ceil().max(1.0) as u64;
+            let h = way / pieces as f64;
+            for piece in 1..=pieces {
+                let target = if piece == pieces {
+                    end
+                } else {
+                    from + piece as f64 * h
+                };
+                self.step_to(state, target)?;
             }
-            StepOutcome::SliderLeftCable(joint) => return Err(StepError::SliderLeftCable(joint)),
-            StepOutcome::WinchEmpty(drive) => return Err(StepError::WinchEmpty(drive)),
-            StepOutcome::ElementOverDeformed(rod, place) => {
-                return Err(StepError::ElementOverDeformed(rod, place));
+            if let StepOutcome::Jumped(drive) = self.dynamics.end_smooth_interval(state) {
+                return Err(StepError::Jumped(drive));
             }
-            StepOutcome::ConstraintsViolated => return Err(StepError::ConstraintsViolated),
-            StepOutcome::Jumped(drive) => return Err(StepError::Jumped(drive)),
-            StepOutcome::NotFinite => return Err(StepError::NotFinite),
+            self.counts.newton_iterations += self.method.newton_iterations() - before;
+            if !state.coordinates.iter().all(|q| q.is_finite()) {
+                return Err(StepError::NotFinite);
+            }
         }
+        Ok(())
     }
-    Ok(())
+
+    /// Takes one step to a time (s), in halves where the iteration does not converge.
+    fn step_to(&mut self, state: &mut State, target: f64) -> Result<(), StepError> {
+        let (method, dynamics) = (&mut *self.method, &mut *self.dynamics);
+        let way = target - state.time;
+        let mut h = way;
+        while state.time < target {
+            let now = StateView::of(state);
+            let left = target - state.time;
+            let last = left <= h * (1.0 + 1e-9);
+            let outcome =
+                method.attempt(dynamics, now, if last { left } else { h }, self.tolerance);
+            let Attempt::Done(_) = outcome else {
+                self.counts.rejected += 1;
+                h *= 0.5;
+                if h < way / MOST_PIECES {
+                    return Err(StepError::StepTooSmall);
+                }
+                continue;
+            };
+            method.accept(&mut state.coordinates, &mut state.rates);
+            state.time = if last { target } else { state.time + h };
+            self.counts.steps += 1;
+            match dynamics.accepted(state) {
+                StepOutcome::AsIs => {}
+                StepOutcome::Moved => {
+                    method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
+                }
+                StepOutcome::SliderLeftCable(joint) => {
+                    return Err(StepError::SliderLeftCable(joint));
+                }
+                StepOutcome::WinchEmpty(drive) => return Err(StepError::WinchEmpty(drive)),
+                StepOutcome::ElementOverDeformed(rod, place) => {
+                    return Err(StepError::ElementOverDeformed(rod, place));
+                }
+                StepOutcome::ConstraintsViolated => return Err(StepError::ConstraintsViolated),
+                StepOutcome::Jumped(drive) => return Err(StepError::Jumped(drive)),
+                StepOutcome::NotFinite => return Err(StepError::NotFinite),
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Errors as the product measures them.

@@ -4,7 +4,7 @@
 //! Source: as for the method; a correction is one of Newton's for the acceleration that the polynomial has there.
 
 use super::{A_INVERSE, GAMMA, Kept, Radau, add, dense, mixed, size, sum};
-use crate::integrators::Tolerance;
+use crate::integrators::{ErrorEstimate, StateView, StateViewMut, Tolerance};
 use crate::system::{DenseStep, Dynamics};
 
 /// Part of the acceleration, in tolerances, that may be left unsolved in a state that is read.
@@ -23,9 +23,14 @@ impl Radau {
     pub(super) fn relax_at_end(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &mut [f64], &mut [f64]),
+        state: StateViewMut<'_>,
         tolerance: &Tolerance,
     ) -> bool {
+        let StateViewMut {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         self.solved_at_end();
         self.leave(dynamics);
         let left = self.unsolved(&self.f[0], tolerance);
@@ -41,7 +46,7 @@ impl Radau {
             return false;
         }
         dynamics.solve(&mut self.f[0]);
-        self.correct(s, (q, v));
+        self.correct(s, q, v);
         dynamics.acceleration(time, q, v, &mut self.a);
         true
     }
@@ -51,9 +56,14 @@ impl Radau {
         &mut self,
         dynamics: &mut dyn Dynamics,
         step: &DenseStep,
-        (time, q, v): (f64, &mut [f64], &mut [f64]),
+        state: StateViewMut<'_>,
         tolerance: &Tolerance,
     ) -> f64 {
+        let StateViewMut {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         if !self.factor_at_start(dynamics, step) {
             return f64::NAN;
         }
@@ -71,7 +81,7 @@ impl Radau {
         add(rest, &[(-s * s, correction)]);
         let left = self.unsolved(&self.f[1], tolerance) / UNSOLVED_WITHIN;
         if left > 1.0 {
-            self.correct(s, (q, v));
+            self.correct(s, q, v);
         }
         left
     }
@@ -80,10 +90,16 @@ impl Radau {
     pub(super) fn error_left(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         within: Option<&DenseStep>,
-        [position, velocity]: [&mut [f64]; 2],
+        error: ErrorEstimate<'_>,
     ) {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
+        let ErrorEstimate { position, velocity } = error;
         let s = GAMMA / self.attempted;
         self.kept.at = [0.0; 2];
         dynamics.linearize(time, q, v);
@@ -106,21 +122,22 @@ impl Radau {
             dynamics.solve(error);
             error.iter_mut().for_each(|e| *e *= s * s);
         }
-        self.correct(s, (position, velocity));
+        self.correct(s, position, velocity);
     }
 
     /// As [`Method::follow`](crate::integrators::Method::follow).
-    pub(super) fn follow_error(
-        &mut self,
-        dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &mut [f64], &mut [f64]),
-    ) {
+    pub(super) fn follow_error(&mut self, dynamics: &mut dyn Dynamics, state: StateViewMut<'_>) {
+        let StateViewMut {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         let [change, moved, _] = &mut self.f;
         dynamics.acceleration(time, q, v, moved);
         sum(change, &[(1.0, &moved[..]), (-1.0, &self.a[..])]);
         dynamics.take_out_normal(change);
         dynamics.solve(change);
-        self.correct(GAMMA / self.attempted, (q, v));
+        self.correct(GAMMA / self.attempted, q, v);
     }
 
     /// Acceleration of the stage equations' solution at the end of the step, into `stage_v`.
@@ -160,7 +177,7 @@ impl Radau {
     }
 
     /// Moves a state by the correction in `f[0]`.
-    fn correct(&self, s: f64, (q, v): (&mut [f64], &mut [f64])) {
+    fn correct(&self, s: f64, q: &mut [f64], v: &mut [f64]) {
         for (i, d) in self.f[0].iter().enumerate() {
             q[i] += d;
             v[i] += s * d;

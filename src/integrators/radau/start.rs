@@ -29,19 +29,19 @@ impl Radau {
                     dynamics.solve(slow);
                     slow.iter_mut().for_each(|slow| *slow *= s * s);
                 }
-                let from = if size(&self.a) > DOMINANT * size(&self.error_q) {
-                    [&self.error_v[..], &self.error_q]
+                let (v, a) = if size(&self.a) > DOMINANT * size(&self.error_q) {
+                    (&self.error_v[..], &self.error_q)
                 } else {
-                    [v, &self.a]
+                    (v, &self.a)
                 };
                 for (stage, c) in self.zq.iter_mut().zip(C) {
-                    follow(c * h, from, stage);
+                    follow(c * h, v, a, stage);
                 }
             }
             Some(last) => self.go_on(h, last),
             None => {
                 for (stage, c) in self.zq.iter_mut().zip(C) {
-                    follow(c * h, [v, &self.a], stage);
+                    follow(c * h, v, &self.a, stage);
                 }
             }
         }
@@ -61,7 +61,7 @@ impl Radau {
 }
 
 /// The way in a time at a rate and a constant acceleration.
-fn follow(t: f64, [v, a]: [&[f64]; 2], way: &mut [f64]) {
+fn follow(t: f64, v: &[f64], a: &[f64], way: &mut [f64]) {
     for (way, (v, a)) in way.iter_mut().zip(v.iter().zip(a)) {
         *way = t * (v + 0.5 * t * a);
     }

@@ -4,7 +4,7 @@
 //! Source: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, Eqs. 17 and 25; forces averaged over the
 //! ends of the step: M. Arnold, O. Bruls, Multibody Syst. Dyn. 18 (2007) 185-202, Eq. 2.
 
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance};
 use flexbody::system::Dynamics;
 
 use super::support::newton;
@@ -71,10 +71,15 @@ impl OneStepMethod for Alpha {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         _: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         let n = q.len();
         let (beta, gamma, a) = (self.beta, self.gamma, &self.a);
         let (m, f) = (self.inertia, self.force);

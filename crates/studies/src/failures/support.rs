@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance};
 use flexbody::scene::Scene;
 use flexbody::simulation::{Simulation, StepFailure};
 use flexbody::system::{DrivenSystem, Dynamics, Evaluation, State, StepOutcome, Workspace};
@@ -179,7 +179,7 @@ impl March<'_> {
         method.begin(&mut model, 0.0, &state.coordinates, &state.rates);
         let [step, stop] = self.times;
         for count in 1..=(stop / step).round() as u64 {
-            let from = (state.time, &state.coordinates[..], &state.rates[..]);
+            let from = StateView::of(&state);
             let Attempt::Done(_) = method.attempt(&mut model, from, step, &tolerance) else {
                 return Ok(Err(state.time));
             };

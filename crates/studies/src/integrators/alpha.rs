@@ -6,7 +6,7 @@
 //! M. Arnold, O. Bruls, Multibody Syst. Dyn. 18 (2007) 185-202, Eq. 2. The trapezoidal rule is that of
 //! N. M. Newmark (1959) with beta 1/4, gamma 1/2.
 
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance, rescaled};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance, rescaled};
 use flexbody::system::Dynamics;
 
 use super::newton::{Equation, Newton, size};
@@ -141,10 +141,15 @@ impl OneStepMethod for Alpha {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         let w = self.weights;
         let share = 1.0 / (1.0 - w.force);
         for i in 0..q.len() {

@@ -3,7 +3,7 @@
 //! Source: J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, Table 2 (RK5(4)7M); E. Hairer,
 //! S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., Table II.5.2.
 
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance, rescaled};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance, rescaled};
 use flexbody::system::Dynamics;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -84,10 +84,15 @@ impl OneStepMethod for Dopri5 {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         for stage in 1..7 {
             self.q.copy_from_slice(q);
             self.v.copy_from_slice(v);

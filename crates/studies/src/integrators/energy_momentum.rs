@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex};
 
 use flexbody::bodies::{Elimination, Node, no_node};
 use flexbody::elements::{Element, Nodal};
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance};
 use flexbody::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, QuadraturePoint};
 use flexbody::scene::Strain;
 use flexbody::system::Dynamics;
@@ -316,10 +316,15 @@ impl OneStepMethod for EnergyMomentum {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         self.per_time = 2.0 / h;
         for i in 0..q.len() {
             self.v[i] = v[i] + 0.5 * h * self.a[i];

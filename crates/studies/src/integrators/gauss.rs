@@ -4,7 +4,7 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Table IV.5.2 (method),
 //! section IV.8 (transformation, stopping).
 
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance};
 use flexbody::system::Dynamics;
 use nalgebra::{Complex, Matrix3};
 
@@ -102,10 +102,15 @@ impl Gauss {
     fn iterate(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> f64 {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         for stage in 0..3 {
             for i in 0..q.len() {
                 self.stage_q[i] = q[i] + self.zq[stage][i];
@@ -142,7 +147,7 @@ impl Gauss {
     fn newton(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Result<(), f64> {
@@ -195,11 +200,15 @@ impl OneStepMethod for Gauss {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
-        let (time, q, v) = state;
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         self.start(v, h);
         for _ in 0..2 {
             let was_kept = self.tangent;

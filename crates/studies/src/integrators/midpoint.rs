@@ -2,7 +2,7 @@
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., Eq. II.1.7.
 
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance};
 use flexbody::system::Dynamics;
 
 use super::newton::{Equation, Newton, size};
@@ -82,10 +82,15 @@ impl OneStepMethod for Midpoint {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         self.per_time = 2.0 / h;
         for i in 0..q.len() {
             self.v[i] = v[i] + 0.5 * h * self.a[i];

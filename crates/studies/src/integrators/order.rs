@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use flexbody::integrators::{Attempt, Tolerance};
+use flexbody::integrators::{Attempt, StateView, Tolerance};
 use flexbody::scene::Scene;
 use flexbody::system::{DrivenSystem, Dynamics, Evaluation, State};
 
@@ -53,7 +53,7 @@ fn run(start: &Start, name: &str, stop: f64, steps: u32) -> State {
     let h = stop / f64::from(steps);
     method.begin(&mut probe, 0.0, &state.coordinates, &state.rates);
     for step in 0..steps {
-        let from = (state.time, &state.coordinates[..], &state.rates[..]);
+        let from = StateView::of(&state);
         let attempt = method.attempt(&mut probe, from, h, &tolerance);
         assert!(matches!(attempt, Attempt::Done(_)), "{name}: {attempt:?}");
         method.accept(&mut state.coordinates, &mut state.rates);

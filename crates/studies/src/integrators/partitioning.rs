@@ -5,6 +5,7 @@
 //! coordinate partitioning for dimension reduction in analysis of constrained dynamic systems, J. Mech.
 //! Design 104 (1982).
 
+use flexbody::integrators::StateView;
 use flexbody::system::{DrivenSystem, State};
 
 /// Most iterations of Newton's method.
@@ -54,7 +55,7 @@ impl Partition {
     /// Chooses anew at a state: as many coordinates as there are independent rows.
     pub fn choose(&mut self, model: &mut DrivenSystem<'_>, state: &State) {
         let [m, n] = self.size;
-        self.fill(model, (state.time, &state.coordinates), None);
+        self.fill(model, state.time, &state.coordinates, None);
         self.dependent.clear();
         self.chosen = (0..m).collect();
         let mut largest = 0.0;
@@ -94,13 +95,13 @@ impl Partition {
     pub fn completed(
         &mut self,
         model: &mut DrivenSystem<'_>,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         then: impl FnOnce(&mut DrivenSystem<'_>, &[f64], &[f64]),
     ) {
         let (mut p, mut u) = (std::mem::take(&mut self.q), std::mem::take(&mut self.v));
-        p.copy_from_slice(q);
-        u.copy_from_slice(v);
-        self.complete(model, time, (&mut p, &mut u));
+        p.copy_from_slice(state.coordinates);
+        u.copy_from_slice(state.rates);
+        self.complete(model, state.time, &mut p, &mut u);
         then(model, &p, &u);
         (self.q, self.v) = (p, u);
     }
@@ -108,7 +109,7 @@ impl Partition {
     /// Moves a state onto the constraints; false where that fails.
     pub fn project(&mut self, model: &mut DrivenSystem<'_>, state: &mut State) -> bool {
         let (q, v) = (&mut state.coordinates, &mut state.rates);
-        self.complete(model, state.time, (q, v)) <= BROKEN
+        self.complete(model, state.time, q, v) <= BROKEN
     }
 
     /// Moves dependent coordinates and rates; the largest residual of positions that is left.
@@ -116,11 +117,12 @@ impl Partition {
         &mut self,
         model: &mut DrivenSystem<'_>,
         time: f64,
-        (q, v): (&mut [f64], &mut [f64]),
+        q: &mut [f64],
+        v: &mut [f64],
     ) -> f64 {
         let mut residual = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            let found = self.fill(model, (time, q), None);
+            let found = self.fill(model, time, q, None);
             let is_settled = found <= EXACT || found > 0.5 * residual;
             residual = found;
             if is_settled {
@@ -128,7 +130,7 @@ impl Partition {
             }
             self.solve(q);
         }
-        self.fill(model, (time, q), Some(v));
+        self.fill(model, time, q, Some(v));
         self.solve(v);
         residual
     }
@@ -138,7 +140,8 @@ impl Partition {
     fn fill(
         &mut self,
         model: &mut DrivenSystem<'_>,
-        (time, q): (f64, &[f64]),
+        time: f64,
+        q: &[f64],
         v: Option<&[f64]>,
     ) -> f64 {
         let n = self.size[1];

@@ -4,6 +4,8 @@
 use std::sync::{Arc, Mutex};
 
 use flexbody::bodies::Node;
+use flexbodies::bodies::Node;
+use flexbodies::integrators::StateView;
 use flexbody::system::{DrivenSystem, Dynamics, State, StepOutcome};
 use nalgebra::Complex;
 
@@ -74,9 +76,16 @@ impl Dynamics for Probe<'_> {
         self.tally.accelerations += 1;
         let model = &mut self.model;
         match &mut self.partition {
-            Some(partition) => partition.completed(model, (time, q, v), |model, q, v| {
-                model.acceleration(time, q, v, a);
-            }),
+            Some(partition) => {
+                let state = StateView {
+                    time,
+                    coordinates: q,
+                    rates: v,
+                };
+                partition.completed(model, state, |model, q, v| {
+                    model.acceleration(time, q, v, a);
+                });
+            }
             None => model.acceleration(time, q, v, a),
         }
         if let Some(nodes) = &self.nodes

@@ -4,7 +4,7 @@
 //! Source: L. Verlet, Phys. Rev. 159 (1967); W. C. Swope et al., J. Chem. Phys. 76 (1982) 637, Eqs. 2-3;
 //! E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., section I.1.4.
 
-use flexbody::integrators::{Attempt, OneStepMethod, Tolerance, rescaled};
+use flexbody::integrators::{Attempt, OneStepMethod, StateView, Tolerance, rescaled};
 use flexbody::system::Dynamics;
 
 /// Scratch of the method.
@@ -44,10 +44,15 @@ impl OneStepMethod for Verlet {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
+        state: StateView<'_>,
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
+        let StateView {
+            time,
+            coordinates: q,
+            rates: v,
+        } = state;
         for i in 0..q.len() {
             let half = v[i] + 0.5 * h * self.a[i];
             self.q[i] = q[i] + h * half;
