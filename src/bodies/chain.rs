@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::Node;
-use crate::elements::{BlockPack, Element, Nodal, NodalView, shape};
+use crate::elements::{BlockPack, Element, ElementMotion, Nodal, NodalView, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd, Vectorized, vectorized};
 use crate::math::sparse::Matrix;
@@ -233,7 +233,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
     ) -> (Nodal<D, N>, N) {
         let e = self.element(j, x);
         let rate = self.element(j, rate) - e * growth;
-        self.elements[j].force_by((&e, &rate), by)
+        self.elements[j].force_by(&e, &rate, by)
     }
 
     /// Strain energy, J; `by` is the reference length over the length now.
@@ -397,10 +397,17 @@ impl<E: Element<D>, const D: usize> Vectorized for AddForce<'_, E, D> {
             chain.read(pack, self.x, by, &mut e);
             if chain.is_damped {
                 chain.read_rates(pack, (self.x, self.rate), [by, growth], &mut v);
-                let motion = (ends(&e), Some(ends(&v)));
+                let motion = ElementMotion {
+                    at: ends(&e),
+                    rates: Some(ends(&v)),
+                };
                 *self.power += E::pack_force(simd, &pack.kernel, motion, by, &mut f);
             } else {
-                E::pack_force(simd, &pack.kernel, (ends(&e), None), by, &mut f);
+                let motion = ElementMotion {
+                    at: ends(&e),
+                    rates: None,
+                };
+                E::pack_force(simd, &pack.kernel, motion, by, &mut f);
             }
             let first = chain.first + pack.elements.start;
             let count = pack.elements.len().min(PACK);
@@ -448,13 +455,20 @@ impl<E: Element<D>, const D: usize> Vectorized for AddTangent<'_, E, D> {
             chain.read(pack, self.x, by, &mut e);
             if chain.is_damped {
                 chain.read_rates(pack, (self.x, self.rate), [by, growth], &mut v);
-                let motion = (ends(&e), Some(ends(&v)));
+                let motion = ElementMotion {
+                    at: ends(&e),
+                    rates: Some(ends(&v)),
+                };
                 E::pack_stiffness(simd, &pack.kernel, motion, by, &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, stiffness);
                 E::pack_damping(simd, &pack.kernel, ends(&e), by, &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, damping);
             } else {
-                E::pack_stiffness(simd, &pack.kernel, (ends(&e), None), by, &mut blocks);
+                let motion = ElementMotion {
+                    at: ends(&e),
+                    rates: None,
+                };
+                E::pack_stiffness(simd, &pack.kernel, motion, by, &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, stiffness);
             }
         }

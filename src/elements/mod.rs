@@ -33,6 +33,15 @@ pub type NodalPack<const D: usize> = [[[f64; PACK]; D]; 4];
 /// Coordinates of a pack of elements, or their rates, wherever they stand: every coordinate of all elements side by side.
 pub type NodalView<'a, const D: usize> = [[&'a [f64; PACK]; D]; 4];
 
+/// Motion of the elements of a pack: coordinates and rates, wherever they stand.
+#[derive(Clone, Copy, Debug)]
+pub struct ElementMotion<A, R = A> {
+    /// Coordinates.
+    pub at: A,
+    /// Rates of the coordinates, where the elements are damped.
+    pub rates: Option<R>,
+}
+
 /// [`EndBlocks`] of a pack of elements.
 pub type BlockPack<const D: usize> = EndBlocks<[f64; PACK], D>;
 
@@ -76,14 +85,14 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     }
     /// Elastic and damping force on the coordinates, `-dU/de - R(e) de/dt`, N and N m.
     fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N> {
-        self.force_by((e, rate), N::of(1.0)).0
+        self.force_by(e, rate, N::of(1.0)).0
     }
     /// [`Self::energy`] where the element is longer than its reference length; `by` is that length over the one now. Coordinates
     /// stay those by the reference length.
     fn energy_by<N: Number>(&self, e: &Nodal<D, N>, by: N) -> N;
     /// [`Self::force`] where the element is longer than its reference length, and the power that damping takes out, W; rates are those
     /// without what lengthening by itself adds.
-    fn force_by<N: Number>(&self, motion: (&Nodal<D, N>, &Nodal<D, N>), by: N) -> (Nodal<D, N>, N);
+    fn force_by<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>, by: N) -> (Nodal<D, N>, N);
     /// Tangent stiffness `-d force / de`, symmetric; with damping its symmetric part that matters,
     /// the rate of strain taken as given.
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D>;
@@ -114,7 +123,7 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn pack_force<S: Simd>(
         simd: S,
         pack: &Self::Pack,
-        motion: (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        motion: ElementMotion<NodalView<'_, D>>,
         by: f64,
         out: &mut NodalPack<D>,
     ) -> f64;
@@ -122,7 +131,7 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn pack_stiffness<S: Simd>(
         simd: S,
         pack: &Self::Pack,
-        motion: (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        motion: ElementMotion<NodalView<'_, D>>,
         by: f64,
         out: &mut BlockPack<D>,
     );

@@ -172,7 +172,7 @@ pub fn power<const D: usize>(s: &Specimen<D>) -> Outcome {
     let scale = s.energy_scale() * (1.0 + s.parameters.longest_damping_time());
     let off = (total + rate + taken).abs();
     within("power of damping", off, 2e-9 * scale)?;
-    let dissipated = s.cable.force_by((&s.e, &s.rate), 1.0).1;
+    let dissipated = s.cable.force_by(&s.e, &s.rate, 1.0).1;
     let off = (dissipated - (elastic - total)).abs();
     within("dissipation", off, 1e-12 * scale)?;
     prop_assert!(taken >= -1e-13 * scale, "damping gives {taken:e} W");

@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use flexbody::bodies::no_node;
-use flexbody::elements::{beam, rod};
+use flexbody::elements::{ElementMotion, beam, rod};
 use flexbody::math::eigen;
 use flexbody::math::lanes::{self, PACK};
 use flexbody::scene::{Scene, assemble};
@@ -233,12 +233,16 @@ impl lanes::Vectorized for &mut Rods {
                 d: at.d.each_ref().map(|v| v.each_ref()),
                 bubble: &at.bubble,
             };
+            let motion = ElementMotion {
+                at: &at,
+                rates: None,
+            };
             if self.with_tangent {
                 let out = black_box(&mut *self.tangent);
                 let kind = rod::Tangent::Stiffness;
-                rod::Rod::pack_tangent(simd, &self.pack, (&at, None), kind, out);
+                rod::Rod::pack_tangent(simd, &self.pack, motion, kind, out);
             } else {
-                rod::Rod::pack_force(simd, &self.pack, (&at, None), black_box(&mut self.force));
+                rod::Rod::pack_force(simd, &self.pack, motion, black_box(&mut self.force));
             }
         }
     }
@@ -319,13 +323,17 @@ impl lanes::Vectorized for &mut Beams {
                 axes: axes.map(|axes| axes.each_ref().map(|v| v.each_ref())),
                 inner: at.inner.each_ref(),
             };
+            let motion = ElementMotion {
+                at: &at,
+                rates: None,
+            };
             if self.with_tangent {
                 let out = black_box(&mut *self.tangent);
                 let kind = beam::Tangent::Stiffness;
-                beam::Beam::pack_tangent(simd, &self.pack, (&at, None), kind, out);
+                beam::Beam::pack_tangent(simd, &self.pack, motion, kind, out);
             } else {
                 let out = black_box(&mut self.force);
-                beam::Beam::pack_force(simd, &self.pack, (&at, None), out);
+                beam::Beam::pack_force(simd, &self.pack, motion, out);
             }
         }
     }

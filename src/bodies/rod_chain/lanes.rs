@@ -7,6 +7,7 @@ use crate::bodies::assembly::Assembly;
 use crate::bodies::chain::both;
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::RotationMaps;
+use crate::elements::ElementMotion;
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::rod::{self, Rod, Tangent};
@@ -331,7 +332,10 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
-        let motion = (&rod_at(&self.motion.0.at()), rates.as_ref());
+        let motion = ElementMotion {
+            at: &rod_at(&self.motion.0.at()),
+            rates: rates.as_ref(),
+        };
         *self.power += Rod::pack_force(simd, self.kernel, motion, self.out);
     }
 }
@@ -356,7 +360,10 @@ impl Vectorized for InLanes<'_, beam::Pack, Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = (&self.motion.0.at(), rates.as_ref());
+        let motion = ElementMotion {
+            at: &self.motion.0.at(),
+            rates: rates.as_ref(),
+        };
         *self.power += Beam::pack_force(simd, self.kernel, motion, self.out);
     }
 }
@@ -385,7 +392,10 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
-        let motion = (&rod_at(&self.motion.0.at()), rates.as_ref());
+        let motion = ElementMotion {
+            at: &rod_at(&self.motion.0.at()),
+            rates: rates.as_ref(),
+        };
         Rod::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }
@@ -412,7 +422,10 @@ impl Vectorized for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = (&self.motion.0.at(), rates.as_ref());
+        let motion = ElementMotion {
+            at: &self.motion.0.at(),
+            rates: rates.as_ref(),
+        };
         Beam::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }
@@ -421,7 +434,10 @@ impl Vectorized for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = (&self.motion.0.at(), rates.as_ref());
+        let motion = ElementMotion {
+            at: &self.motion.0.at(),
+            rates: rates.as_ref(),
+        };
         *self.power += Planar::pack_force(simd, self.kernel, motion, self.out);
     }
 }
@@ -430,7 +446,10 @@ impl Vectorized for InLanes<'_, planar::Pack, ElementMatrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = (&self.motion.0.at(), rates.as_ref());
+        let motion = ElementMotion {
+            at: &self.motion.0.at(),
+            rates: rates.as_ref(),
+        };
         Planar::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }

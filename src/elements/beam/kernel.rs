@@ -8,7 +8,9 @@ use super::{At, Force, Rates};
 use crate::elements::constitutive::Law;
 use crate::elements::line::{Sample, combine, dot, times};
 use crate::elements::rod;
-use crate::elements::rod::geometry::{Frame, Geometry, MIDDLE, Motion, POINTS, Section, Sum};
+use crate::elements::rod::geometry::{
+    Frame, Geometry, MIDDLE, Motion, POINTS, PlacedSection, Section, Sum,
+};
 use crate::elements::rod::kernel::product;
 use crate::elements::rod::stretch::parabola;
 use crate::elements::rod::vectors::{Vector, add, plus};
@@ -136,7 +138,8 @@ impl<N: Real> Kernel<N> {
         &self,
         point: &Sample,
         turning: [N; 3],
-        (stretches, shear_rotations): (&[N; 3], &[[N; 2]; 3]),
+        stretches: &[N; 3],
+        shear_rotations: &[[N; 2]; 3],
     ) -> Local<N> {
         let (geometry, shapes) = (&self.geometry, Shapes::new(point.at));
         let zero = geometry.number(0.0);
@@ -170,7 +173,8 @@ impl<N: Real> Kernel<N> {
         let local = self.local(
             point,
             section.strains,
-            (&placed.stretches, &placed.shear_rotations),
+            &placed.stretches,
+            &placed.shear_rotations,
         );
         (section, ShearedSection::new(local))
     }
@@ -215,7 +219,12 @@ impl<N: Real> Kernel<N> {
                 stress = add(&stress, &damped);
             }
             let factors = rows.factors(&times(&stress, geometry.number(point.weight)));
-            geometry.add_section(point, &section, &placed.frame, &factors.turning, &mut sum);
+            let at = PlacedSection {
+                point,
+                section: &section,
+                frame: &placed.frame,
+            };
+            geometry.add_section(at, &factors.turning, &mut sum);
             let change = times(&factors.change, geometry.inverse_length);
             for k in 0..3 {
                 stretches[k] = factors
@@ -248,7 +257,7 @@ impl<N: Real> Kernel<N> {
         let turning = self
             .geometry
             .strain_rates(point, section, &placed.frame, &moving.motion);
-        self.local(point, turning, (&moving.stretches, &moving.shear_rotations))
+        self.local(point, turning, &moving.stretches, &moving.shear_rotations)
     }
 
     /// Force from the summed factors.

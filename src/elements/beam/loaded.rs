@@ -9,7 +9,7 @@ use super::kernel::{Kernel, Placed, Shapes};
 use super::shear_rotation::turned_by_shear;
 use super::{At, Beam, Force};
 use crate::elements::line::{Sample, dot, times};
-use crate::elements::rod::geometry::{LOADED, Section, Sum};
+use crate::elements::rod::geometry::{LOADED, PlacedSection, Section, Sum};
 use crate::elements::rod::loaded::along;
 use crate::elements::rod::vectors::plus;
 use crate::math::lanes::Real;
@@ -52,7 +52,12 @@ impl<N: Real> Kernel<N> {
             let (section, [p, q]) = self.sheared(point, &placed);
             // What is summed is what resists.
             let against = times(moment, geometry.number(-point.weight));
-            geometry.add_moment(point, &section, &placed.frame, &against, &mut sum);
+            let place = PlacedSection {
+                point,
+                section: &section,
+                frame: &placed.frame,
+            };
+            geometry.add_moment(place, &against, &mut sum);
             let axes = geometry.axes(&section, &placed.frame);
             let [twist, first, second] = axes.map(|axis| dot(&axis, &against));
             let shrink = one / (p * p + q * q).times_plus(geometry.number(0.25), one);

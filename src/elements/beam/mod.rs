@@ -41,6 +41,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
+use crate::elements::ElementMotion;
 use crate::elements::constitutive::Law;
 use crate::elements::line::{sample, times};
 use crate::elements::rod::geometry::{Geometry, POINTS};
@@ -226,14 +227,14 @@ impl Beam {
     pub fn pack_force<S: Simd>(
         simd: S,
         pack: &Pack,
-        (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        motion: ElementMotion<&At<&[f64; PACK]>, &Rates<&[f64; PACK]>>,
         out: &mut Force<[f64; PACK]>,
     ) -> f64 {
         let mut powers = [0.0; PACK];
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
-            let at = at.group(simd, group);
-            let rates = of_rate!(rates, rates => rates.group(simd, group));
+            let at = motion.at.group(simd, group);
+            let rates = of_rate!(motion.rates, rates => rates.group(simd, group));
             let (force, power) = kernel.force(&at, rates.as_ref());
             for d in 0..3 {
                 for k in 0..4 {
@@ -257,14 +258,14 @@ impl Beam {
     pub fn pack_tangent<S: Simd>(
         simd: S,
         pack: &Pack,
-        (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        motion: ElementMotion<&At<&[f64; PACK]>, &Rates<&[f64; PACK]>>,
         kind: Tangent,
         out: &mut Matrix<[f64; PACK]>,
     ) {
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
-            let at = at.group(simd, group);
-            let rates = of_rate!(rates, rates => rates.group(simd, group));
+            let at = motion.at.group(simd, group);
+            let rates = of_rate!(motion.rates, rates => rates.group(simd, group));
             let matrix = kernel.tangent(&at, rates.as_ref(), kind);
             for r in 0..VELOCITIES {
                 for c in 0..=r {

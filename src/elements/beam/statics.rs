@@ -122,22 +122,30 @@ impl Chain {
     }
 }
 
+/// Steps in which a load grows.
+const STEPS: u32 = 6;
+
 /// Errors of the tip with 4, 8 and 16 elements, m, and iterations of each.
-fn errors(
-    make: impl Fn(usize) -> Chain,
-    (load, steps): (V, usize),
-    tip: V,
-) -> ([f64; 3], [usize; 3]) {
+struct Convergence {
+    errors: [f64; 3],
+    iterations: [usize; 3],
+}
+
+/// Loads chains of 4, 8 and 16 elements, whose tip is to be there.
+fn errors(make: impl Fn(usize) -> Chain, load: V, tip: V) -> Convergence {
     let mut all = [0; 3];
     let mut errors = [0.0; 3];
     for (k, elements) in [4, 8, 16].into_iter().enumerate() {
         let mut chain = make(elements);
-        for step in 1..=steps {
-            all[k] += chain.settle(load * (step as f64 / steps as f64));
+        for step in 1..=STEPS {
+            all[k] += chain.settle(load * (f64::from(step) / f64::from(STEPS)));
         }
         errors[k] = (chain.line[elements][0] - tip).norm();
     }
-    (errors, all)
+    Convergence {
+        errors,
+        iterations: all,
+    }
 }
 
 fn straight(s: f64) -> (V, [V; 3]) {
@@ -162,11 +170,8 @@ fn oblique() -> V {
 
 /// Errors are those of another program of the same equations, fall with the fourth power, and Newton's method converges at all
 /// meshes alike.
-fn check(
-    name: &str,
-    (errors, iterations): ([f64; 3], [usize; 3]),
-    (expected, most): ([f64; 3], usize),
-) {
+fn check(name: &str, found: Convergence, expected: [f64; 3], most: usize) {
+    let Convergence { errors, iterations } = found;
     for (error, expected) in errors.iter().zip(expected) {
         assert!((error / expected - 1.0).abs() < 0.05, "{name}: {errors:?}");
     }
@@ -196,8 +201,8 @@ fn a_strip_does_not_lock() {
         ),
     ];
     for (more, tip) in tips {
-        let found = errors(|n| strip(n, more, more), (oblique(), 6), tip);
-        check("strip", found, ([5.1e-5, 3.5e-6, 2.2e-7], 31));
+        let found = errors(|n| strip(n, more, more), oblique(), tip);
+        check("strip", found, [5.1e-5, 3.5e-6, 2.2e-7], 31);
     }
 }
 
@@ -205,8 +210,8 @@ fn a_strip_does_not_lock() {
 fn a_strip_stiff_in_shear_is_a_rod() {
     // Tip and errors of the rod.
     let tip = V::new(1.0 - 0.097_116_751_85, -0.020_849_580_45, 0.390_165_021_12);
-    let found = errors(|n| strip(n, 1.0, 1e6), (oblique(), 6), tip);
-    check("strip", found, ([5.1e-5, 3.5e-6, 2.2e-7], 31));
+    let found = errors(|n| strip(n, 1.0, 1e6), oblique(), tip);
+    check("strip", found, [5.1e-5, 3.5e-6, 2.2e-7], 31);
 }
 
 #[test]
@@ -224,8 +229,8 @@ fn a_section_may_couple_all_strains() {
     }
     let tip = V::new(9.172_016_630_8, 0.031_896_611_0, 3.665_243_309_0);
     let make = |n| Chain::new(n, 10.0, stiffness, straight);
-    let found = errors(make, (V::new(0.0, 200.0, 600.0), 6), tip);
-    check("composite", found, ([2.0e-4, 1.35e-5, 8.5e-7], 31));
+    let found = errors(make, V::new(0.0, 200.0, 600.0), tip);
+    check("composite", found, [2.0e-4, 1.35e-5, 8.5e-7], 31);
 }
 
 #[test]
@@ -248,8 +253,8 @@ fn an_arc_bends_out_of_its_plane() {
         let bending = young / 12.0;
         let stiffness = diagonal([young, shear, shear, bending, bending, bending]);
         let make = |n| Chain::new(n, length, stiffness, arc);
-        let found = errors(make, (V::z() * 600.0, 6), tip);
-        check("bend", found, ([7.3e-3, 4.2e-4, 2.57e-5], 39));
+        let found = errors(make, V::z() * 600.0, tip);
+        check("bend", found, [7.3e-3, 4.2e-4, 2.57e-5], 39);
     }
 }
 
@@ -266,13 +271,13 @@ fn the_princeton_beam_bends_as_computed() {
     ]);
     let make = |n| Chain::new(n, length, stiffness, straight);
     let soft = V::new(length - 0.050_405_679_739_174_48, 0.0, 0.200_692_911_372_08);
-    let found = errors(make, (V::z() * 13.345, 6), soft);
-    check("soft", found, ([1.39e-5, 8.76e-7, 5.48e-8], 31));
+    let found = errors(make, V::z() * 13.345, soft);
+    check("soft", found, [1.39e-5, 8.76e-7, 5.48e-8], 31);
     let stiff = V::new(
         length - 0.000_304_811_000_176_763,
         -0.016_065_144_807_901_617,
         0.0,
     );
-    let found = errors(make, (V::y() * -13.345, 6), stiff);
-    check("stiff", found, ([2.0e-8, 1.25e-9, 7.84e-11], 31));
+    let found = errors(make, V::y() * -13.345, stiff);
+    check("stiff", found, [2.0e-8, 1.25e-9, 7.84e-11], 31);
 }

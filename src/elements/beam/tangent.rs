@@ -7,12 +7,13 @@
 
 use super::end::End;
 use super::kernel::{Kernel, Placed, Shapes};
-use super::shear_rotation::Eight;
+use super::shear_rotation::{Eight, Local};
 use super::{At, Matrix, Rates, Tangent, VELOCITIES};
 use crate::elements::line::{Sample, times};
 use crate::elements::rod;
-use crate::elements::rod::geometry::{POINTS, Section, Sum};
+use crate::elements::rod::geometry::{POINTS, PlacedSection, Sum};
 use crate::elements::rod::kernel::product;
+use crate::elements::rod::stretch::LengthDerivatives;
 use crate::elements::rod::tangent::Curved;
 use crate::elements::rod::vectors::{add, plus};
 use crate::math::lanes::Real;
@@ -69,31 +70,32 @@ impl<N: Real> Kernel<N> {
                     let mut squares = rows.squares(&self.law.stiffness[index]);
                     sheared.add_second(&stress, &mut squares);
                     let factors = rows.factors(&times(&stress, geometry.number(point.weight)));
-                    let shear_rotations = (factors.shear_rotation, factors.change);
-                    self.add_factors(point, factors.stretch, shear_rotations, &mut sum.factors);
+                    self.add_factors(point, &factors, &mut sum.factors);
                     (squares, Some(factors.turning))
                 }
             };
-            self.add_point(point, (&section, &placed), (&squares, turning), &mut sum);
+            let at = PlacedSection {
+                point,
+                section: &section,
+                frame: &placed.frame,
+            };
+            self.add_point(at, &squares, turning.as_ref(), &mut sum);
         }
         self.assemble(&placed, &mut sum, kind)
     }
 
+    /// Adds what factors at a point count by lengths of the slope and shear rotations.
     #[inline(always)]
-    fn add_factors(
-        &self,
-        point: &Sample,
-        stretch: N,
-        (shear_rotation, change): ([N; 2], [N; 2]),
-        factors: &mut [N; MORE],
-    ) {
+    fn add_factors(&self, point: &Sample, local: &Local<N>, factors: &mut [N; MORE]) {
         let (geometry, shapes) = (&self.geometry, Shapes::new(point.at));
         for k in 0..3 {
             let value = geometry.number(shapes.shear_rotation[k]);
             let slope = geometry.inverse_length * geometry.number(shapes.change[k]);
-            factors[k] = stretch.times_plus(geometry.number(shapes.stretch[k]), factors[k]);
+            factors[k] = local
+                .stretch
+                .times_plus(geometry.number(shapes.stretch[k]), factors[k]);
             for part in 0..2 {
-                let both = shear_rotation[part].times_plus(value, change[part] * slope);
+                let both = local.shear_rotation[part].times_plus(value, local.change[part] * slope);
                 factors[3 + 2 * k + part] += both;
             }
         }
@@ -103,23 +105,18 @@ impl<N: Real> Kernel<N> {
     #[inline(always)]
     fn add_point(
         &self,
-        point: &Sample,
-        (section, placed): (&Section<N>, &Placed<N>),
-        (squares, turning): (&Eight<N>, Option<[N; 3]>),
+        at: PlacedSection<'_, N>,
+        squares: &Eight<N>,
+        turning: Option<&[N; 3]>,
         sum: &mut Total<N>,
     ) {
+        let point = at.point;
         let (geometry, zero) = (&self.geometry, self.geometry.number(0.0));
         let mut by = [[zero; 3]; 3];
         for r in 0..3 {
             by[r].copy_from_slice(&squares[1 + r][1..4]);
         }
-        let frame = &placed.frame;
-        geometry.add_curved(
-            point,
-            (section, frame),
-            (&by, turning.as_ref()),
-            &mut sum.rod,
-        );
+        geometry.add_curved(at, &by, turning, &mut sum.rod);
         // Columns of stretch, shear rotation and its change, weighted.
         let weight = geometry.number(point.weight);
         let mut columns = [[zero; 8]; 5];
@@ -138,10 +135,14 @@ impl<N: Real> Kernel<N> {
             }
         }
         for (e, column) in wide.iter().enumerate() {
-            let turning = [column[1], column[2], column[3]];
-            geometry.add_section(point, section, frame, &turning, &mut sum.mixed[e]);
-            let (shear_rotation, change) = ([column[4], column[5]], [column[6], column[7]]);
-            self.add_factors(point, column[0], (shear_rotation, change), &mut sum.more[e]);
+            let local = Local {
+                stretch: column[0],
+                turning: [column[1], column[2], column[3]],
+                shear_rotation: [column[4], column[5]],
+                change: [column[6], column[7]],
+            };
+            geometry.add_section(at, &local.turning, &mut sum.mixed[e]);
+            self.add_factors(point, &local, &mut sum.more[e]);
         }
     }
 
@@ -159,13 +160,13 @@ impl<N: Real> Kernel<N> {
             }
         }
         // The slopes' lengths with all others.
-        let mut lengths = [[zero; VELOCITIES]; 3];
+        let mut mixed_lengths = [[zero; VELOCITIES]; 3];
         for e in 0..MORE {
             let mixed = geometry.spread(frame, &sum.mixed[e]).flat();
             for k in 0..ROD.len() {
                 let value = -mixed[k];
                 if e < 3 {
-                    lengths[e][ROD[k]] = value;
+                    mixed_lengths[e][ROD[k]] = value;
                 } else {
                     let place = SHEAR_ROTATIONS[e - 3];
                     (matrix[place][ROD[k]], matrix[ROD[k]][place]) = (value, value);
@@ -174,16 +175,18 @@ impl<N: Real> Kernel<N> {
             for k in 0..6 {
                 let value = sum.more[e][3 + k] * l;
                 if e < 3 {
-                    lengths[e][SHEAR_ROTATIONS[k]] = value;
+                    mixed_lengths[e][SHEAR_ROTATIONS[k]] = value;
                 } else {
                     matrix[SHEAR_ROTATIONS[e - 3]][SHEAR_ROTATIONS[k]] = value;
                 }
             }
         }
-        let more = each!([[zero; 3]; 3], i => [sum.more[i][0], sum.more[i][1], sum.more[i][2]]);
-        let factors = [sum.factors[0], sum.factors[1], sum.factors[2]];
-        let at = (frame, SLOPES);
-        geometry.add_second_lengths(at, &mut lengths, (&more, &factors), &mut matrix);
+        let mut lengths = LengthDerivatives {
+            first: [sum.factors[0], sum.factors[1], sum.factors[2]],
+            second: each!([[zero; 3]; 3], i => [sum.more[i][0], sum.more[i][1], sum.more[i][2]]),
+            mixed: mixed_lengths,
+        };
+        geometry.add_second_lengths(frame, SLOPES, &mut lengths, &mut matrix);
         by_sections(&placed.ends, &mut matrix);
         if kind == Tangent::Stiffness {
             for k in 0..2 {

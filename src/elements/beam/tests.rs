@@ -355,19 +355,20 @@ impl crate::math::lanes::Vectorized for Packed<'_> {
         let pack = Beam::pack(beams);
         let zero = [0.0; PACK];
         for rates in [None, Some(&moves)] {
+            let motion = ElementMotion { at: &at, rates };
             let mut force = Force {
                 e: [[zero; 3]; 4],
                 moment: [[zero; 3]; 2],
                 inner: [zero; 3],
             };
-            let power = Beam::pack_force(simd, &pack, (&at, rates), &mut force);
+            let power = Beam::pack_force(simd, &pack, motion, &mut force);
             let mut stiffness = [[zero; VELOCITIES]; VELOCITIES];
             let mut damping = stiffness;
             for (kind, out) in [
                 (Tangent::Stiffness, &mut stiffness),
                 (Tangent::Damping, &mut damping),
             ] {
-                Beam::pack_tangent(simd, &pack, (&at, rates), kind, out);
+                Beam::pack_tangent(simd, &pack, motion, kind, out);
             }
             for lane in 0..count {
                 out.extend(force.flat().map(|force| force[lane]));

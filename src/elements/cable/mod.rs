@@ -19,7 +19,8 @@ mod tests;
 use nalgebra::{SMatrix, SVector};
 
 use super::{
-    BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, StrainMeasure, shape,
+    BlockPack, Blocks, Element, ElementMotion, EndBlocks, Nodal, NodalPack, NodalView,
+    StrainMeasure, shape,
 };
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
@@ -325,11 +326,7 @@ impl<const D: usize> Element<D> for Cable<D> {
         kernel.energy(&(e * by).data.0) / by
     }
 
-    fn force_by<N: Number>(
-        &self,
-        (e, rate): (&Nodal<D, N>, &Nodal<D, N>),
-        by: N,
-    ) -> (Nodal<D, N>, N) {
+    fn force_by<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>, by: N) -> (Nodal<D, N>, N) {
         let kernel = self.kernel.lift::<N>().shortened(by);
         let rate = self.kernel.is_damped.then(|| (rate * by).data.0);
         let (force, power) = kernel.force(&(e * by).data.0, rate.as_ref());
@@ -418,15 +415,15 @@ impl<const D: usize> Element<D> for Cable<D> {
     fn pack_force<S: Simd>(
         simd: S,
         pack: &Pack,
-        (e, rate): (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        motion: ElementMotion<NodalView<'_, D>>,
         by: f64,
         out: &mut NodalPack<D>,
     ) -> f64 {
         let mut powers = [0.0; PACK];
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group, by);
-            let e = read(simd, e, group);
-            let (f, power) = match rate {
+            let e = read(simd, motion.at, group);
+            let (f, power) = match motion.rates {
                 Some(rate) => kernel.force(&e, Some(&read(simd, rate, group))),
                 None => kernel.force(&e, None),
             };
@@ -435,7 +432,7 @@ impl<const D: usize> Element<D> for Cable<D> {
                     f[k][d].write(&mut out[k][d], group);
                 }
             }
-            if rate.is_some() {
+            if motion.rates.is_some() {
                 power.write(&mut powers, group);
             }
         }
@@ -450,15 +447,15 @@ impl<const D: usize> Element<D> for Cable<D> {
     fn pack_stiffness<S: Simd>(
         simd: S,
         pack: &Pack,
-        (e, rate): (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        motion: ElementMotion<NodalView<'_, D>>,
         by: f64,
         out: &mut BlockPack<D>,
     ) {
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group, by).by_roots(by);
-            let e = read(simd, e, group);
+            let e = read(simd, motion.at, group);
             let one = kernel.length.constant(1.0);
-            let sum = match rate {
+            let sum = match motion.rates {
                 Some(rate) => {
                     kernel.tangent(&e, Some(&read(simd, rate, group)), Factors::elastic(one))
                 }

@@ -91,6 +91,14 @@ pub(in crate::elements) struct Section<N> {
     pub strains: [N; 3],
 }
 
+/// A section with its point and the frames that it is compared with.
+#[derive(Clone, Copy)]
+pub(in crate::elements) struct PlacedSection<'a, N> {
+    pub point: &'a Sample,
+    pub section: &'a Section<N>,
+    pub frame: &'a Frame<N>,
+}
+
 /// Factors of the changes of what a section sees, summed over sections.
 #[derive(Clone, Copy)]
 pub(in crate::elements) struct Sum<N> {
@@ -240,12 +248,15 @@ impl<N: Real> Geometry<N> {
     #[inline(always)]
     pub fn add_section(
         &self,
-        point: &Sample,
-        at: &Section<N>,
-        frame: &Frame<N>,
+        place: PlacedSection<'_, N>,
         [torque, first, second]: &[N; 3],
         sum: &mut Sum<N>,
     ) {
+        let PlacedSection {
+            point,
+            section: at,
+            frame,
+        } = place;
         let (shape, slope) = self.quadratic(point.at);
         let (torque, z, t) = (*torque, &frame.middle, &at.tangent);
         let turn = *first * at.strains[2] - *second * at.strains[1];
@@ -292,14 +303,12 @@ impl<N: Real> Geometry<N> {
     /// Adds what a moment on a section makes of the changes of what it sees, taken with the angular velocity `t x t' + w t` of the axes
     /// there, whose part `w` about the tangent is that of (1).
     #[inline(always)]
-    pub fn add_moment(
-        &self,
-        point: &Sample,
-        at: &Section<N>,
-        frame: &Frame<N>,
-        moment: &Vector<N>,
-        sum: &mut Sum<N>,
-    ) {
+    pub fn add_moment(&self, place: PlacedSection<'_, N>, moment: &Vector<N>, sum: &mut Sum<N>) {
+        let PlacedSection {
+            point,
+            section: at,
+            frame,
+        } = place;
         let ((shape, _), t) = (self.quadratic(point.at), &at.tangent);
         let turn = dot(moment, t);
         sum.turn += turn;

@@ -2,7 +2,7 @@
 //!
 //! Source: the equations of `rod/mod.rs`; the gradient is theirs by the variation of a carried frame (1).
 
-use super::geometry::{Geometry, POINTS, Sum};
+use super::geometry::{Geometry, POINTS, PlacedSection, Sum};
 use super::stretch::{Axial, Coupled};
 use super::vectors::add;
 use super::{At, Force, Rates};
@@ -77,7 +77,7 @@ impl<N: Real> Kernel<N> {
             let mut twice = dot(&strains, &product(&self.law.stiffness[index], &strains));
             if let Some(axial) = &self.axial {
                 let lengths = geometry.lengths(&v, &frame);
-                let stretch = axial.stretch(geometry, (index, point), &lengths);
+                let stretch = axial.stretch(geometry, index, point, &lengths);
                 let Coupled { own, with } = &axial.stiffness;
                 let coupled = dot(&with[index], &strains);
                 twice += stretch * (own[index] * stretch + coupled + coupled);
@@ -103,10 +103,10 @@ impl<N: Real> Kernel<N> {
             let mut pull = power.constant(0.0);
             if let Some(axial) = &self.axial {
                 let lengths = geometry.lengths(&v, &frame);
-                let stretch = axial.stretch(geometry, (index, point), &lengths);
-                axial
-                    .stiffness
-                    .add(index, (stretch, &strains), (&mut pull, &mut stress));
+                let stretch = axial.stretch(geometry, index, point, &lengths);
+                let coupled = &axial.stiffness;
+                pull += coupled.force(index, stretch, &strains);
+                coupled.add_moments(index, stretch, &mut stress);
             }
             if let Some(motion) = &motion {
                 let rate = geometry.strain_rates(point, &section, &frame, motion);
@@ -115,9 +115,9 @@ impl<N: Real> Kernel<N> {
                     let stretching = geometry.length_rates(motion, &frame);
                     let stretching = geometry.at_point(point.at, &stretching);
                     let mut own = power.constant(0.0);
-                    axial
-                        .damping
-                        .add(index, (stretching, &rate), (&mut own, &mut damped));
+                    let coupled = &axial.damping;
+                    own += coupled.force(index, stretching, &rate);
+                    coupled.add_moments(index, stretching, &mut damped);
                     power += geometry.number(point.weight) * own * stretching;
                     pull += own;
                 }
@@ -125,7 +125,12 @@ impl<N: Real> Kernel<N> {
                 stress = add(&stress, &damped);
             }
             let stress = times(&stress, geometry.number(point.weight));
-            geometry.add_section(point, &section, &frame, &stress, &mut sum);
+            let place = PlacedSection {
+                point,
+                section: &section,
+                frame: &frame,
+            };
+            geometry.add_section(place, &stress, &mut sum);
             if self.axial.is_some() {
                 let pull = pull * geometry.number(point.weight);
                 geometry.add_at_point(point.at, pull, &mut by_lengths);

@@ -3,7 +3,7 @@
 //!
 //! Source: the equations of `rod/mod.rs`; the angular velocity is that of a carried frame (1).
 
-use super::geometry::{LOADED, Sum};
+use super::geometry::{LOADED, PlacedSection, Sum};
 use super::vectors::plus;
 use super::{At, Force, Rod};
 use crate::elements::line::times;
@@ -44,7 +44,12 @@ impl Rod {
             let section = geometry.section(point, &v, &frame, at.bubble);
             // What is summed is what resists.
             let against = times(moment, geometry.number(-point.weight));
-            geometry.add_moment(point, &section, &frame, &against, &mut sum);
+            let place = PlacedSection {
+                point,
+                section: &section,
+                frame: &frame,
+            };
+            geometry.add_moment(place, &against, &mut sum);
         }
         geometry.spread(&frame, &sum)
     }

@@ -34,7 +34,7 @@ impl<N: Real, const K: usize> Quadratic<N, K> {
 
     /// Adds `a b^T` to a block.
     #[inline(always)]
-    pub fn add_block(&mut self, (i, j): (usize, usize), a: &Vector<N>, b: &Vector<N>) {
+    pub fn add_block(&mut self, i: usize, j: usize, a: &Vector<N>, b: &Vector<N>) {
         let block = &mut self.blocks[i][j];
         for r in 0..3 {
             for c in 0..3 {
@@ -45,7 +45,7 @@ impl<N: Real, const K: usize> Quadratic<N, K> {
 
     /// Adds the matrix of `x -> factor v x x` to a block.
     #[inline(always)]
-    pub fn add_cross(&mut self, (i, j): (usize, usize), v: &Vector<N>, factor: N) {
+    pub fn add_cross(&mut self, i: usize, j: usize, v: &Vector<N>, factor: N) {
         let (block, v) = (&mut self.blocks[i][j], times(v, factor));
         for k in 0..3 {
             let (a, b) = ((k + 1) % 3, (k + 2) % 3);
@@ -55,7 +55,7 @@ impl<N: Real, const K: usize> Quadratic<N, K> {
     }
 
     #[inline(always)]
-    pub fn add_multiple(&mut self, (i, j): (usize, usize), factor: N) {
+    pub fn add_multiple(&mut self, i: usize, j: usize, factor: N) {
         for k in 0..3 {
             self.blocks[i][j][k][k] += factor;
         }
@@ -66,7 +66,7 @@ impl<N: Real, const K: usize> Quadratic<N, K> {
     pub fn add_product(&mut self, a: &Form<N, K>, b: &Form<N, K>) {
         for i in 0..K {
             for j in i..K {
-                self.add_block((i, j), &a.vectors[i], &b.vectors[j]);
+                self.add_block(i, j, &a.vectors[i], &b.vectors[j]);
             }
         }
         for s in 0..3 {
@@ -84,10 +84,10 @@ impl<N: Real, const K: usize> Quadratic<N, K> {
     pub fn add_symmetric(&mut self, k: usize, a: &Vector<N>, b: &[Vector<N>; K]) {
         for j in 0..K {
             if j <= k {
-                self.add_block((j, k), &b[j], a);
+                self.add_block(j, k, &b[j], a);
             }
             if j >= k {
-                self.add_block((k, j), a, &b[j]);
+                self.add_block(k, j, a, &b[j]);
             }
         }
     }

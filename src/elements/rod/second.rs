@@ -162,7 +162,7 @@ impl<N: Real> Geometry<N> {
         let moment = plus(d2, *second, &times(d1, *first));
         let m = plus(seen.z, -(*torque * at.inverse), &moment);
         let half = self.number(0.5);
-        local.add_cross((U, W), &m, -p);
+        local.add_cross(U, W, &m, -p);
         let [by_u, by_w, _] = seen.curvature(&m);
         let turn = *first * at.strains[2] - *second * at.strains[1];
         let c = *torque * at.inverse * at.inverse * at.along;
@@ -177,7 +177,7 @@ impl<N: Real> Geometry<N> {
             &[along, times(&by_w, -(i + i)), [self.number(0.0); 3]],
         );
         let shrink = dot(&m, &at.curvature).times_plus(p, straight);
-        local.add_multiple((U, U), -(shrink + shrink));
+        local.add_multiple(U, U, -(shrink + shrink));
         let zero = [self.number(0.0); 3];
         local.add_symmetric(U, &times(&moment, half * p), &[at.curvature, zero, zero]);
         // The turn.
@@ -213,17 +213,17 @@ impl<N: Real> Geometry<N> {
         let turn = *first * at.strains[2] - *second * at.strains[1];
         let (shared, half) = (*torque * q, self.number(0.5) * turn * i);
         let c = shared * q * at.along;
-        local.add_cross((U, Z), &add(seen.z, &at.tangent), half * q);
-        local.add_cross((U, Z), &at.w, -(shared * p));
-        local.add_cross((W, Z), &at.u, shared * p);
-        local.add_multiple((U, Z), c * i);
+        local.add_cross(U, Z, &add(seen.z, &at.tangent), half * q);
+        local.add_cross(U, Z, &at.w, -(shared * p));
+        local.add_cross(W, Z, &at.u, shared * p);
+        local.add_multiple(U, Z, c * i);
         let flat = plus(
             &seen.half,
             half,
             &times(&at.curvature, (shared + shared) * i),
         );
         let flat = plus(&at.tangent, -(c * i), &flat);
-        local.add_block((U, Z), &at.tangent, &flat);
+        local.add_block(U, Z, &at.tangent, &flat);
         let mut along = seen.curvature(seen.z);
         along[Z] = at.curvature;
         let [by_u, by_z] = seen.lean();

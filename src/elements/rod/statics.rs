@@ -40,7 +40,8 @@ impl Chain {
     fn new(
         elements: usize,
         length: f64,
-        stiffness: ([[f64; 3]; 3], f64),
+        stiffness: [[f64; 3]; 3],
+        axial_stiffness: f64,
         at: impl Fn(f64) -> [V; 3],
     ) -> Self {
         let l = length / elements as f64;
@@ -49,13 +50,13 @@ impl Chain {
             .collect();
         let parameters = Parameters {
             length: l,
-            stiffness: [stiffness.0; 3],
+            stiffness: [stiffness; 3],
             damping_times: [0.0; 3],
             axial: None,
         };
         let stretching = cable::Parameters {
             length: l,
-            axial_stiffness: stiffness.1,
+            axial_stiffness,
             bending_stiffness: 0.0,
             line_of: LineOf::Cable,
             line_density: 1.0,
@@ -202,18 +203,23 @@ impl Chain {
     }
 }
 
+/// Steps in which a load grows.
+const STEPS: u32 = 4;
+
 /// Errors of the tip with 4, 8 and 16 elements, m, and iterations of each.
-fn errors(
-    make: impl Fn(usize) -> Chain,
-    (load, steps): (Load, usize),
-    tip: V,
-) -> ([f64; 3], [usize; 3]) {
+struct Convergence {
+    errors: [f64; 3],
+    iterations: [usize; 3],
+}
+
+/// Loads chains of 4, 8 and 16 elements, whose tip is to be there.
+fn errors(make: impl Fn(usize) -> Chain, load: Load, tip: V) -> Convergence {
     let mut all = [0; 3];
     let errors = [0, 1, 2].map(|mesh| {
         let elements = 4 << mesh;
         let mut chain = make(elements);
-        for step in 1..=steps {
-            let share = step as f64 / steps as f64;
+        for step in 1..=STEPS {
+            let share = f64::from(step) / f64::from(STEPS);
             all[mesh] += chain.settle(Load {
                 force: load.force * share,
                 moment: load.moment * share,
@@ -221,12 +227,16 @@ fn errors(
         }
         (V::from(chain.stations[elements][0]) - tip).norm()
     });
-    (errors, all)
+    Convergence {
+        errors,
+        iterations: all,
+    }
 }
 
 /// Errors are those of another program of the same equations, fall with the fourth power, and Newton's method converges at all
 /// meshes alike.
-fn check(name: &str, (errors, iterations): ([f64; 3], [usize; 3]), expected: [f64; 3]) {
+fn check(name: &str, found: Convergence, expected: [f64; 3]) {
+    let Convergence { errors, iterations } = found;
     for (error, expected) in errors.iter().zip(expected) {
         assert!((error / expected - 1.0).abs() < 0.05, "{name}: {errors:?}");
     }
@@ -264,15 +274,12 @@ fn a_dead_end_moment_makes_a_helix() {
             Chain::new(
                 elements,
                 1.0,
-                (section_of(0.75, 1.0, 1.0), stretching),
+                section_of(0.75, 1.0, 1.0),
+                stretching,
                 straight,
             )
         };
-        check(
-            "helix",
-            errors(make, (load, 4), tip),
-            [9.1e-3, 5.7e-4, 3.5e-5],
-        );
+        check("helix", errors(make, load, tip), [9.1e-3, 5.7e-4, 3.5e-5]);
     }
 }
 
@@ -287,12 +294,13 @@ fn a_strip_and_quarter_circles_bend_and_twist() {
         Chain::new(
             elements,
             1.0,
-            (section_of(50.823_569_19, 37.8, 945.0), 1.26e7),
+            section_of(50.823_569_19, 37.8, 945.0),
+            1.26e7,
             straight,
         )
     };
     let tip = V::new(1.0 - 0.097_116_751_85, -0.020_849_580_45, 0.390_165_021_12);
-    let found = errors(make, (load, 4), tip);
+    let found = errors(make, load, tip);
     check("strip", found, [5.1e-5, 3.5e-6, 2.2e-7]);
     let load = Load {
         force: V::new(0.0, 0.8, 1.5),
@@ -310,23 +318,25 @@ fn a_strip_and_quarter_circles_bend_and_twist() {
         Chain::new(
             elements,
             std::f64::consts::FRAC_PI_2,
-            (section_of(0.7, 1.0, 2.5), 1e5),
+            section_of(0.7, 1.0, 2.5),
+            1e5,
             arc,
         )
     };
     let tip = V::new(0.735_304_027_76, 0.830_980_858_02, 0.806_971_227_00);
-    let found = errors(make, (load, 4), tip);
+    let found = errors(make, load, tip);
     check("arc", found, [2.3e-4, 1.5e-5, 9.3e-7]);
     let tip = V::new(0.743_202_297_89, 0.742_008_370_80, 0.883_430_839_49);
     let make = |elements| {
         Chain::new(
             elements,
             std::f64::consts::FRAC_PI_2,
-            (section_of(0.7, 1.0, 2.5), 1e5),
+            section_of(0.7, 1.0, 2.5),
+            1e5,
             coiled,
         )
     };
-    let found = errors(make, (load, 4), tip);
+    let found = errors(make, load, tip);
     check("coil", found, [2.7e-4, 1.8e-5, 1.1e-6]);
 }
 

@@ -3,7 +3,7 @@
 //!
 //! Source: the equations of `rod/mod.rs` and `beam/mod.rs`; second derivatives of a length, `|u|'' = (u'.u' - (t.u')^2) / |u|`.
 
-use super::geometry::{Frame, Geometry, MIDDLE, Motion, Section, Sum};
+use super::geometry::{Frame, Geometry, MIDDLE, Motion, PlacedSection, Sum};
 use super::vectors::{Vector, plus};
 use super::{At, Matrix, Stretch, VELOCITIES};
 use crate::elements::line::{Sample, combine, dot, times};
@@ -29,17 +29,16 @@ pub(super) struct Coupled<N> {
 }
 
 impl<N: Real> Coupled<N> {
-    /// Adds the axial force, torque and moments that stretch and strains make at a point.
+    /// Axial force that stretch and strains make at a point, N.
     #[inline(always)]
-    pub fn add(
-        &self,
-        index: usize,
-        (stretch, strains): (N, &[N; 3]),
-        (pull, stress): (&mut N, &mut [N; 3]),
-    ) {
-        let with = &self.with[index];
-        *pull += stretch.times_plus(self.own[index], dot(with, strains));
-        *stress = plus(with, stretch, stress);
+    pub fn force(&self, index: usize, stretch: N, strains: &[N; 3]) -> N {
+        stretch.times_plus(self.own[index], dot(&self.with[index], strains))
+    }
+
+    /// Adds the torque and moments that stretch makes at a point, N m.
+    #[inline(always)]
+    pub fn add_moments(&self, index: usize, stretch: N, stress: &mut [N; 3]) {
+        *stress = plus(&self.with[index], stretch, stress);
     }
 }
 
@@ -158,7 +157,8 @@ impl<N: Real> Axial<N> {
     pub fn stretch(
         &self,
         geometry: &Geometry<N>,
-        (index, point): (usize, &Sample),
+        index: usize,
+        point: &Sample,
         lengths: &[N; 3],
     ) -> N {
         geometry.at_point(point.at, lengths) + self.offset[index]
@@ -216,16 +216,20 @@ impl<N: Real> Geometry<N> {
     }
 
     /// Adds to the second derivatives over the velocities of an element, rows with columns up to the diagonal, those with lengths of the
-    /// slope. The slopes and positions stand at `places`: `r_A, u_A, r_B, u_B`. `mixed` is what the lengths have with all velocities,
-    /// `more` what they have with each other, `factors` their first derivatives.
+    /// slope. `ra`, `ua`, `rb`, `ub` are the places of positions and slopes of both ends among the velocities.
     #[inline(always)]
     pub fn add_second_lengths<const V: usize>(
         &self,
-        (frame, [ra, ua, rb, ub]): (&Frame<N>, [usize; 4]),
-        mixed: &mut [[N; V]; 3],
-        (more, factors): (&[[N; 3]; 3], &[N; 3]),
+        frame: &Frame<N>,
+        [ra, ua, rb, ub]: [usize; 4],
+        lengths: &mut LengthDerivatives<N, V>,
         matrix: &mut [[N; V]; V],
     ) {
+        let LengthDerivatives {
+            first: factors,
+            second: more,
+            mixed,
+        } = lengths;
         let (l, one) = (self.length, self.number(1.0));
         let [first, last] = &frame.ends;
         let middle = each!([one; 3], k => self.number(MIDDLE[k]));
@@ -280,6 +284,14 @@ impl<N: Real> Geometry<N> {
     }
 }
 
+/// Derivatives of the energy by the lengths of the slope at the first end, in the middle and at the last end.
+pub(in crate::elements) struct LengthDerivatives<N, const V: usize> {
+    pub first: [N; 3],
+    pub second: [[N; 3]; 3],
+    /// Second derivatives by the lengths and by all velocities of the element.
+    pub mixed: [[N; V]; 3],
+}
+
 /// Second derivatives of the energy of a rod with lengths of the slope, summed over sections.
 pub(super) struct Stretching<N> {
     /// Second derivatives by the coordinates of a rod and by the lengths.
@@ -300,22 +312,29 @@ impl<N: Real> Stretching<N> {
         }
     }
 
-    /// Adds a point: axial force by stretch and by strains there, and the axial force.
+    /// Adds the second derivatives at a point: axial force by stretch (`own`) and by strains (`with`) there.
     #[inline(always)]
     pub fn add(
         &mut self,
         geometry: &Geometry<N>,
-        point: &Sample,
-        (section, frame): (&Section<N>, &Frame<N>),
-        ((own, with), pull): ((N, &[N; 3]), N),
+        place: PlacedSection<'_, N>,
+        own: N,
+        with: &[N; 3],
     ) {
+        let point = place.point;
         let (weight, shapes) = (geometry.number(point.weight), parabola(point.at));
         for k in 0..3 {
             let count = weight * geometry.number(shapes[k]);
             let column = times(with, count);
-            geometry.add_section(point, section, frame, &column, &mut self.mixed[k]);
+            geometry.add_section(place, &column, &mut self.mixed[k]);
             geometry.add_at_point(point.at, own * count, &mut self.own[k]);
         }
+    }
+
+    /// Adds the axial force at a point, N.
+    #[inline(always)]
+    pub fn add_pull(&mut self, geometry: &Geometry<N>, point: &Sample, pull: N) {
+        let weight = geometry.number(point.weight);
         geometry.add_at_point(point.at, pull * weight, &mut self.factors);
     }
 
@@ -328,8 +347,12 @@ impl<N: Real> Stretching<N> {
             let force = geometry.spread(frame, &self.mixed[k]).flat();
             mixed[k] = each!(force, i => -force[i]);
         }
-        let own = (&self.own, &self.factors);
-        geometry.add_second_lengths((frame, [0, 3, 7, 10]), &mut mixed, own, matrix);
+        let mut lengths = LengthDerivatives {
+            first: self.factors,
+            second: self.own,
+            mixed,
+        };
+        geometry.add_second_lengths(frame, [0, 3, 7, 10], &mut lengths, matrix);
         for row in 0..VELOCITIES {
             for column in 0..row {
                 matrix[column][row] = matrix[row][column];

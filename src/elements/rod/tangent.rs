@@ -3,7 +3,7 @@
 //!
 //! Source: twice the derivative by time of the equations of `rod/mod.rs`, section by section (`rod/second.rs`).
 
-use super::geometry::{Frame, Geometry, MIDDLE, POINTS, Section};
+use super::geometry::{Frame, Geometry, MIDDLE, POINTS, PlacedSection};
 use super::kernel::{Kernel, Square, product};
 use super::quadratic::Quadratic;
 use super::second::{Seen, Z};
@@ -66,10 +66,10 @@ impl<N: Real> Kernel<N> {
             let mut pull = zero;
             if let Some(axial) = &self.axial {
                 let lengths = geometry.lengths(&v, &frame);
-                let stretch = axial.stretch(geometry, (index, point), &lengths);
-                axial
-                    .stiffness
-                    .add(index, (stretch, &strains), (&mut pull, &mut stress));
+                let stretch = axial.stretch(geometry, index, point, &lengths);
+                let coupled = &axial.stiffness;
+                pull += coupled.force(index, stretch, &strains);
+                coupled.add_moments(index, stretch, &mut stress);
             }
             if let Some(motion) = &motion {
                 let rate = geometry.strain_rates(point, &section, &frame, motion);
@@ -77,23 +77,28 @@ impl<N: Real> Kernel<N> {
                 if let Some(axial) = &self.axial {
                     let lengths = geometry.length_rates(motion, &frame);
                     let stretch = geometry.at_point(point.at, &lengths);
-                    axial
-                        .damping
-                        .add(index, (stretch, &rate), (&mut pull, &mut stress));
+                    let coupled = &axial.damping;
+                    pull += coupled.force(index, stretch, &rate);
+                    coupled.add_moments(index, stretch, &mut stress);
                 }
             }
             let stress = match kind {
                 Tangent::Stiffness => Some(times(&stress, geometry.number(point.weight))),
                 Tangent::Damping => None,
             };
-            geometry.add_curved(point, (&section, &frame), (by, stress.as_ref()), &mut sum);
+            let place = PlacedSection {
+                point,
+                section: &section,
+                frame: &frame,
+            };
+            geometry.add_curved(place, by, stress.as_ref(), &mut sum);
             if let (Some(axial), Some(stretching)) = (&self.axial, &mut stretching) {
                 let (by, pull) = match kind {
                     Tangent::Stiffness => (&axial.stiffness, pull),
                     Tangent::Damping => (&axial.damping, zero),
                 };
-                let by = (by.own[index], &by.with[index]);
-                stretching.add(geometry, point, (&section, &frame), (by, pull));
+                stretching.add(geometry, place, by.own[index], &by.with[index]);
+                stretching.add_pull(geometry, point, pull);
             }
         }
         let mut matrix = geometry.whole(&frame, &mut sum);
@@ -110,12 +115,13 @@ impl<N: Real> Geometry<N> {
     #[inline(always)]
     pub fn add_curved(
         &self,
-        point: &Sample,
-        (section, frame): (&Section<N>, &Frame<N>),
-        (by, stress): (&Square<N>, Option<&[N; 3]>),
+        place: PlacedSection<'_, N>,
+        by: &Square<N>,
+        stress: Option<&[N; 3]>,
         sum: &mut Curved<N>,
     ) {
-        let seen = self.seen(section, frame);
+        let point = place.point;
+        let seen = self.seen(place.section, place.frame);
         let mut local = self.squares(point, &seen, by);
         if let Some(stress) = stress {
             self.add_stresses(point, &seen, stress, &mut local);
@@ -193,8 +199,8 @@ impl<N: Real> Geometry<N> {
             let cosine = dot(t, z);
             let half = self.number(0.5) * c;
             let shared = half / (self.number(1.0) + cosine);
-            sum.add_cross((place, LAST), &add(t, z), shared * i);
-            sum.add_block((place, LAST), t, &times(h, -(half * i)));
+            sum.add_cross(place, LAST, &add(t, z), shared * i);
+            sum.add_block(place, LAST, t, &times(h, -(half * i)));
             let zero = [self.number(0.0); 3];
             let mut halves = [zero, zero, zero, times(h, -shared)];
             halves[place] = times(h, -(shared * i));

@@ -375,19 +375,20 @@ impl crate::math::lanes::Vectorized for Packed<'_> {
         let pack = Rod::pack(rods);
         let zero = [0.0; PACK];
         for rates in [None, Some(&moves)] {
+            let motion = ElementMotion { at: &at, rates };
             let mut force = Force {
                 e: [[zero; 3]; 4],
                 torque: [zero; 2],
                 bubble: zero,
             };
-            let power = Rod::pack_force(simd, &pack, (&at, rates), &mut force);
+            let power = Rod::pack_force(simd, &pack, motion, &mut force);
             let mut stiffness = [[zero; VELOCITIES]; VELOCITIES];
             let mut damping = stiffness;
             for (kind, out) in [
                 (Tangent::Stiffness, &mut stiffness),
                 (Tangent::Damping, &mut damping),
             ] {
-                Rod::pack_tangent(simd, &pack, (&at, rates), kind, out);
+                Rod::pack_tangent(simd, &pack, motion, kind, out);
             }
             for lane in 0..rods.len() {
                 out.extend(force.flat().map(|force| force[lane]));

@@ -1,8 +1,8 @@
 //! The chain that all formulations move.
 
 use flexbody::bodies::{Chain, no_node};
-use flexbody::elements::Element as _;
 use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::{Element as _, ElementMotion};
 use flexbody::math::lanes::{PACK, Simd, Vectorized, vectorized};
 use nalgebra::{Matrix4, Vector2};
 
@@ -142,13 +142,11 @@ impl Vectorized for AddForce<'_> {
                     e[2 + k / 2][k % 2][lane] = ends[1][k / 2][k % 2];
                 }
             }
-            Cable::pack_force(
-                simd,
-                pack,
-                (e.each_ref().map(|v| v.each_ref()), None),
-                1.0,
-                &mut f,
-            );
+            let motion = ElementMotion {
+                at: e.each_ref().map(|v| v.each_ref()),
+                rates: None,
+            };
+            Cable::pack_force(simd, pack, motion, 1.0, &mut f);
             for (lane, ends) in force.as_chunks_mut::<2>().0.iter_mut().enumerate() {
                 for k in 0..4 {
                     ends[0][k / 2][k % 2] += f[k / 2][k % 2][lane];

@@ -4,8 +4,7 @@
 use std::sync::{Arc, Mutex};
 
 use flexbody::bodies::Node;
-use flexbodies::bodies::Node;
-use flexbodies::integrators::StateView;
+use flexbody::integrators::StateView;
 use flexbody::system::{DrivenSystem, Dynamics, State, StepOutcome};
 use nalgebra::Complex;
 

@@ -308,7 +308,8 @@ impl<N: Real> Kernel<N> {
         &self,
         point: &Sample,
         local: &Local<N>,
-        (dv, [stretches, shear_rotations]): (&[Two<N>; 3], &[Three<N>; 2]),
+        dv: &[Two<N>; 3],
+        [stretches, shear_rotations]: &[Three<N>; 2],
     ) -> Three<N> {
         let shapes = parabola(point.at);
         let zero = self.number(0.0);
@@ -354,7 +355,7 @@ impl<N: Real> Kernel<N> {
             let strains = add(&local.strains(), &self.law.offset[index]);
             let mut stress = product(&self.law.stiffness[index], &strains);
             if let Some((dv, moving)) = &moving {
-                let rate = self.strain_rates(point, &local, (dv, moving));
+                let rate = self.strain_rates(point, &local, dv, moving);
                 let damped = product(&self.law.damping[index], &rate);
                 power += self.number(point.weight) * dot(&damped, &rate);
                 stress = add(&stress, &damped);

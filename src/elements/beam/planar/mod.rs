@@ -27,6 +27,7 @@ mod tangent;
 mod tests;
 
 use super::{At, Force, Matrix, Rates, Tangent, VELOCITIES, whole};
+use crate::elements::ElementMotion;
 use crate::elements::constitutive::Law;
 use crate::elements::line::sample;
 use crate::elements::rod::geometry::{LOADED, POINTS};
@@ -160,14 +161,14 @@ impl Planar {
     pub fn pack_force<S: Simd>(
         simd: S,
         pack: &Pack,
-        (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        motion: ElementMotion<&At<&[f64; PACK]>, &Rates<&[f64; PACK]>>,
         out: &mut Force<[f64; PACK]>,
     ) -> f64 {
         let mut powers = [0.0; PACK];
         for group in 0..pack.count.div_ceil(S::F64_LANES) {
             let kernel = pack.kernel.group(simd, group);
-            let at = at.group(simd, group);
-            let rates = of_rate!(rates, rates => Motion::of(&rates.group(simd, group)));
+            let at = motion.at.group(simd, group);
+            let rates = of_rate!(motion.rates, rates => Motion::of(&rates.group(simd, group)));
             let (force, power) = kernel.force(&at, rates.as_ref());
             for d in 0..2 {
                 for k in 0..4 {
@@ -191,14 +192,14 @@ impl Planar {
     pub fn pack_tangent<S: Simd>(
         simd: S,
         pack: &Pack,
-        (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        motion: ElementMotion<&At<&[f64; PACK]>, &Rates<&[f64; PACK]>>,
         kind: Tangent,
         out: &mut Matrix<[f64; PACK]>,
     ) {
         for group in 0..pack.count.div_ceil(S::F64_LANES) {
             let kernel = pack.kernel.group(simd, group);
-            let at = at.group(simd, group);
-            let rates = of_rate!(rates, rates => Motion::of(&rates.group(simd, group)));
+            let at = motion.at.group(simd, group);
+            let rates = of_rate!(motion.rates, rates => Motion::of(&rates.group(simd, group)));
             let matrix = kernel.tangent(&at, rates.as_ref(), kind);
             for r in 0..PLACES.len() {
                 for c in 0..=r {

@@ -86,18 +86,40 @@ impl<N: Real> Place<N> {
 }
 
 impl<N: Real> Local<N> {
-    /// Adds second derivatives of the curvature.
+    /// Adds the square of the rates of strain by a matrix.
     #[inline(always)]
-    fn add_second(
-        &self,
-        point: &Sample,
-        (bending, inverse_length): (&Row<N>, N),
-        factor: N,
-        to: &mut Square<N>,
-    ) {
+    fn add_squares(&self, rows: &[Row<N>; 4], by: &[[N; 3]; 3], weight: N, to: &mut Square<N>) {
+        let mut strains = [rows[0]; 3];
+        for c in 0..SIZE {
+            let rates = self.rates(&[rows[0][c], rows[1][c], rows[2][c], rows[3][c]]);
+            for k in 0..3 {
+                strains[k][c] = rates[k];
+            }
+        }
+        for k in 0..3 {
+            let mut stress = times(&strains[0], by[k][0] * weight);
+            stress = plus(&strains[1], by[k][1] * weight, &stress);
+            stress = plus(&strains[2], by[k][2] * weight, &stress);
+            for r in 0..SIZE {
+                for c in 0..=r {
+                    to[r][c] = strains[k][r].times_plus(stress[c], to[r][c]);
+                }
+            }
+        }
+    }
+
+    /// Adds `-factor (k' q'^T + q' k'^T) / q` of the curvature's second derivatives; `bending` is `k'`.
+    #[inline(always)]
+    fn add_by_size(&self, point: &Sample, bending: &Row<N>, factor: N, to: &mut Square<N>) {
         let by = factor * self.inverse;
         let along = over_line(&point.slope, &times(&self.slope, by.constant(2.0)));
         add_pair(bending, &along, -by, to);
+    }
+
+    /// Adds `factor (X'' - k q'') / q` of the curvature's second derivatives.
+    #[inline(always)]
+    fn add_by_slopes(&self, point: &Sample, factor: N, inverse_length: N, to: &mut Square<N>) {
+        let by = factor * self.inverse;
         let isotropic = -(by * (self.curvature + self.curvature));
         let skew = by * inverse_length;
         for i in 0..3 {
@@ -134,19 +156,19 @@ impl<N: Real> Kernel<N> {
         for (index, point) in POINTS.iter().enumerate() {
             let local = self.local(point, &v, &places);
             let weight = self.number(point.weight);
-            let rows = self.rows(point, &local, (&places, &gradients));
+            let rows = self.rows(point, &local, &places, &gradients);
             let by = match kind {
                 Tangent::Stiffness => &self.law.stiffness[index],
                 Tangent::Damping => &self.law.damping[index],
             };
-            self.add_squares(&local, (&rows, by), weight, &mut sum);
+            local.add_squares(&rows, by, weight, &mut sum);
             if kind == Tangent::Damping {
                 continue;
             }
             let strains = add(&local.strains(), &self.law.offset[index]);
             let mut stress = product(by, &strains);
             if let Some((dv, moving)) = &moving {
-                let rate = self.strain_rates(point, &local, (dv, moving));
+                let rate = self.strain_rates(point, &local, dv, moving);
                 stress = add(&stress, &product(&self.law.damping[index], &rate));
             }
             let stress = times(&stress, weight);
@@ -160,7 +182,8 @@ impl<N: Real> Kernel<N> {
                 on_places[k][1] = shear_rotation.times_plus(shape, on_places[k][1]);
                 on_places[k][1] = change.times_plus(self.number(shapes[1][k]), on_places[k][1]);
             }
-            local.add_second(point, (&rows[3], self.inverse_length), moment, &mut sum);
+            local.add_by_size(point, &rows[3], moment, &mut sum);
+            local.add_by_slopes(point, moment, self.inverse_length, &mut sum);
         }
         if kind == Tangent::Stiffness {
             for k in 0..3 {
@@ -176,7 +199,8 @@ impl<N: Real> Kernel<N> {
         &self,
         point: &Sample,
         local: &Local<N>,
-        (places, gradients): (&[Place<N>; 3], &[[Row<N>; 2]; 3]),
+        places: &[Place<N>; 3],
+        gradients: &[[Row<N>; 2]; 3],
     ) -> [Row<N>; 4] {
         let shapes = parabola(point.at);
         let [by_slope, by_second] = local.bending(self.inverse_length);
@@ -193,34 +217,6 @@ impl<N: Real> Kernel<N> {
             rows[2] = plus(theta, places[k].gain * slope, &rows[2]);
         }
         rows
-    }
-
-    /// Adds the square of the rates of strain by a matrix.
-    #[inline(always)]
-    fn add_squares(
-        &self,
-        local: &Local<N>,
-        (rows, by): (&[Row<N>; 4], &[[N; 3]; 3]),
-        weight: N,
-        to: &mut Square<N>,
-    ) {
-        let mut strains = [rows[0]; 3];
-        for c in 0..SIZE {
-            let rates = local.rates(&[rows[0][c], rows[1][c], rows[2][c], rows[3][c]]);
-            for k in 0..3 {
-                strains[k][c] = rates[k];
-            }
-        }
-        for k in 0..3 {
-            let mut stress = times(&strains[0], by[k][0] * weight);
-            stress = plus(&strains[1], by[k][1] * weight, &stress);
-            stress = plus(&strains[2], by[k][2] * weight, &stress);
-            for r in 0..SIZE {
-                for c in 0..=r {
-                    to[r][c] = strains[k][r].times_plus(stress[c], to[r][c]);
-                }
-            }
-        }
     }
 
     /// Adds second derivatives of the strains by stretch, shear rotation and its change, taken with stresses.

@@ -14,7 +14,17 @@ use crate::math::quadrature::{BETWEEN_3, GAUSS_3, QuadraturePoint, RADAU_3, RADA
 type Square<N, const D: usize> = [[N; D]; D];
 
 /// The three vectors and, where damping reads them, their rates.
-type Motion<'a, N, const D: usize> = (&'a [Components<N, D>; 3], &'a Option<[Components<N, D>; 3]>);
+#[derive(Clone, Copy)]
+struct Motion<'a, N, const D: usize> {
+    v: &'a [Components<N, D>; 3],
+    dv: &'a Option<[Components<N, D>; 3]>,
+}
+
+/// Forces on the three vectors, summed over points, and the powers of axial and of bending damping.
+struct ForceSum<N, const D: usize> {
+    vectors: [Components<N, D>; 3],
+    power: [N; 2],
+}
 
 /// Calls a method once for each axial point. Written out: with points known when compiling.
 macro_rules! at_axial_points {
@@ -423,12 +433,20 @@ impl<N: Real> Kernel<N> {
     ) -> ([Components<N, D>; 4], N) {
         let v = self.vectors(e);
         let dv = of_rate!(rate, rate => self.vectors(rate));
-        let mut sum = ([[self.number(0.0); D]; 3], [self.number(0.0); 2]);
-        at_axial_points!(self, add_axial_force((&v, &dv), &mut sum));
+        let motion = Motion { v: &v, dv: &dv };
+        let mut sum = ForceSum {
+            vectors: [[self.number(0.0); D]; 3],
+            power: [self.number(0.0); 2],
+        };
+        at_axial_points!(self, add_axial_force(motion, &mut sum));
         if self.bends {
-            at_bending_points!(self, add_bending_force((&v, &dv), &mut sum));
+            at_bending_points!(self, add_bending_force(motion, &mut sum));
         }
-        let (l, (sum, power)) = (self.length, sum);
+        let ForceSum {
+            vectors: sum,
+            power,
+        } = sum;
+        let l = self.length;
         let force = [
             sum[0],
             times(&sum[1], -l),
@@ -445,8 +463,11 @@ impl<N: Real> Kernel<N> {
         &self,
         index: usize,
         point: &Sample,
-        (v, dv): Motion<N, D>,
-        (sum, power): &mut ([Components<N, D>; 3], [N; 2]),
+        Motion { v, dv }: Motion<N, D>,
+        ForceSum {
+            vectors: sum,
+            power,
+        }: &mut ForceSum<N, D>,
     ) {
         let u = combine(&point.slope, v);
         let du = of_rate!(dv, dv => combine(&point.slope, dv));
@@ -470,8 +491,11 @@ impl<N: Real> Kernel<N> {
         &self,
         index: usize,
         point: &Sample,
-        (v, dv): Motion<N, D>,
-        (sum, power): &mut ([Components<N, D>; 3], [N; 2]),
+        Motion { v, dv }: Motion<N, D>,
+        ForceSum {
+            vectors: sum,
+            power,
+        }: &mut ForceSum<N, D>,
     ) {
         let at = self.line(point, v);
         let rate = of_rate!(dv, dv => self.line(point, dv));

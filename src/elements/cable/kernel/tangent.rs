@@ -46,6 +46,15 @@ impl<N: Copy> Factors<N> {
     }
 }
 
+/// A bending point: the line and its curvature there, and what the three vectors count in `u` and in `w`.
+#[derive(Clone, Copy)]
+struct BendingPoint<'a, N, const D: usize> {
+    at: &'a Line<N, D>,
+    now: &'a Curvature<N>,
+    s: &'a [N; 3],
+    c: &'a [N; 3],
+}
+
 /// A matrix over the three vectors that grows, lower triangle: products of vectors, and multiples of 1.
 struct Sum<N, const D: usize> {
     products: [[Square<N, D>; 3]; 3],
@@ -55,7 +64,7 @@ struct Sum<N, const D: usize> {
 impl<N: Real, const D: usize> Sum<N, D> {
     /// Adds `a b^T` to a block.
     #[inline(always)]
-    fn add_block(&mut self, (i, j): (usize, usize), a: &Components<N, D>, b: &Components<N, D>) {
+    fn add_block(&mut self, i: usize, j: usize, a: &Components<N, D>, b: &Components<N, D>) {
         for r in 0..D {
             for c in 0..if i == j { r + 1 } else { D } {
                 let sum = &mut self.products[i][j][r][c];
@@ -69,14 +78,14 @@ impl<N: Real, const D: usize> Sum<N, D> {
     fn add_products(&mut self, a: &[Components<N, D>; 3], b: &[Components<N, D>; 3]) {
         for i in 0..3 {
             for j in 0..=i {
-                self.add_block((i, j), &a[i], &b[j]);
+                self.add_block(i, j, &a[i], &b[j]);
             }
         }
     }
 
     /// Adds the antisymmetric matrix of `contract` to a block.
     #[inline(always)]
-    fn add_twist(&mut self, (i, j): (usize, usize), m: &[N; TURNS]) {
+    fn add_twist(&mut self, i: usize, j: usize, m: &[N; TURNS]) {
         let (block, mut k) = (&mut self.products[i][j], 0);
         for r in 0..D {
             for c in r + 1..D {
@@ -122,9 +131,10 @@ impl<N: Real> Kernel<N> {
             products: [[[[zero; D]; D]; 3]; 3],
             multiples: [[zero; 3]; 3],
         };
-        at_axial_points!(self, add_axial_tangent((&v, &dv), factors, &mut sum));
+        let motion = Motion { v: &v, dv: &dv };
+        at_axial_points!(self, add_axial_tangent(motion, factors, &mut sum));
         if self.bends {
-            at_bending_points!(self, add_bending_tangent((&v, &dv), factors, &mut sum));
+            at_bending_points!(self, add_bending_tangent(motion, factors, &mut sum));
         }
         sum.whole()
     }
@@ -134,7 +144,7 @@ impl<N: Real> Kernel<N> {
         &self,
         index: usize,
         point: &Sample,
-        (v, dv): Motion<N, D>,
+        Motion { v, dv }: Motion<N, D>,
         factors: Factors<N>,
         sum: &mut Sum<N, D>,
     ) {
@@ -153,7 +163,7 @@ impl<N: Real> Kernel<N> {
                 let weight = self.number(weight);
                 sum.multiples[i][j] = multiple.times_plus(weight, sum.multiples[i][j]);
                 let weighted = times(&scaled, weight);
-                sum.add_block((i, j), &weighted, &u);
+                sum.add_block(i, j, &weighted, &u);
             }
         }
     }
@@ -166,7 +176,7 @@ impl<N: Real> Kernel<N> {
         &self,
         index: usize,
         point: &Sample,
-        (v, dv): Motion<N, D>,
+        Motion { v, dv }: Motion<N, D>,
         factors: Factors<N>,
         sum: &mut Sum<N, D>,
     ) {
@@ -183,7 +193,13 @@ impl<N: Real> Kernel<N> {
             self.number(point.curvature[i]) * self.inverse_length
         });
         let stiffness = factors.bending * self.bending_stiffness[index] * weight;
-        self.add_material((&at, &now), (&s, &c), (stiffness, factors.of_size), sum);
+        let place = BendingPoint {
+            at: &at,
+            now: &now,
+            s: &s,
+            c: &c,
+        };
+        self.add_material(place, stiffness, factors.of_size, sum);
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);
         let (mu, mw) = (contract(&m, &at.u), contract(&m, &at.w));
@@ -204,20 +220,19 @@ impl<N: Real> Kernel<N> {
                 sum.multiples[i][j] = sum.multiples[i][j] - multiple;
                 if i != j {
                     let twist = s[i] * c[j] - c[i] * s[j];
-                    sum.add_twist((i, j), &times(&m, twist));
+                    sum.add_twist(i, j, &times(&m, twist));
                 }
             }
         }
     }
 
-    /// Products of the gradients of the curvature, or in space of its size alone: `s` and `c` are what the three vectors
-    /// count in `u` and `w`.
+    /// Adds products of the gradients of the curvature, or in space of its size alone.
     #[inline(always)]
     fn add_material<const D: usize>(
         &self,
-        (at, now): (&Line<N, D>, &Curvature<N>),
-        (s, c): (&[N; 3], &[N; 3]),
-        (stiffness, of_size): (N, bool),
+        BendingPoint { at, now, s, c }: BendingPoint<'_, N, D>,
+        stiffness: N,
+        of_size: bool,
         sum: &mut Sum<N, D>,
     ) {
         let (plane, straight) = self.plane::<D>(now);
