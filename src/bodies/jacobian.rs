@@ -286,8 +286,8 @@ impl Jacobian {
             self.squares[*place] = square;
             self.bounds[*place] = least.min(OF_HEAVIEST * evenness).max(ROUNDOFF) * square;
         }
-        let found = (&mut self.counts[..], &mut self.pivots[..]);
-        (self.factors).factor_semidefinite(&self.pattern, &self.bounds, found);
+        let (counts, pivots) = (&mut self.counts, &mut self.pivots);
+        (self.factors).factor_semidefinite(&self.pattern, &self.bounds, counts, pivots);
     }
 
     /// Changes `q` by the least that makes `J q = right` as far as rows count. Two passes do so to roundoff; one is

@@ -145,7 +145,8 @@ impl Instance {
     /// initialization mode.
     pub fn directional_derivative(
         &mut self,
-        (knowns, seeds): (&[u32], &[f64]),
+        knowns: &[u32],
+        seeds: &[f64],
         unknowns: &[u32],
         changes: &mut [MaybeUninit<f64>],
     ) -> Result<(), Fault> {

@@ -381,7 +381,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 let knowns = lent("vKnown_ref", vKnown_ref, nKnown)?;
                 let seeds = lent("dvKnown", dvKnown, nKnown)?;
                 let changes = lent_mut("dvUnknown", dvUnknown, nUnknown)?;
-                instance.directional_derivative((knowns, seeds), unknowns, changes)
+                instance.directional_derivative(knowns, seeds, unknowns, changes)
             },
         )
     }

@@ -78,7 +78,7 @@ pub fn unit_with_rates<N: Number>([q, rate, second]: [Quaternion<N>; 3]) -> [Qua
 
 /// The vector part of `a e b*` for the axis `e` of this number: what a unit quaternion `a = b` takes the axis to; symmetric in
 /// both, so that derivatives follow by the product rule.
-pub fn carried<N: Number>([a, b]: [&Quaternion<N>; 2], axis: usize) -> Vector3<N> {
+pub fn carried<N: Number>(a: &Quaternion<N>, b: &Quaternion<N>, axis: usize) -> Vector3<N> {
     let mut unit = [N::of(0.0); 4];
     unit[1 + axis] = N::of(1.0);
     let [_, x, y, z] = product(&product(a, &unit), &inverse(*b));

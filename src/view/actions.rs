@@ -119,18 +119,38 @@ fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = MovingActio
                     Quantity::Reaction(holder, axis, Along::Global)
                 }
             };
-            exerted((name, marker, dimension), holds, quantity, Origin::Reaction)
+            let on = MarkerActions {
+                name,
+                marker,
+                dimension,
+                is_there: holds,
+            };
+            exerted(on, quantity, Origin::Reaction)
         };
     joints.chain(motions).flat_map(of)
 }
 
+/// What acts on a marker.
+struct MarkerActions<'a> {
+    name: &'a str,
+    marker: MarkerId,
+    dimension: usize,
+    /// Whether there is a force, and whether there is a moment.
+    is_there: [bool; 2],
+}
+
 /// A force and a moment on a marker, those that are there.
 fn exerted<'a>(
-    (name, marker, dimension): (&'a str, MarkerId, usize),
-    is_there: [bool; 2],
+    on: MarkerActions<'a>,
     quantity: impl Fn(bool, usize) -> Quantity,
     of: impl Fn(Vec<Quantity>) -> Origin<'a>,
 ) -> impl Iterator<Item = MovingAction<'a>> {
+    let MarkerActions {
+        name,
+        marker,
+        dimension,
+        is_there,
+    } = on;
     let both = [(is_there[0], false), (is_there[1], true)].into_iter();
     both.filter(|(is_there, _)| *is_there)
         .map(move |(_, is_moment)| {
@@ -165,8 +185,13 @@ fn of_spring<'a>(
         }
     };
     if let Some(marker) = load.kind.exerts_on() {
-        let at = (load.name, marker.id, dimension);
-        return exerted(at, load.kind.exerts(), quantity, Origin::Load).collect();
+        let on = MarkerActions {
+            name: load.name,
+            marker: marker.id,
+            dimension,
+            is_there: load.kind.exerts(),
+        };
+        return exerted(on, quantity, Origin::Load).collect();
     }
     let LoadKind::Contact(ResolvedContact {
         by: ContactBody::Cable(on),

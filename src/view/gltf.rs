@@ -51,8 +51,22 @@ pub fn gltf(recording: &Recording) -> Vec<u8> {
     file.finish(recording)
 }
 
+/// Type of the entries of an accessor.
+struct AccessorType<'a> {
+    /// Number of the format of a component.
+    component: u32,
+    /// How components make an entry, such as `VEC3`.
+    shape: &'a str,
+}
+
 impl File {
-    fn accessor(&mut self, kind: (u32, &str), count: usize, bytes: &[u8], more: &str) -> usize {
+    fn accessor(
+        &mut self,
+        kind: AccessorType<'_>,
+        count: usize,
+        bytes: &[u8],
+        more: &str,
+    ) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let (at, view) = (self.bytes.len(), self.views.len());
         self.bytes.extend_from_slice(bytes);
@@ -62,7 +76,7 @@ impl File {
         ));
         self.accessors.push(format!(
             "{{\"bufferView\":{view},\"componentType\":{},\"type\":\"{}\",\"count\":{count}{more}}}",
-            kind.0, kind.1
+            kind.component, kind.shape
         ));
         self.accessors.len() - 1
     }
@@ -89,7 +103,15 @@ impl File {
             ends(f32::max, f32::NEG_INFINITY),
         );
         let more = format!(",\"min\":{low},\"max\":{high}");
-        self.accessor((FLOAT, kind), values.len() / width, &bytes, &more)
+        self.accessor(
+            AccessorType {
+                component: FLOAT,
+                shape: kind,
+            },
+            values.len() / width,
+            &bytes,
+            &more,
+        )
     }
 
     fn body(&mut self, recording: &Recording, surface: &BodySurface, body: usize, input: usize) {
@@ -118,7 +140,15 @@ impl File {
         // Points are given along the axes of their joints already. That is what nothing said means, but not every reader takes it so.
         let unit: [f32; 16] = std::array::from_fn(|k| f32::from(u8::from(k % 5 == 0)));
         let bytes: Vec<u8> = unit.iter().flat_map(|value| value.to_le_bytes()).collect();
-        let matrices = self.accessor((FLOAT, "MAT4"), count, &bytes.repeat(count), "");
+        let matrices = self.accessor(
+            AccessorType {
+                component: FLOAT,
+                shape: "MAT4",
+            },
+            count,
+            &bytes.repeat(count),
+            "",
+        );
         self.skins.push(format!(
             "{{\"joints\":{joints},\"inverseBindMatrices\":{matrices}}}"
         ));
@@ -178,7 +208,15 @@ impl File {
             .iter()
             .flat_map(|corner| corner.to_le_bytes())
             .collect();
-        let indices = self.accessor((INTEGER, "SCALAR"), corners.len(), &bytes, "");
+        let indices = self.accessor(
+            AccessorType {
+                component: INTEGER,
+                shape: "SCALAR",
+            },
+            corners.len(),
+            &bytes,
+            "",
+        );
         let mut bound = String::new();
         if !is_rigid {
             let joints = surface
@@ -186,7 +224,15 @@ impl File {
                 .iter()
                 .flat_map(|(place, _)| [*place as u16, 0, 0, 0]);
             let bytes: Vec<u8> = joints.flat_map(u16::to_le_bytes).collect();
-            let joints = self.accessor((SHORT, "VEC4"), surface.points.len(), &bytes, "");
+            let joints = self.accessor(
+                AccessorType {
+                    component: SHORT,
+                    shape: "VEC4",
+                },
+                surface.points.len(),
+                &bytes,
+                "",
+            );
             let weights: Vec<f32> = surface
                 .points
                 .iter()

@@ -104,11 +104,11 @@ fn of_body(
     let (nodes, turns) = (first.nodes.len(), !first.axes.is_empty());
     let is_chain = matches!(body, BodyReference::Cable(_));
     let mut held = vec![NO_TURN; first.axes.len()];
-    let kind = (recording.scene.dimension, is_chain);
+    let dimension = recording.scene.dimension;
     // Quaternions of frames are to be near those that bodies are drawn with.
-    let drawn = row(&recording.drawn[place], kind, &mut held);
+    let drawn = row(&recording.drawn[place], dimension, is_chain, &mut held);
     let rows: Vec<Vec<f64>> = (recording.poses.iter())
-        .map(|poses| row(&poses[place], kind, &mut held))
+        .map(|poses| row(&poses[place], dimension, is_chain, &mut held))
         .collect();
     let (track, drawn) = (numbers.stepped(&rows), numbers.stepped(&[drawn]));
     let shape = match body {
@@ -149,7 +149,7 @@ fn of_forces(
 }
 
 /// Numbers of a body in one frame, node by node: position, slope but of rigid bodies in space, how sections or frames stand.
-fn row(pose: &Pose, (dimension, is_chain): (usize, bool), held: &mut [Quaternion]) -> Vec<f64> {
+fn row(pose: &Pose, dimension: usize, is_chain: bool, held: &mut [Quaternion]) -> Vec<f64> {
     let mut row = Vec::new();
     for (node, [position, slope]) in pose.nodes.iter().enumerate() {
         row.extend(&position[..dimension]);

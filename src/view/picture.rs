@@ -21,15 +21,17 @@ const START: &str = "(async () => {\n\
 
 /// A picture that moves, as an element of HTML with all that it needs; a still one takes its place where a browser cannot show it.
 pub fn picture(recording: &Recording, still: &str) -> String {
-    element(header(recording), still)
+    let (header, numbers) = header(recording);
+    element(&header, &numbers, still)
 }
 
 /// Writes a page of a table of outputs: markers as points, and curves.
 pub fn picture_of_table(table: &OutputTable, title: &str) -> String {
-    element(table.header(title), "")
+    let (header, numbers) = table.header(title);
+    element(&header, &numbers, "")
 }
 
-fn element((header, numbers): (String, String), still: &str) -> String {
+fn element(header: &str, numbers: &str, still: &str) -> String {
     let (_, program) = bundle();
     format!(
         "<div class=\"flexbody-view\">\n<style>\n{STYLE}</style>\n<!-- The program holds parts of three.js.\n{LICENSE}-->\n\

@@ -36,14 +36,22 @@ impl PointWithAxes {
     }
 }
 
+/// A place along the line of a body.
+#[derive(Clone, Copy)]
+struct LineStation {
+    element: usize,
+    /// Part of the element in [0, 1].
+    xi: f64,
+}
+
 /// The surface of a body: points, each along the axes of one of the places that move, and polygons between points.
 pub(super) struct BodySurface {
     pub name: String,
     /// Place of every point, and its coordinates there, m.
     pub points: Vec<(usize, [f64; 3])>,
     pub faces: Vec<Vec<usize>>,
-    /// Element and part of it of every place; none of a rigid body, which has one place.
-    stations: Vec<(usize, f64)>,
+    /// Where every place is; none of a rigid body, which has one place.
+    stations: Vec<LineStation>,
     lengths: Vec<f64>,
     body: usize,
 }
@@ -56,9 +64,9 @@ impl BodySurface {
             return vec![rigid_place(pose, recording.scene.dimension)];
         }
         let mut places: Vec<PointWithAxes> = Vec::new();
-        for (element, xi) in &self.stations {
+        for station in &self.stations {
             let before = places.last().map(|place| place.axes[1]);
-            places.push(self.section(pose, (*element, *xi), recording.scene.dimension, before));
+            places.push(self.section(pose, *station, recording.scene.dimension, before));
         }
         places
     }
@@ -66,7 +74,7 @@ impl BodySurface {
     fn section(
         &self,
         pose: &Pose,
-        (element, xi): (usize, f64),
+        LineStation { element, xi }: LineStation,
         dimension: usize,
         before: Option<Vector3<f64>>,
     ) -> PointWithAxes {
@@ -165,10 +173,11 @@ fn chain(
 ) -> BodySurface {
     let parts = ALONG.div_ceil(lengths.len());
     let count = parts * lengths.len();
-    let stations: Vec<(usize, f64)> = (0..=count)
+    let stations: Vec<LineStation> = (0..=count)
         .map(|ring| {
             let element = (ring / parts).min(lengths.len() - 1);
-            (element, (ring - element * parts) as f64 / parts as f64)
+            let xi = (ring - element * parts) as f64 / parts as f64;
+            LineStation { element, xi }
         })
         .collect();
     let rim: Vec<[f64; 2]> = if corners {
@@ -178,7 +187,7 @@ fn chain(
     };
     let width = rim.len();
     let mut points = Vec::new();
-    for (ring, (element, xi)) in stations.iter().enumerate() {
+    for (ring, LineStation { element, xi }) in stations.iter().enumerate() {
         let [a, b] = sections[*element];
         let half = |k: usize| a[k] + (b[k] - a[k]) * xi;
         points.extend(

@@ -18,10 +18,11 @@ pub(super) fn factor<T: Number, const B: usize>(
     start: usize,
     pivots: &mut impl Pivots<T>,
 ) -> Option<()> {
-    let (is_long, run) = (values.len() >= LONG, (values, start));
+    let is_long = values.len() >= LONG;
     let mut outcome = None;
     let work = Factor::<'_, T, _, B> {
-        run,
+        values,
+        start,
         pivots,
         outcome: &mut outcome,
     };
@@ -31,7 +32,8 @@ pub(super) fn factor<T: Number, const B: usize>(
 
 /// [`factor`].
 struct Factor<'a, T, P, const B: usize> {
-    run: (&'a mut [T], usize),
+    values: &'a mut [T],
+    start: usize,
     pivots: &'a mut P,
     outcome: &'a mut Option<()>,
 }
@@ -39,17 +41,17 @@ struct Factor<'a, T, P, const B: usize> {
 impl<T: Number, P: Pivots<T>, const B: usize> Vectorized for Factor<'_, T, P, B> {
     #[inline(always)]
     fn run<S: Simd>(self, _: S) {
-        *self.outcome = factor_blocks::<T, B>(self.run, self.pivots);
+        *self.outcome = factor_blocks::<T, B>(self.values, self.start, self.pivots);
     }
 }
 
 #[inline(always)]
 fn factor_blocks<T: Number, const B: usize>(
-    (values, start): (&mut [T], usize),
+    values: &mut [T],
+    mut start: usize,
     pivots: &mut impl Pivots<T>,
 ) -> Option<()> {
     let blocks = values.as_chunks_mut::<B>().0.as_chunks_mut::<B>().0;
-    let mut start = start;
     let mut blocks = blocks.iter_mut();
     let mut diagonal = blocks.next()?;
     while let (Some(below), Some(next)) = (blocks.next(), blocks.next()) {

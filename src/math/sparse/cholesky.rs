@@ -109,9 +109,9 @@ impl Cholesky {
 
     /// `x <- W^-1 x`.
     pub fn forward(&self, pattern: &Pattern, x: &mut [f64]) {
-        let pieces = self.pieces.iter().zip(&pattern.steps);
-        for (piece, step) in pieces.filter(|(piece, _)| !piece.is_identity) {
-            self.forward_piece(pattern, (piece, step), 0, x);
+        let pieces = self.pieces.iter().enumerate();
+        for (index, _) in pieces.filter(|(_, piece)| !piece.is_identity) {
+            self.forward_piece(pattern, index, 0, x);
         }
         scale(x, &self.inverse_roots);
     }
@@ -119,12 +119,7 @@ impl Cholesky {
     /// `x <- W^-1 x` where `x` is zero but at vertices that it was made for.
     pub fn forward_within(&self, pattern: &Pattern, reach: &Reach, x: &mut [f64]) {
         for &(piece, skipped) in &reach.pieces {
-            self.forward_piece(
-                pattern,
-                (&self.pieces[piece], &pattern.steps[piece]),
-                skipped,
-                x,
-            );
+            self.forward_piece(pattern, piece, skipped, x);
         }
         for range in &reach.variables {
             scale(&mut x[range.clone()], &self.inverse_roots[range.clone()]);
@@ -132,13 +127,8 @@ impl Cholesky {
     }
 
     /// One piece, but for its first columns.
-    fn forward_piece(
-        &self,
-        pattern: &Pattern,
-        (piece, step): (&StepColumns, &Step),
-        skipped: usize,
-        x: &mut [f64],
-    ) {
+    fn forward_piece(&self, pattern: &Pattern, index: usize, skipped: usize, x: &mut [f64]) {
+        let (piece, step) = (&self.pieces[index], &pattern.steps[index]);
         if piece.links.is_empty() {
             kernels::forward(pattern, &[step.skip(skipped)], &self.factors.values, x);
         } else {

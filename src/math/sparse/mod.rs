@@ -133,7 +133,8 @@ impl Matrix<f64> {
         &mut self,
         pattern: &Pattern,
         bounds: &[f64],
-        (counts, pivots): (&mut [bool], &mut [f64]),
+        counts: &mut [bool],
+        pivots: &mut [f64],
     ) {
         let mut pivots = |row: usize, pivot: f64| {
             let stays = pivot.is_finite() && pivot > bounds[row];

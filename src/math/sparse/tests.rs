@@ -469,7 +469,8 @@ fn rows_with_little_pivots_drop_out() {
         a.factor_semidefinite(
             &pattern,
             &squares.map(|square| 1e-8 * square),
-            (&mut counts, &mut pivots),
+            &mut counts,
+            &mut pivots,
         );
         assert_eq!(
             counts.iter().filter(|stays| **stays).count(),

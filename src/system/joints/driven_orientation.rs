@@ -67,9 +67,9 @@ impl DrivenOrientation {
         let (about, two) = (Vector3::ith(self.about, N::of(0.5)), N::of(2.0));
         std::array::from_fn(|i| {
             let axis = match order {
-                0 => carried([&q, &q], i),
-                1 => carried([&q, &rate], i) * two,
-                _ => (carried([&q, &second], i) + carried([&rate, &rate], i)) * two,
+                0 => carried(&q, &q, i),
+                1 => carried(&q, &rate, i) * two,
+                _ => (carried(&q, &second, i) + carried(&rate, &rate, i)) * two,
             };
             vector::<D, N>(about.cross(&axis).into())
         })
