@@ -184,7 +184,7 @@ impl Signals {
                 From::Quaternion(parts, order, component) => {
                     let settings = parts.map(|part| simulation.setting(part));
                     let at = |time: f64| {
-                        let turning = self.turning(parts, settings, (row, time));
+                        let turning = self.turning(parts, settings, row, time);
                         turning[order - 1][*component]
                     };
                     let now = at(time);
@@ -207,7 +207,8 @@ impl Signals {
         &self,
         parts: &[usize; 4],
         settings: [f64; 4],
-        (row, time): (usize, f64),
+        row: usize,
+        time: f64,
     ) -> [[f64; 3]; 2] {
         let mut q: [Quaternion; 3] = [settings, [0.0; 4], [0.0; 4]];
         for (k, part) in parts.iter().enumerate() {

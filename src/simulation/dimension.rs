@@ -1,6 +1,6 @@
 //! The one choice between the plane and space: everything below it is compiled for both.
 
-use super::engine::{Engine, InitialWarnings};
+use super::engine::{Engine, InitialWarnings, OperatingPoint};
 use super::inputs::Inputs;
 use super::watch::Doubtful;
 use super::{
@@ -40,8 +40,8 @@ handed_on! {
     fn initial_state([&mut] self, time: f64, inputs: &Inputs) -> Result<(State, Spectra), Error>;
     fn modes([&mut] self, state: &State, inputs: &[f64], count: usize) -> Result<Vec<Mode>, String>;
     fn damping_along([&mut] self, state: &State, inputs: &[f64], ways: &[Vec<f64>]) -> Vec<f64>;
-    fn way_to_rest([&mut] self, state: &State, inputs: &[f64], rate: f64) -> Option<f64>;
-    fn slow_response([&mut] self, state: &State, asked: (&[f64], usize), rate: f64, of: &[Option<Quantity>]) -> Option<Vec<f64>>;
+    fn way_to_rest([&mut] self, at: OperatingPoint<'_>) -> Option<f64>;
+    fn slow_response([&mut] self, at: OperatingPoint<'_>, place: usize, of: &[Option<Quantity>]) -> Option<Vec<f64>>;
     fn remarks([&] self) -> &InitialWarnings;
     fn redundant([&mut] self, state: &State) -> RedundantNames;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;

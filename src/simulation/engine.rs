@@ -18,6 +18,15 @@ use crate::system::{
     eigenvalues, natural_frequencies,
 };
 
+/// State and inputs that small motions are about, and the rate of what causes them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OperatingPoint<'a> {
+    pub state: &'a State,
+    pub inputs: &'a [f64],
+    /// Rate at which a cause grows, 1/s.
+    pub rate: f64,
+}
+
 /// Variables that the present derivatives are taken by.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Derived {
@@ -171,13 +180,10 @@ impl<const D: usize> Engine<D> {
             _ => system.initial_state(time, values, described, &mut self.work),
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
-        if let Some(which) = system
-            .bodies()
-            .overbent(&system.nodes_of(&state, &mut self.work))
-        {
-            return Err(Error::ElementOverDeformed(
-                self.overbent(which, " at the start"),
-            ));
+        let nodes = system.nodes_of(&state, &mut self.work);
+        if let Some((body, element)) = system.bodies().overbent(&nodes) {
+            let place = self.overbent(body, element, " at the start");
+            return Err(Error::ElementOverDeformed(place));
         }
         let steady = match self.initial {
             InitialState::Steady => Some(system.steady(&state, rates, &mut self.work)?),
@@ -301,7 +307,7 @@ impl<const D: usize> Engine<D> {
         };
         let failure = |stop| StepFailure {
             time: state.time,
-            reason: self.explain(stop, state, (start, until), &counts),
+            reason: self.explain(stop, state, start..until, &counts),
         };
         (report, result.map_err(failure))
     }

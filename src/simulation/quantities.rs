@@ -137,7 +137,7 @@ pub(super) fn value<const D: usize, N: Number>(
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
-        Deflection(id, from, axis) => deflected(values, assembled, (id, from))[axis],
+        Deflection(id, from, axis) => deflected(values, assembled, id, from)[axis],
         Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
         Orientation(id, ..)
@@ -194,7 +194,8 @@ pub(super) fn value<const D: usize, N: Number>(
 fn deflected<const D: usize, N: Number>(
     values: &Evaluation<D, N>,
     assembled: &Assembled<D>,
-    (marker, from): (MarkerId, Option<MarkerId>),
+    marker: MarkerId,
+    from: Option<MarkerId>,
 ) -> [N; 3] {
     let at = |id: MarkerId| assembled.marker(id);
     let drawn = &assembled.nodes;

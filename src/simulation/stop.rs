@@ -1,5 +1,7 @@
 //! What ends a step, and why it was not finished in words: what was reached, what was expected, what to do.
 
+use std::ops::Range;
+
 use super::engine::Engine;
 use super::{Report, Simulation, StepFailure};
 use crate::integrators::{Counts, StepError};
@@ -26,7 +28,7 @@ impl<const D: usize> Engine<D> {
 
     /// Describes a rod or beam with an element that is bent or twisted too far. `place` ends the text that names the
     /// element.
-    pub(super) fn overbent(&self, (body, element): (usize, usize), place: &str) -> String {
+    pub(super) fn overbent(&self, body: usize, element: usize, place: &str) -> String {
         format!(
             "expected elements of `{}` that bend by less than a right angle from the middle to an end and twist by less \
              than half a turn, found more in element {}{place}: take more elements",
@@ -61,14 +63,15 @@ impl<const D: usize> Engine<D> {
         (report, Err(failure))
     }
 
-    /// Explains in words why a step from `start` to `until` ended at a state.
+    /// Explains in words why a step over an interval of time (s) ended at a state.
     pub(super) fn explain(
         &mut self,
         stop: StepError,
         state: &State,
-        (start, until): (f64, f64),
+        interval: Range<f64>,
         counts: &Counts,
     ) -> String {
+        let Range { start, end: until } = interval;
         let (method, tolerance) = (self.methods.name(&state.pace), self.tolerance.relative);
         // Steps that shrink and shrink spend any work.
         let crawls = stop == StepError::TooMuchWork && state.step < CRAWL * (until - start);
@@ -106,7 +109,7 @@ impl<const D: usize> Engine<D> {
             StepError::NotFinite => {
                 format!("{method}: velocities or accelerations are no longer finite")
             }
-            StepError::ElementOverDeformed(body, element) => self.overbent((body, element), ""),
+            StepError::ElementOverDeformed(body, element) => self.overbent(body, element, ""),
             StepError::SliderLeftCable(joint) => {
                 format!("`{}` has left its cable", self.name(joint))
             }

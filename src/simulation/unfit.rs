@@ -14,7 +14,7 @@ impl<const D: usize> Engine<D> {
                     " on the way to equilibrium beyond {:.4} of the load",
                     error.reached
                 );
-                Error::ElementOverDeformed(self.overbent((body, element), &place))
+                Error::ElementOverDeformed(self.overbent(body, element, &place))
             }
             Failure::Rest(rest) => {
                 Error::Equilibrium(format!("{error}, on `{}`", self.bodies[rest.body]))

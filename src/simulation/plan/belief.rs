@@ -42,7 +42,7 @@ impl Search<'_, '_> {
     /// The loosest tolerance at which a run resolves what its outputs show: the error wanted of the displacements that they follow from.
     pub fn believed(&self, run: &TrialRun) -> f64 {
         let counting = self.outputs().iter().enumerate();
-        let shown = counting.filter_map(|(index, group)| shown((group, index), run));
+        let shown = counting.filter_map(|(index, group)| shown(group, index, run));
         let least = shown.fold(f64::INFINITY, f64::min);
         let by_motion = if run.rests {
             f64::INFINITY

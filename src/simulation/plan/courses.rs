@@ -77,7 +77,8 @@ pub fn courses(scene: &Scene) -> Result<Option<InputTable>, Error> {
         steps * scene.experiment.step
     });
     let moves = given.iter().enumerate();
-    let moves: Result<Vec<Move>, Error> = moves.map(|given| Move::new(given, jumps)).collect();
+    let moves = moves.map(|(place, course)| Move::new(place, course, jumps));
+    let moves: Result<Vec<Move>, Error> = moves.collect();
     let moves = moves?;
     let columns = columns(given, &variables);
     let names: Vec<&str> = columns.iter().map(|column| &*column.name).collect();
@@ -85,7 +86,7 @@ pub fn courses(scene: &Scene) -> Result<Option<InputTable>, Error> {
     let stop = scene.experiment.stop_time;
     let mut row = |time: f64, is_after: bool| {
         let cells = columns.iter().map(|column| {
-            let value = moves[column.course].derivative((time, stop), is_after, column.order);
+            let value = moves[column.course].derivative(time, stop, is_after, column.order);
             format!("{value:?}")
         });
         text += &format!("{time:?},{}\n", cells.collect::<Vec<_>>().join(","));
@@ -132,7 +133,7 @@ struct Move<'a> {
 }
 
 impl<'a> Move<'a> {
-    fn new((place, course): (usize, &'a InputCourse), jumps: [f64; 2]) -> Result<Self, Error> {
+    fn new(place: usize, course: &'a InputCourse, jumps: [f64; 2]) -> Result<Self, Error> {
         let function = course.value.as_ref().map(Value::function).transpose();
         let function = function.map_err(|message| {
             Error::new(format!("accuracy.input_profiles[{place}].value"), message)
@@ -144,13 +145,13 @@ impl<'a> Move<'a> {
         })
     }
 
-    /// Derivative of an order (up to 2) at a time in an experiment, s, before or after what jumps there; of a step only its value.
-    fn derivative(&self, (time, stop): (f64, f64), is_after: bool, order: usize) -> f64 {
+    /// Derivative of an order (up to 2) at a time in an experiment that ends at `stop`, s, before or after what jumps there; of a step only its value.
+    fn derivative(&self, time: f64, stop: f64, is_after: bool, order: usize) -> f64 {
         if let Some(function) = &self.function {
             let at = if is_after { time } else { time.next_down() };
             return function.derivatives(at)[order];
         }
-        let value = |time: f64| self.value((time, stop), is_after);
+        let value = |time: f64| self.value(time, stop, is_after);
         let h = DIFFERENCE * stop;
         match (order, self.course.course.unwrap_or_default()) {
             (0, _) => value(time),
@@ -161,7 +162,7 @@ impl<'a> Move<'a> {
     }
 
     /// Value of a ramp, step or cosine.
-    fn value(&self, (time, stop): (f64, f64), is_after: bool) -> f64 {
+    fn value(&self, time: f64, stop: f64, is_after: bool) -> f64 {
         let [from, to] = [self.course.from, self.course.to].map(Option::unwrap_or_default);
         let part = time / stop;
         let risen = |part: f64| 0.5 - 0.5 * (PI * part.clamp(0.0, 1.0)).cos();

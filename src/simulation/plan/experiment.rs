@@ -99,7 +99,8 @@ impl PlannedExperiment {
         &self,
         scene: Scene,
         responses: Option<Responses>,
-        (most_work, is_over): (f64, &dyn Fn() -> bool),
+        most_work: f64,
+        is_over: &dyn Fn() -> bool,
     ) -> Result<TrialRun, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
         let mut simulation = Simulation::new(scene);
@@ -175,7 +176,7 @@ impl PlannedExperiment {
         if places.is_empty() {
             Responses::default()
         } else {
-            Responses::new(simulation, &places, (self.stop, self.step))
+            Responses::new(simulation, &places, self.stop, self.step)
         }
     }
 

@@ -261,7 +261,8 @@ pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, Relati
 
 /// Compares an output between a run and a more accurate one. `limit` is the wanted relative error.
 pub(super) fn difference(
-    (group, index): (&OutputGroup, usize),
+    group: &OutputGroup,
+    index: usize,
     run: &TrialRun,
     closer: &TrialRun,
     limit: f64,
@@ -281,7 +282,7 @@ pub(super) fn difference(
 }
 
 /// Displacement that an output follows from, and that a run must resolve to be believed, m; nothing where it shows none.
-pub(super) fn shown((group, index): (&OutputGroup, usize), run: &TrialRun) -> Option<f64> {
+pub(super) fn shown(group: &OutputGroup, index: usize, run: &TrialRun) -> Option<f64> {
     let of_bodies = |displacements: &[f64]| {
         let all = displacements.iter().enumerate();
         let own = all.filter(|(body, found)| group.bodies.contains(body) && **found > 0.0);

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::outputs::{OutputGroup, like};
 use crate::math::vector::norm;
 use crate::simulation::dimension::AnyEngine;
-use crate::simulation::engine::Engine;
+use crate::simulation::engine::{Engine, OperatingPoint};
 use crate::simulation::inputs::Inputs;
 use crate::simulation::{Quantity, Simulation, Source};
 use crate::system::{DrivenSystem, State, slow_response};
@@ -34,7 +34,7 @@ pub(super) struct Responses {
 impl Responses {
     /// Computes the responses of an initialized simulation to the inputs `held`, by their indices. `stop` is the length
     /// of the experiment, `step` that of a communication step, s.
-    pub fn new(simulation: &mut Simulation, held: &[usize], (stop, step): (f64, f64)) -> Self {
+    pub fn new(simulation: &mut Simulation, held: &[usize], stop: f64, step: f64) -> Self {
         let computed = simulation.variables.iter().filter(|v| v.is_computed());
         let sources = computed.map(|variable| match variable.source {
             Source::Output(quantity) => Some(quantity),
@@ -45,13 +45,17 @@ impl Responses {
         let Some(engine) = &mut simulation.engine else {
             return Self::default();
         };
+        let at = OperatingPoint {
+            state,
+            inputs,
+            rate: 1.0 / stop,
+        };
         let answers = held.iter().map(|place| {
-            let asked = (&inputs[..], *place);
-            let found = engine.slow_response(state, asked, 1.0 / stop, &quantities);
+            let found = engine.slow_response(at, *place, &quantities);
             found.unwrap_or_else(|| vec![0.0; quantities.len()])
         });
         let answers = answers.collect();
-        let squares = match engine.way_to_rest(state, inputs, 1.0 / stop) {
+        let squares = match engine.way_to_rest(at) {
             Some(way) if way <= REST => squares(engine, state, inputs, PI / step),
             _ => Vec::new(),
         };
@@ -69,7 +73,8 @@ impl Responses {
     pub fn difference(
         &self,
         closer: &Self,
-        (input, components): (usize, &[usize]),
+        input: usize,
+        components: &[usize],
         groups: &[OutputGroup],
     ) -> f64 {
         let (Some(own), Some(fine)) = (self.inputs.get(input), closer.inputs.get(input)) else {
@@ -125,14 +130,14 @@ fn still(state: &State) -> State {
 }
 
 impl<const D: usize> Engine<D> {
-    /// How far a state at rest is from where forces would let it be, as far as it gets at a rate (1/s): root mean square displacement
+    /// How far a state at rest is from where forces would let it be, as far as it gets at the rate: root mean square displacement
     /// in sizes of the scene. Nothing where the linearized equations cannot be solved.
-    pub(in crate::simulation) fn way_to_rest(
-        &mut self,
-        state: &State,
-        inputs: &[f64],
-        rate: f64,
-    ) -> Option<f64> {
+    pub(in crate::simulation) fn way_to_rest(&mut self, at: OperatingPoint<'_>) -> Option<f64> {
+        let OperatingPoint {
+            state,
+            inputs,
+            rate,
+        } = at;
         let system = &self.assembled.system;
         let at = still(state);
         let mut model = DrivenSystem::new(system, inputs, &mut self.work, &at);
@@ -141,21 +146,21 @@ impl<const D: usize> Engine<D> {
         solved.then(|| norm(&way) / (system.size() * system.mass().sqrt()))
     }
 
-    /// Computes the response of quantities to an input that grows at a rate (1/s) from a state at rest. `place` is the
+    /// Computes the response of quantities to an input that grows at the rate from a state at rest. `place` is the
     /// index of the input among `inputs`. Missing quantities are 0. `None` if the linearized equations cannot be
     /// solved.
     pub(in crate::simulation) fn slow_response(
         &mut self,
-        state: &State,
-        (inputs, place): (&[f64], usize),
-        rate: f64,
+        at: OperatingPoint<'_>,
+        place: usize,
         quantities: &[Option<Quantity>],
     ) -> Option<Vec<f64>> {
+        let OperatingPoint { state, inputs, .. } = at;
         let system = &self.assembled.system;
         let full = SMALL * system.size() * system.mass().sqrt();
         let (mut change, mut way) = (FIRST, Vec::new());
         for _ in 0..2 {
-            way = self.way(state, (inputs, place), rate, change)?;
+            way = self.way(at, place, change)?;
             let size = norm(&way);
             if size <= 0.0 {
                 return Some(vec![0.0; quantities.len()]);
@@ -191,13 +196,12 @@ impl<const D: usize> Engine<D> {
     }
 
     /// How coordinates move with a change of an input: as constraints carry them, and as forces bend them.
-    fn way(
-        &mut self,
-        state: &State,
-        (inputs, place): (&[f64], usize),
-        rate: f64,
-        change: f64,
-    ) -> Option<Vec<f64>> {
+    fn way(&mut self, at: OperatingPoint<'_>, place: usize, change: f64) -> Option<Vec<f64>> {
+        let OperatingPoint {
+            state,
+            inputs,
+            rate,
+        } = at;
         let system = &self.assembled.system;
         let mut sides = [1.0, -1.0].into_iter().map(|sign| {
             let mut values = inputs.to_vec();

@@ -274,10 +274,9 @@ impl<'a, 'p> Search<'a, 'p> {
             return Err(Unfinished::TooMuchWork);
         }
         let most = left.min(self.share * self.most_work);
-        let limits = (most, self.is_over);
         let scene = self.planned(choice);
         let responses = self.responses(choice);
-        let mut run = (self.experiment).run(scene, responses, limits);
+        let mut run = (self.experiment).run(scene, responses, most, self.is_over);
         let is_last = most == left || (self.is_over)();
         self.is_cut |= matches!(run, Err(Unfinished::TooMuchWork)) && is_last;
         if let Ok(run) = &mut run {
@@ -314,12 +313,12 @@ impl<'a, 'p> Search<'a, 'p> {
         };
         let counting = self.groups[..self.counting].iter().enumerate();
         let of_outputs =
-            counting.map(|(index, group)| difference((group, index), run, closer, limit));
+            counting.map(|(index, group)| difference(group, index, run, closer, limit));
         let held = 0..self.experiment.held.len();
         let [own, fine] = [run, closer].map(|run| &run.responses);
         let of_inputs = held.map(|input| {
             let components = self.experiment.components(input);
-            own.difference(fine, (input, &components), &self.groups)
+            own.difference(fine, input, &components, &self.groups)
         });
         let of_frequencies = self.tunes().then(|| own.detuned(fine));
         let still = of_inputs.chain(of_frequencies).map(|largest| Difference {

@@ -29,7 +29,7 @@ pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), 
         let elements: Vec<u32> = (coarsest.iter().zip(&is_free))
             .map(|(count, is_free)| if *is_free { finer * count } else { *count })
             .collect();
-        let Err(reason) = tried(scene, &elements, (given, moved.as_ref())) else {
+        let Err(reason) = tried(scene, &elements, given, moved.as_ref()) else {
             return Ok(());
         };
         let may_be_the_mesh = matches!(
@@ -50,7 +50,8 @@ pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), 
 fn tried(
     scene: &Scene,
     elements: &[u32],
-    (given, moved): (&TrialConditions, Option<&InputTable>),
+    given: &TrialConditions,
+    moved: Option<&InputTable>,
 ) -> Result<(), Reason> {
     // Spectra are outputs, and ask for finer meshes.
     let mut scene = scene.clone().without_outputs();

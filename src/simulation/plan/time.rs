@@ -263,7 +263,7 @@ impl Search<'_, '_> {
     ) -> Result<Option<Vec<Difference>>, Unfinished> {
         let mut half = self.half(choice);
         // Another integrator makes other errors, and so does a mesh that moves otherwise.
-        if !self.end_alike([&half, choice]) || self.are_far([&half, choice]) {
+        if !self.end_alike([&half, choice]) || self.are_far(&half, choice) {
             half.elements.clone_from(&choice.elements);
         }
         let limits = self.left(in_space, half.elements == choice.elements);
@@ -304,7 +304,7 @@ impl Search<'_, '_> {
             Some(run) => choice.tolerance <= self.believed(run),
             None => false,
         };
-        let is_alike = self.end_alike([&coarsest, choice]) && !self.are_far([&coarsest, choice]);
+        let is_alike = self.end_alike([&coarsest, choice]) && !self.are_far(&coarsest, choice);
         if is_resolved && is_alike {
             in_time
         } else {
@@ -350,7 +350,7 @@ impl Search<'_, '_> {
     }
 
     /// Whether two meshes move so differently that errors in time of one say nothing of those of the other.
-    fn are_far(&mut self, [half, choice]: [&Choice; 2]) -> bool {
+    fn are_far(&mut self, half: &Choice, choice: &Choice) -> bool {
         let found = self.compare(half, choice, self.error).unwrap_or_default();
         found.iter().any(|found| found.largest > NEAR * self.error)
     }

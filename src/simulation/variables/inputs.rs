@@ -14,7 +14,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         add_load(list, input, None);
     }
     for motion in &resolved.motions {
-        add_motion(list, &motion.kind, (motion.name, "drives"));
+        add_motion(list, &motion.kind, motion.name, "drives");
     }
     for port in &resolved.ports {
         match &port.kind {
@@ -25,7 +25,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
             }
             PortKind::Motion { position, angle } => {
                 for motion in [position].into_iter().chain(angle) {
-                    add_motion(list, &motion.kind, (port.name, "drives"));
+                    add_motion(list, &motion.kind, port.name, "drives");
                 }
             }
             PortKind::Coupling { position, angle } => {
@@ -43,7 +43,7 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
     // Coordinates come first, then their rates.
     let coordinates = match &coupling.incoming {
         Incoming::Motion(motion) => {
-            add_motion(list, motion, (port, "pulls"));
+            add_motion(list, motion, port, "pulls");
             motion.drives().len()
         }
         Incoming::Orientation(marker) => {
@@ -51,7 +51,7 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
                 first: coupling.first,
                 derivatives: 1,
             };
-            add_orientation(list, attitude, (port, "pulls", marker));
+            add_orientation(list, attitude, port, "pulls", marker);
             4
         }
     };
@@ -66,7 +66,9 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
 fn add_orientation(
     list: &mut List,
     attitude: Attitude,
-    (of, verb, marker): (&str, &str, &ResolvedMarker<'_>),
+    of: &str,
+    verb: &str,
+    marker: &ResolvedMarker<'_>,
 ) {
     let (first, what) = (
         attitude.first,
@@ -243,10 +245,10 @@ fn orders(kind: &MotionKind<'_>) -> [(&'static str, &'static str, Unit); 3] {
 
 /// Inputs of a motion that the master sets, if it does. The variables are listed derivative by derivative;
 /// the numbers of each driven coordinate lie side by side.
-fn add_motion(list: &mut List, motion: &MotionKind<'_>, (name, verb): (&str, &str)) {
+fn add_motion(list: &mut List, motion: &MotionKind<'_>, name: &str, verb: &str) {
     if let MotionKind::Orientation(marker, drives) = motion {
         if let Some(Drive::Turned { attitude, .. }) = drives.first() {
-            add_orientation(list, *attitude, (name, verb, marker));
+            add_orientation(list, *attitude, name, verb, marker);
         }
         return;
     }

@@ -57,6 +57,13 @@ enum Read {
 /// Key, meaning (`{}`: what it is read at), unit, shape, what is read.
 type OutputRow = (&'static str, &'static str, Option<Unit>, OutputShape, Read);
 
+/// Name, meaning and unit of an output, before those of its components.
+struct OutputLabel {
+    name: String,
+    what: String,
+    unit: Option<Unit>,
+}
+
 /// Lists the rows of an output kind.
 #[rustfmt::skip] // a table
 fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
@@ -213,12 +220,13 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
                 format!("{what}, axes of {}", owner(&output.of)),
             ),
         };
+        let label = OutputLabel { name, what, unit };
         let source = |k| source(read, output, k);
         if let OutputTarget::Points(_, _, points) = output.of {
-            list.at_points((&name, &what), unit, points, source);
+            list.at_points(&label, points, source);
             continue;
         }
-        list.shaped((&name, &what), unit, (shape, count), source);
+        list.shaped(&label, shape, count, source);
     }
 }
 
@@ -325,10 +333,13 @@ fn add_port_force(list: &mut List, port: &ResolvedPort<'_>) {
     let dimension = list.dimension;
     let mut add =
         |key: &str, unit: Unit, shape: OutputShape, quantity: &dyn Fn(usize) -> Quantity| {
-            let name = format!("{}.{}", port.name, key.to_lowercase());
-            let what = format!("{key} {what}");
+            let label = OutputLabel {
+                name: format!("{}.{}", port.name, key.to_lowercase()),
+                what: format!("{key} {what}"),
+                unit: Some(unit),
+            };
             let source = |axis| Source::Output(quantity(axis));
-            list.shaped((&name, &what), Some(unit), (shape, dimension), source);
+            list.shaped(&label, shape, dimension, source);
         };
     let (force, moment) = (("Force", NEWTON), ("Moment", NEWTON_METRE));
     match &port.kind {
@@ -383,28 +394,29 @@ impl List {
     /// An output: a number or several, which tell their axis or number.
     fn shaped(
         &mut self,
-        (name, what): (&str, &str),
-        unit: Option<Unit>,
-        (shape, count): (OutputShape, usize),
+        label: &OutputLabel,
+        shape: OutputShape,
+        count: usize,
         source: impl Fn(usize) -> Source,
     ) {
+        let OutputLabel { name, what, unit } = label;
         match (shape, count) {
-            (OutputShape::Scalar, _) => self.output(name.into(), what.into(), unit, source(0)),
-            (OutputShape::Turn, 2) => self.output(name.into(), what.into(), unit, source(2)),
+            (OutputShape::Scalar, _) => self.output(name.clone(), what.clone(), *unit, source(0)),
+            (OutputShape::Turn, 2) => self.output(name.clone(), what.clone(), *unit, source(2)),
             (OutputShape::Matrix, _) => (0..9).for_each(|k| {
                 let what = format!("{what}, {} of the {} axis", AXES[k / 3], AXES[k % 3]);
-                self.output(component(name, k), what, unit, source(k));
+                self.output(component(name, k), what, *unit, source(k));
             }),
             (OutputShape::Quaternion, _) => (0..4).for_each(|k| {
                 let what = format!("{what}, {}", PARTS[k]);
-                self.output(component(name, k), what, unit, source(k));
+                self.output(component(name, k), what, *unit, source(k));
             }),
             _ => (0..count).for_each(|k| {
                 let what = match shape {
                     OutputShape::List => what.replace("{}", &(k + 1).to_string()),
                     _ => format!("{what}, component {}", AXES[k]),
                 };
-                self.output(component(name, k), what, unit, source(k));
+                self.output(component(name, k), what, *unit, source(k));
             }),
         }
     }
@@ -412,14 +424,14 @@ impl List {
     /// One output a point of a section.
     fn at_points(
         &mut self,
-        (name, what): (&str, &str),
-        unit: Option<Unit>,
+        label: &OutputLabel,
         points: &[Vec<f64>],
         source: impl Fn(usize) -> Source,
     ) {
+        let OutputLabel { name, what, unit } = label;
         for (k, point) in points.iter().enumerate() {
             let what = format!("{what}, {point:?} m from the line of its section");
-            self.output(component(name, k), what, unit, source(k));
+            self.output(component(name, k), what, *unit, source(k));
         }
     }
 

@@ -201,7 +201,7 @@ fn add_sizes(list: &mut List, rigid: &Rigid<'_>) {
 }
 
 /// Stiffnesses and dampings of a bushing.
-fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &ResolvedBushing<'_>) {
+fn add_bushing(list: &mut List, i: usize, of: &str, bushing: &ResolvedBushing<'_>) {
     use Parameter::*;
     type Make = fn(usize, usize) -> Parameter;
     let [along, about] = bushing.stiffness;
@@ -226,7 +226,8 @@ fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &ResolvedBushin
 fn add_fluid(
     list: &mut List,
     resolved: &Resolved<'_>,
-    (i, of): (usize, &str),
+    i: usize,
+    of: &str,
     fluid: &ResolvedFluid<'_>,
 ) {
     let [across, along] = fluid.drag;
@@ -242,7 +243,7 @@ fn add_fluid(
 }
 
 /// Stiffness, damping and friction of a contact.
-fn add_contact(list: &mut List, (i, of): (usize, &str), contact: &ResolvedContact<'_>) {
+fn add_contact(list: &mut List, i: usize, of: &str, contact: &ResolvedContact<'_>) {
     use Parameter::*;
     let (stiffness, unit) = match contact.by {
         ContactBody::Marker(_) => (SpringStiffness(i), NEWTON_PER_METRE),
@@ -274,15 +275,15 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         let (starts, units, parameters) = match &load.kind {
             LoadKind::Action { .. } => continue,
             LoadKind::Fluid(fluid) => {
-                add_fluid(list, resolved, (i, load.name), fluid);
+                add_fluid(list, resolved, i, load.name, fluid);
                 continue;
             }
             LoadKind::Bushing(bushing) => {
-                add_bushing(list, (i, load.name), bushing);
+                add_bushing(list, i, load.name, bushing);
                 continue;
             }
             LoadKind::Contact(contact) => {
-                add_contact(list, (i, load.name), contact);
+                add_contact(list, i, load.name, contact);
                 continue;
             }
             LoadKind::Spring(spring) => {
