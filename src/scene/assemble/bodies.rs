@@ -1,6 +1,7 @@
 //! Bodies: a cable becomes a chain of elements or, where it does not bend, a rod; a rigid body a node.
 
 use super::Builder;
+use super::initial::BodyNodes;
 
 use crate::bodies::{
     LineChain, LumpedMass, Marker, Node, RigidBodyFrame, RigidRod, RodChain, carried_nodes, middle,
@@ -59,7 +60,12 @@ impl<const D: usize> Builder<'_, D> {
         axes.extend(sections.into_iter().flat_map(RodChain::axes_nodes));
         axes.retain(|node| nodes.contains(node));
         let still = sections.map_or(nodes.end, |rod| rod.inner().start);
-        self.motions.push((nodes.clone(), axes, still), motion, arm);
+        let of_body = BodyNodes {
+            all: nodes.clone(),
+            axes,
+            still,
+        };
+        self.motions.push(of_body, motion, arm);
         if let (BodyReference::Cable(cable), Some(field)) =
             (self.resolved.bodies[index], &motion.deformation)
         {
@@ -125,7 +131,7 @@ impl<const D: usize> Builder<'_, D> {
         let mesh = self.resolved.nodes(reference)?;
         let axial = self.resolved.axial_damping_time(reference);
         let added = |section: &SectionNumbers| self.resolved.added_mass(reference.id.body, section);
-        let elements = build_elements((cable, &added), axial, &mesh);
+        let elements = build_elements(cable, &added, axial, &mesh);
         let chain = LineChain::new(elements, first);
         let node = |s: &f64| {
             let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
@@ -134,7 +140,7 @@ impl<const D: usize> Builder<'_, D> {
         self.parts.bodies.reference.extend(mesh.iter().map(node));
         self.parts.bodies.chains.push(chain);
         if cable.is_rod() {
-            self.sections((cable, axial), &mesh, first);
+            self.sections(cable, axial, &mesh, first);
         }
         if cable.is_rod() && D == 2 {
             self.directions(reference.id.body);
@@ -157,7 +163,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The sections of a rod along its line, whose first node is this one: their frames, and the twist inside elements.
-    fn sections(&mut self, (rod, axial_time): (&LineBody, f64), mesh: &[f64], first: usize) {
+    fn sections(&mut self, rod: &LineBody, axial_time: f64, mesh: &[f64], first: usize) {
         let line = self.parts.bodies.reference[first..].to_vec();
         let twists = mesh.iter().map(|s| rod.sections_about(*s)(*s).1);
         let tangent = |j: usize, part: f64| {
@@ -187,7 +193,7 @@ impl<const D: usize> Builder<'_, D> {
             };
             let numbers = numbers_along(rod, s);
             if D == 2 {
-                return planar_beam(rod, (&shape, length), (axial_time, &numbers));
+                return planar_beam(rod, &shape, length, axial_time, &numbers);
             }
             let time = rod.material.damping_time;
             let inertia = spin_inertia(length, |xi| rod.rotary_inertia_of(&numbers(xi)));
@@ -296,8 +302,10 @@ impl<const D: usize> Builder<'_, D> {
 /// An element of a planar beam along its unstressed shape, and its inertia.
 fn planar_beam(
     beam: &LineBody,
-    (shape, length): (&At<f64>, f64),
-    (axial_time, numbers): (f64, &dyn Fn(f64) -> SectionNumbers),
+    shape: &At<f64>,
+    length: f64,
+    axial_time: f64,
+    numbers: &dyn Fn(f64) -> SectionNumbers,
 ) -> (SectionElement, SpinInertia) {
     let time = beam.material.damping_time;
     let ends = [[shape.e[0], shape.e[1]], [shape.e[2], shape.e[3]]];
@@ -340,7 +348,8 @@ fn numbers_along(body: &LineBody, s: &[f64]) -> impl Fn(f64) -> SectionNumbers {
 
 /// The elements of a body, with the mass of the fluid (kg/m) that moves along at a section.
 fn build_elements<const D: usize>(
-    (body, added): (&LineBody, &dyn Fn(&SectionNumbers) -> f64),
+    body: &LineBody,
+    added: &dyn Fn(&SectionNumbers) -> f64,
     axial_damping_time: f64,
     nodes: &[f64],
 ) -> Vec<cable::Cable<D>> {

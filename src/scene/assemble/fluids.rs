@@ -79,7 +79,7 @@ impl<const D: usize> Builder<'_, D> {
         }
         let mut current = uniform(&fluid.current);
         let path = format!("{path}.current");
-        self.fill(cable, (&fluid.along, &path), &mut current.along)?;
+        self.fill(cable, &fluid.along, &path, &mut current.along)?;
         Ok(AppliedLoad::Fluid(Box::new(loads::Fluid {
             on: self.line(cable),
             strips,

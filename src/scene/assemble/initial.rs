@@ -9,14 +9,20 @@ use crate::math::expression::Expression;
 use crate::math::space::{Vector, components, spun, vector};
 use crate::scene::{Error, InitialMotion};
 
+/// Nodes of a body.
+#[derive(Clone, Debug)]
+pub(super) struct BodyNodes {
+    pub all: Range<usize>,
+    /// Nodes that hold axes only.
+    pub axes: Vec<usize>,
+    /// From which node on they hold numbers that do not move; in the plane angles, which turn.
+    pub still: usize,
+}
+
 /// Motion of a body at the start.
 #[derive(Clone, Debug)]
 struct InitialVelocity<const D: usize> {
-    nodes: Range<usize>,
-    /// Nodes that hold axes only.
-    axes: Vec<usize>,
-    /// From which node on they hold numbers that do not move; in the plane angles, which turn.
-    still: usize,
+    nodes: BodyNodes,
     /// Velocity, m/s, of the point that is so far from the first node along its direction, and along the axes in the second
     /// one where that holds axes, m.
     velocity: Vector<D>,
@@ -34,19 +40,12 @@ pub struct Motions<const D: usize = 2> {
 }
 
 impl<const D: usize> Motions<D> {
-    /// Adds a body by its nodes, those of them that hold axes alone, and the one from which on they do not move; the velocity is
-    /// that of the point so far from its first node along the direction there, and along those axes, m.
-    pub(super) fn push(
-        &mut self,
-        (nodes, axes, still): (Range<usize>, Vec<usize>, usize),
-        motion: &InitialMotion,
-        arm: [f64; 3],
-    ) {
-        self.deformation.resize(nodes.end, no_node());
+    /// Adds a body by its nodes. The velocity is that of the point so far from its first node along the direction there, and along
+    /// its axes, m.
+    pub(super) fn push(&mut self, nodes: BodyNodes, motion: &InitialMotion, arm: [f64; 3]) {
+        self.deformation.resize(nodes.all.end, no_node());
         self.bodies.push(InitialVelocity {
             nodes,
-            axes,
-            still,
             velocity: vector(motion.velocity.full()),
             arm,
             spin: motion.spin.full(),
@@ -66,12 +65,12 @@ impl<const D: usize> Motions<D> {
     ) -> Result<(), Error> {
         let read = |text: &String| Expression::of(text, "s").map_err(|e| Error::new("bodies", e));
         let field = field.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let Some(InitialVelocity { nodes, axes, .. }) = self.bodies.last() else {
+        let Some(InitialVelocity { nodes, .. }) = self.bodies.last() else {
             return Ok(());
         };
-        let points = match axes.first() {
-            Some(_) => nodes.start..nodes.start + mesh.len(),
-            None => nodes.clone(),
+        let points = match nodes.axes.first() {
+            Some(_) => nodes.all.start..nodes.all.start + mesh.len(),
+            None => nodes.all.clone(),
         };
         let twice = points.len() > mesh.len();
         for (i, rate) in self.deformation[points].iter_mut().enumerate() {
@@ -96,9 +95,12 @@ impl<const D: usize> Motions<D> {
     pub fn rates(&self, x: &[Node<D>]) -> Vec<Node<D>> {
         let mut rates = self.deformation.clone();
         for InitialVelocity {
-            nodes,
-            axes,
-            still,
+            nodes:
+                BodyNodes {
+                    all: nodes,
+                    axes,
+                    still,
+                },
             velocity,
             arm,
             spin,

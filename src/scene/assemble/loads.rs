@@ -108,12 +108,12 @@ impl<const D: usize> Builder<'_, D> {
             let (along, path) = (&action.along[..], format!("{path}.value"));
             match &mut load {
                 AppliedLoad::DistributedForce(on) => {
-                    self.fill(cable, (along, &path), &mut on.density.along)?;
+                    self.fill(cable, along, &path, &mut on.density.along)?;
                 }
                 AppliedLoad::DistributedMoment(on) => {
                     // In the plane the third alone.
                     let first = if D == 2 { 2 } else { 0 };
-                    self.fill(cable, (along, &path), &mut on.density.along[first..])?;
+                    self.fill(cable, along, &path, &mut on.density.along[first..])?;
                 }
                 _ => {}
             }
@@ -128,7 +128,8 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn fill(
         &self,
         cable: Cable<'_>,
-        (given, path): (&[(usize, &str)], &str),
+        given: &[(usize, &str)],
+        path: &str,
         along: &mut [Vec<Signal>],
     ) -> Result<(), Error> {
         if given.is_empty() {

@@ -341,7 +341,7 @@ impl LineBody {
         let pairs = self.stations.windows(2);
         let pair = pairs.filter(|pair| pair[0].at < pair[1].at).find(is_around);
         move |s| match pair {
-            Some([first, last]) => between([first, last], (s - first.at) / (last.at - first.at)),
+            Some([first, last]) => between(first, last, (s - first.at) / (last.at - first.at)),
             _ => (self.section.numbers(), 0.0),
         }
     }

@@ -359,7 +359,7 @@ impl SectionNumbers {
 }
 
 /// Numbers of the section at a part in [0, 1] of the way from one station to the next, and its twist, rad.
-pub fn between([first, last]: [&Station; 2], part: f64) -> (SectionNumbers, f64) {
+pub fn between(first: &Station, last: &Station, part: f64) -> (SectionNumbers, f64) {
     let numbers = first.section.between(&last.section, part);
     (numbers, first.twist + part * (last.twist - first.twist))
 }

@@ -196,24 +196,26 @@ pub fn not_zero(path: &str, unit: &str, value: f64) -> Result<(), Error> {
     Err(expected(path, &wanted, value))
 }
 
-/// Reads stiffness and damping of a spring and a damper in parallel. A missing one is 0.
+/// Reads stiffness and damping of a spring and a damper in parallel, with the units of both. A missing one is 0.
 ///
 /// # Errors
 /// Both are missing, or one is negative or not finite.
 pub fn spring_damper(
     path: &str,
-    stiffness: (Option<f64>, &str),
-    damping: (Option<f64>, &str),
+    stiffness: Option<f64>,
+    damping: Option<f64>,
+    units: [&str; 2],
 ) -> Result<[f64; 2], Error> {
-    if stiffness.0.is_none() && damping.0.is_none() {
+    if stiffness.is_none() && damping.is_none() {
         return Err(expected(path, "a stiffness or a damping", "neither"));
     }
-    for (key, (value, unit)) in [("stiffness", stiffness), ("damping", damping)] {
+    let values = [("stiffness", stiffness), ("damping", damping)];
+    for ((key, value), unit) in values.into_iter().zip(units) {
         if let Some(value) = value {
             not_negative(&format!("{path}.{key}"), unit, value)?;
         }
     }
-    Ok([stiffness.0, damping.0].map(Option::unwrap_or_default))
+    Ok([stiffness, damping].map(Option::unwrap_or_default))
 }
 
 /// Builds the function of time of a value. Tables of motions become splines.

@@ -21,11 +21,11 @@ impl Resolved<'_> {
         }
         for second in 1..self.joints.len() {
             for first in 0..second {
-                let pair = [&self.joints[first], &self.joints[second]];
-                let [Some(a), Some(b)] = pair.map(bodies) else {
+                let (one, other) = (&self.joints[first], &self.joints[second]);
+                let (Some(a), Some(b)) = (bodies(one), bodies(other)) else {
                     continue;
                 };
-                let Some(axis) = (a == b).then(|| common(pair)).flatten() else {
+                let Some(axis) = (a == b).then(|| common(one, other)).flatten() else {
                     continue;
                 };
                 for joint in [first, second] {
@@ -71,7 +71,7 @@ fn point(joint: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
 }
 
 /// The axis that two joints have in common, if theirs nearly agree.
-fn common([a, b]: [&ResolvedJoint<'_>; 2]) -> Option<Vector3<f64>> {
+fn common(a: &ResolvedJoint<'_>, b: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
     let axes = [axis_of(a), axis_of(b)];
     let way = point(a).zip(point(b)).map(|(a, b)| b - a);
     let line = way.and_then(|way| way.try_normalize(0.0));

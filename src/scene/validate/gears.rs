@@ -15,8 +15,7 @@ impl<'a> Resolved<'a> {
             let path = format!("gears[{index}]");
             let coordinate = |side: usize| {
                 let at = format!("{path}.joints[{side}]");
-                let which = (None, CoordinateKind::Angle);
-                self.require_coordinate(&at, &gear.joints[side], which)
+                self.require_coordinate(&at, &gear.joints[side], None, CoordinateKind::Angle)
             };
             let coordinates = [coordinate(0)?, coordinate(1)?];
             let [a, b] = &gear.joints;

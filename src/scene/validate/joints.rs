@@ -345,9 +345,8 @@ impl<'a> Resolved<'a> {
                 Hold::Curve(chain, SlideId(slides.count()))
             }
             Condition::Spring(of) => {
-                let stiffness = (of.stiffness, "N m/rad");
-                let [stiffness, damping] =
-                    spring_damper(path, stiffness, (of.damping, "N m s/rad"))?;
+                let units = ["N m/rad", "N m s/rad"];
+                let [stiffness, damping] = spring_damper(path, of.stiffness, of.damping, units)?;
                 Hold::Spring {
                     rest: of.angle,
                     stiffness,

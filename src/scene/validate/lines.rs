@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::checks::{expected, finite, positive, vector};
-use crate::scene::{Error, SceneVector, Shape};
+use crate::scene::{Error, Shape};
 
 /// Most turns of a helix: of an element more than half a turn is an error, and elements are counted.
 const TURNS: f64 = 1e4;
@@ -42,21 +42,22 @@ impl Shape {
                 }
                 Ok(())
             }
-            Self::Helix {
-                radius,
-                turns,
-                start,
-                ..
-            } => self.validate_helix(path, dimension, (*radius, *turns, start)),
+            Self::Helix { .. } => self.validate_helix(path, dimension),
         }
     }
 
-    fn validate_helix(
-        &self,
-        path: &str,
-        dimension: usize,
-        (radius, turns, start): (f64, f64, &SceneVector),
-    ) -> Result<(), Error> {
+    /// Checks the keys of a helix, if it is one.
+    fn validate_helix(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let Self::Helix {
+            radius,
+            turns,
+            start,
+            ..
+        } = self
+        else {
+            return Ok(());
+        };
+        let (radius, turns) = (*radius, *turns);
         let at = |key: &str| format!("{path}.helix.{key}");
         if dimension == 2 {
             let wanted = "\"line\" or \"arc\" in the plane";

@@ -157,8 +157,8 @@ impl<'a> Resolved<'a> {
         load: &'a SpringDamper,
     ) -> Result<ResolvedSpring<'a>, Error> {
         let ends = self.require_pair(path, &load.markers, load.point)?;
-        let stiffness = (load.stiffness, "N/m");
-        let [stiffness, damping] = spring_damper(path, stiffness, (load.damping, "N s/m"))?;
+        let units = ["N/m", "N s/m"];
+        let [stiffness, damping] = spring_damper(path, load.stiffness, load.damping, units)?;
         let place = format!("{path}.length");
         if let Some(Value::Number(length)) = &load.length {
             not_negative(&place, "m", *length)?;

@@ -21,22 +21,46 @@ enum Either<'a> {
     Last(&'a str),
 }
 
+/// A key of an output, with the name that it may hold.
+#[derive(Clone, Copy)]
+struct NamedKey<'a> {
+    key: &'static str,
+    name: &'a Option<String>,
+}
+
+impl<'a> NamedKey<'a> {
+    fn new(key: &'static str, name: &'a Option<String>) -> Self {
+        Self { key, name }
+    }
+}
+
 /// What an output is read at by one of two keys, the last of which is asked for where neither is there. Axes are those of the last.
 fn either<'a>(
     path: &str,
-    (first, one): (&str, &'a Option<String>),
-    (last, other): (&str, &'a Option<String>),
+    first: NamedKey<'a>,
+    last: NamedKey<'a>,
     axes: Along,
 ) -> Result<Either<'a>, Error> {
-    match (one, other) {
+    match (first.name, last.name) {
         (Some(_), Some(_)) => Err(expected(path, "one name of what is read", "two")),
         (Some(_), None) if !axes.is_global() => {
-            let wanted = format!("nothing beside `{first}`");
+            let wanted = format!("nothing beside `{}`", first.key);
             Err(expected(&format!("{path}.axes"), &wanted, "axes"))
         }
         (Some(name), None) => Ok(Either::First(name)),
-        (None, name) => needed(path, last, "a name", name.as_deref()).map(Either::Last),
+        (None, name) => needed(path, last.key, "a name", name.as_deref()).map(Either::Last),
     }
+}
+
+/// What an output of a joint or a marker is read at.
+fn joint_or_marker<'a>(
+    path: &str,
+    joint: &'a Option<String>,
+    marker: &'a Option<String>,
+    axes: Along,
+) -> Result<Either<'a>, Error> {
+    let joint = NamedKey::new("joint", joint);
+    either(path, joint, NamedKey::new("marker", marker), axes)
 }
 
 /// Checks a number of natural frequencies or eigenvalues.
@@ -114,8 +138,7 @@ impl<'a> Resolved<'a> {
                 OutputTarget::Marker(self.require_directed(&at("marker"), &of.marker)?)
             }
             Output::Velocity(of) | Output::Acceleration(of) => {
-                let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
-                match either(path, joint, marker, Along::Global)? {
+                match joint_or_marker(path, &of.joint, &of.marker, Along::Global)? {
                     Either::First(joint) => {
                         OutputTarget::Sliding(self.require_slider(&at("joint"), joint)?)
                     }
@@ -132,8 +155,7 @@ impl<'a> Resolved<'a> {
                 OutputTarget::Deflected(marker, self.deflected_from(path, of, &marker)?)
             }
             Output::Angle(of) => {
-                let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
-                let turning = match either(path, joint, marker, Along::Global)? {
+                let turning = match joint_or_marker(path, &of.joint, &of.marker, Along::Global)? {
                     Either::First(joint) => {
                         DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
                     }
@@ -145,17 +167,16 @@ impl<'a> Resolved<'a> {
                 };
                 self.count_angle(turning)
             }
-            Output::AngularVelocity(of) | Output::AngularAcceleration(of) => {
-                let (joint, marker) = (("joint", &of.joint), ("marker", &of.marker));
-                OutputTarget::Turning(match either(path, joint, marker, of.axes)? {
+            Output::AngularVelocity(of) | Output::AngularAcceleration(of) => OutputTarget::Turning(
+                match joint_or_marker(path, &of.joint, &of.marker, of.axes)? {
                     Either::First(joint) => {
                         DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
                     }
                     Either::Last(marker) => {
                         DirectionSource::Marker(self.require_spinning(&at("marker"), marker)?)
                     }
-                })
-            }
+                },
+            ),
             Output::Orientation(of) | Output::Quaternion(of) | Output::RotationVector(of) => {
                 OutputTarget::Marker(self.require_standing(&at("marker"), &of.marker)?)
             }
@@ -279,7 +300,8 @@ impl<'a> Resolved<'a> {
         output: &'a ReactionOutput,
         is_moment: bool,
     ) -> Result<Reaction<'a>, Error> {
-        let (motion, joint) = (("motion", &output.motion), ("joint", &output.joint));
+        let motion = NamedKey::new("motion", &output.motion);
+        let joint = NamedKey::new("joint", &output.joint);
         let name = match either(path, motion, joint, output.axes)? {
             Either::First(name) => {
                 return self.motion_reaction(&format!("{path}.motion"), name, is_moment);

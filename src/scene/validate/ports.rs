@@ -21,7 +21,7 @@ impl MotionPort {
         if !self.is_coupling() && !is_turning {
             return Ok(());
         }
-        spring_damper(path, (self.stiffness, "N/m"), (self.damping, "N s/m"))?;
+        spring_damper(path, self.stiffness, self.damping, ["N/m", "N s/m"])?;
         if self.rotation && !is_turning {
             let wanted = "a rotational stiffness or a rotational damping";
             return Err(expected(path, wanted, "neither"));

@@ -185,7 +185,7 @@ impl<'a> Resolved<'a> {
     pub(super) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) => Ok(*cable),
-            _ => Err(self.no_line(path, ("cable", |_| true), name)),
+            _ => Err(self.no_line(path, "cable", |_| true, name)),
         }
     }
 
@@ -196,7 +196,7 @@ impl<'a> Resolved<'a> {
     pub(super) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
-            _ => Err(self.no_line(path, ("rod or beam", LineBody::is_rod), name)),
+            _ => Err(self.no_line(path, "rod or beam", LineBody::is_rod, name)),
         }
     }
 
@@ -204,7 +204,8 @@ impl<'a> Resolved<'a> {
     fn no_line(
         &self,
         path: &str,
-        (what, is_meant): (&str, fn(&LineBody) -> bool),
+        what: &str,
+        is_meant: fn(&LineBody) -> bool,
         name: &str,
     ) -> Error {
         let known = self.bodies.iter().filter_map(|body| match body {
@@ -314,7 +315,8 @@ impl<'a> Resolved<'a> {
         &self,
         path: &str,
         name: &str,
-        (asked, default): (Option<CoordinateKind>, CoordinateKind),
+        asked: Option<CoordinateKind>,
+        default: CoordinateKind,
     ) -> Result<JointCoordinate<'a>, Error> {
         let slider = || {
             self.require_slider(path, name)

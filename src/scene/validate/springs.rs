@@ -38,8 +38,8 @@ impl<'a> Resolved<'a> {
         joint: &'a str,
         asked: Option<CoordinateKind>,
     ) -> Result<JointCoordinate<'a>, Error> {
-        let which = (asked, CoordinateKind::Displacement);
-        self.require_coordinate(&format!("{path}.joint"), joint, which)
+        let default = CoordinateKind::Displacement;
+        self.require_coordinate(&format!("{path}.joint"), joint, asked, default)
     }
 
     fn joint_spring(&self, path: &str, load: &'a JointSpringLoad) -> Result<LoadKind<'a>, Error> {
@@ -52,7 +52,7 @@ impl<'a> Resolved<'a> {
         if let Some(rest) = load.rest {
             finite(&format!("{path}.rest"), rest)?;
         }
-        let sizes = spring_damper(path, (load.stiffness, units[0]), (load.damping, units[1]))?;
+        let sizes = spring_damper(path, load.stiffness, load.damping, units)?;
         Ok(LoadKind::JointSpring {
             on,
             sizes,

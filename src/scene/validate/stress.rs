@@ -26,7 +26,7 @@ impl<'a> Resolved<'a> {
             2 => self.require_cable_marker(&place, marker)?,
             _ => self.require_rod_marker(&place, marker)?,
         };
-        self.section_points(path, marker, (points, false))
+        self.section_points(path, marker, points, false)
     }
 
     /// Resolves the points of the section at a marker of a rod or beam where shear stress of torsion is read.
@@ -40,14 +40,15 @@ impl<'a> Resolved<'a> {
         points: &'a [Vec<f64>],
     ) -> Result<OutputTarget<'a>, Error> {
         let marker = self.require_rod_marker(&format!("{path}.marker"), marker)?;
-        self.section_points(path, marker, (points, true))
+        self.section_points(path, marker, points, true)
     }
 
     fn section_points(
         &mut self,
         path: &str,
         marker: ResolvedMarker<'a>,
-        (points, is_torsion): (&'a [Vec<f64>], bool),
+        points: &'a [Vec<f64>],
+        is_torsion: bool,
     ) -> Result<OutputTarget<'a>, Error> {
         let (place, name) = (format!("{path}.marker"), marker.name);
         let Place::Along(cable, at) = marker.place else {
