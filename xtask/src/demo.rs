@@ -35,7 +35,7 @@ pub fn demo(workspace: &Workspace) -> Result<()> {
     let shapes = workspace.target("demo/pendulum.shapes.jsonl");
     run(simulate::native(workspace, &scene, Some(&shapes))?.stdout(Stdio::null()))?;
     run(
-        simulate::plot(workspace, &python, (&results, Some(&shapes)), &picture)
+        simulate::plot(workspace, &python, &results, Some(&shapes), &picture)
             .arg("--reference")
             .arg(&reference),
     )?;
@@ -49,9 +49,11 @@ pub fn demo(workspace: &Workspace) -> Result<()> {
 fn compare(results: &Table, reference: &Table) -> Result<()> {
     let found = Tip::new(
         results,
-        ["time", "rod.tip.position[1]", "rod.tip.position[2]"],
+        "time",
+        "rod.tip.position[1]",
+        "rod.tip.position[2]",
     )?;
-    let expected = Tip::new(reference, ["t", "x_tip", "y_tip"])?;
+    let expected = Tip::new(reference, "t", "x_tip", "y_tip")?;
     println!("\nTip of the pendulum and the same beam solved independently (B-spline Galerkin)\n");
     println!("  t [s]      x [m]      y [m]   reference x, y [m]     distance [m]");
     let mut largest = 0.0_f64;
@@ -89,7 +91,7 @@ struct Tip {
 }
 
 impl Tip {
-    fn new(table: &Table, [time, x, y]: [&str; 3]) -> Result<Self> {
+    fn new(table: &Table, time: &str, x: &str, y: &str) -> Result<Self> {
         Ok(Self {
             time: table.column(time)?,
             x: table.column(x)?,

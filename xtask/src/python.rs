@@ -11,25 +11,60 @@ use fmu_package::{announced, shown};
 use crate::cargo::Workspace;
 use crate::process::run_quietly;
 
-/// The pinned packages of tests and pictures, and their folder among the products.
-const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");
+/// Pinned packages of an environment.
+struct PinnedPackages {
+    /// File that lists them.
+    requirements: &'static str,
+    /// Folder of the environment among the products.
+    folder: &'static str,
+}
+
+/// The packages of tests and pictures.
+const PROJECT: PinnedPackages = PinnedPackages {
+    requirements: "tests/fmpy/requirements.txt",
+    folder: "python",
+};
 /// Environment of the programs that charts compare the product with. It is separate, so that no check needs them.
-const PEERS: (&str, &str) = ("crates/studies/exudyn/requirements.txt", "python-peers");
+const PEERS: PinnedPackages = PinnedPackages {
+    requirements: "crates/studies/exudyn/requirements.txt",
+    folder: "python-peers",
+};
 /// Environment of the masters that tests couple FMUs in. It is separate, so that a picture needs none of them.
-const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
+const MASTERS: PinnedPackages = PinnedPackages {
+    requirements: "tests/masters/requirements.txt",
+    folder: "python-masters",
+};
 /// Environment of the Python package and of the generator of its models. It is separate, so that no picture needs a
 /// cluster.
-const OWN: (&str, &str) = ("tests/python/requirements.txt", "python-own");
+const OWN: PinnedPackages = PinnedPackages {
+    requirements: "tests/python/requirements.txt",
+    folder: "python-own",
+};
 /// Environment of the references of random scenes. It is separate, so that no picture needs it.
-const PLANS: (&str, &str) = ("tests/plans/requirements.txt", "python-plans");
+const PLANS: PinnedPackages = PinnedPackages {
+    requirements: "tests/plans/requirements.txt",
+    folder: "python-plans",
+};
 /// The linker of libraries; apart, so that what needs no library does not need it.
-const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
+const LINKER: PinnedPackages = PinnedPackages {
+    requirements: "xtask/linker.txt",
+    folder: "python-linker",
+};
 /// The checker of dependencies, built.
-const DENY: (&str, &str) = ("xtask/deny.txt", "python-deny");
+const DENY: PinnedPackages = PinnedPackages {
+    requirements: "xtask/deny.txt",
+    folder: "python-deny",
+};
 /// Environment of the browser driver in tests. It is separate, since not every machine has a browser.
-const BROWSER: (&str, &str) = ("tests/view/requirements.txt", "python-browser");
+const BROWSER: PinnedPackages = PinnedPackages {
+    requirements: "tests/view/requirements.txt",
+    folder: "python-browser",
+};
 /// Environment that builds the script of moving pages. It is separate, since its result is committed.
-const NODE: (&str, &str) = ("xtask/node.txt", "python-node");
+const NODE: PinnedPackages = PinnedPackages {
+    requirements: "xtask/node.txt",
+    folder: "python-node",
+};
 /// The file in an environment that says what it was made from; the last one written.
 const STAMP: &str = "installed.txt";
 /// Oldest Python that the pinned packages run on.
@@ -126,8 +161,8 @@ impl Python {
         Self::prepare_one(workspace, NODE)
     }
 
-    fn prepare_one(workspace: &Workspace, (requirements, folder): (&str, &str)) -> Result<Self> {
-        let folder = workspace.target(folder);
+    fn prepare_one(workspace: &Workspace, packages: PinnedPackages) -> Result<Self> {
+        let folder = workspace.target(packages.folder);
         let python = Self {
             interpreter: interpreter(&folder),
             temporary: workspace.target("tmp"),
@@ -135,7 +170,7 @@ impl Python {
         };
         std::fs::create_dir_all(&python.temporary)
             .with_context(|| format!("cannot create the folder {}", shown(&python.temporary)))?;
-        let requirements = workspace.path(requirements);
+        let requirements = workspace.path(packages.requirements);
         let wanted = std::fs::read_to_string(&requirements)
             .with_context(|| format!("cannot read {}", shown(&requirements)))?;
         // One run at a time looks and makes; the operating system lets go of the lock of one that ends, however it ends.
@@ -332,7 +367,11 @@ mod tests {
 
         fn prepare(&self) -> Result<Python> {
             let workspace = Workspace::at(self.0.clone(), self.0.join("target"));
-            Python::prepare_one(&workspace, ("nothing.txt", "python"))
+            let packages = PinnedPackages {
+                requirements: "nothing.txt",
+                folder: "python",
+            };
+            Python::prepare_one(&workspace, packages)
         }
 
         /// Lists the products, except the lock.

@@ -90,7 +90,7 @@ pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
         let picture = prepared(picture)?;
         let python = Python::prepare(workspace)?;
         let shapes = has_shapes.then_some(&*shapes);
-        run(plot(workspace, &python, (&output, shapes), &picture)
+        run(plot(workspace, &python, &output, shapes, &picture)
             .arg("--title")
             .arg(name.to_string()))?;
         println!("wrote {}", shown(&picture));
@@ -169,7 +169,8 @@ pub fn fmpy(workspace: &Workspace, python: &Python, fmu: &Path) -> Command {
 pub fn plot(
     workspace: &Workspace,
     python: &Python,
-    (run, shapes): (&Path, Option<&Path>),
+    run: &Path,
+    shapes: Option<&Path>,
     picture: &Path,
 ) -> Command {
     let mut command = python.script(&workspace.path("tests/fmpy/plot.py"));

@@ -60,7 +60,8 @@ impl Inputs {
 /// # Errors
 /// A column that is no input, or rows that do not cover the run.
 pub fn signals(
-    (table, path): (&InputTable, &Path),
+    table: &InputTable,
+    path: &Path,
     variables: &[Variable],
     stop_time: f64,
 ) -> Result<Signals> {

@@ -143,7 +143,7 @@ pub fn plan(arguments: &Planning) -> Result<()> {
     let table = arguments.inputs.table()?;
     if let Some((table, path)) = &table {
         let variables = simulation::variables(&scene);
-        signals((table, path), &variables, scene.experiment.stop_time)?;
+        signals(table, path, &variables, scene.experiment.stop_time)?;
     }
     let given = TrialConditions {
         set: assignments(&scene, &arguments.set)?,

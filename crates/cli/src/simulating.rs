@@ -151,7 +151,7 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
     let set = set.map(|assignment| Ok((&**assignment, assign(&mut simulation, assignment)?)));
     let set: Vec<(&str, usize)> = set.collect::<Result<_>>()?;
     let signals =
-        table.map(|(table, path)| signals(&mut simulation, (&table, path), &set, stop_time));
+        table.map(|(table, path)| signals(&mut simulation, &table, path, &set, stop_time));
     let signals = signals.transpose()?;
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
@@ -186,11 +186,12 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
 /// The inputs that vary in time, by a file, set to their values at the start; what is set beside them is none of them.
 fn signals(
     simulation: &mut Simulation,
-    (table, path): (&InputTable, &Path),
+    table: &InputTable,
+    path: &Path,
     set: &[(&str, usize)],
     stop_time: f64,
 ) -> Result<Signals> {
-    let signals = inputs::signals((table, path), simulation.variables(), stop_time)?;
+    let signals = inputs::signals(table, path, simulation.variables(), stop_time)?;
     for &(assignment, index) in set {
         if signals.holds(index) {
             bail!("--set {assignment}: {} sets it already", path.display());

@@ -27,8 +27,12 @@ pub fn model_description(model: &Model) -> String {
     let units = UNITS
         .iter()
         .filter(|(name, _)| all.iter().any(|(_, q)| q.unit == *name));
-    let units: String = units.map(unit).collect();
-    let variables: String = all.iter().enumerate().map(variable).collect();
+    let units = units.map(|(name, exponents)| unit(name, exponents));
+    let units: String = units.collect();
+    let variables = all.iter().enumerate();
+    let variables = variables
+        .map(|(reference, (causality, quantity))| variable(reference, causality, quantity));
+    let variables: String = variables.collect();
     format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="{guid}" description="{description}">
@@ -59,7 +63,7 @@ fn quantities(model: &Model) -> Vec<(&'static str, &'static Quantity)> {
     inputs.chain(outputs).chain(parameters).collect()
 }
 
-fn unit((name, exponents): &(&str, [i32; 3])) -> String {
+fn unit(name: &str, exponents: &[i32; 3]) -> String {
     let mut base = String::new();
     for (unit, exponent) in ["kg", "m", "s"].iter().zip(exponents) {
         if *exponent != 0 {
@@ -69,14 +73,14 @@ fn unit((name, exponents): &(&str, [i32; 3])) -> String {
     format!("    <Unit name=\"{name}\"><BaseUnit{base}/></Unit>\n")
 }
 
-fn variable((reference, (causality, quantity)): (usize, &(&str, &Quantity))) -> String {
+fn variable(reference: usize, causality: &str, quantity: &Quantity) -> String {
     let Quantity {
         name,
         unit,
         start,
         description,
     } = quantity;
-    let kind = match *causality {
+    let kind = match causality {
         "parameter" => "variability=\"fixed\" initial=\"exact\"",
         "output" => "variability=\"continuous\" initial=\"calculated\"",
         _ => "variability=\"continuous\"",
@@ -85,7 +89,7 @@ fn variable((reference, (causality, quantity)): (usize, &(&str, &Quantity))) -> 
         "" => String::new(),
         unit => format!(" unit=\"{unit}\""),
     };
-    let start = match *causality {
+    let start = match causality {
         "output" => String::new(),
         _ => format!(" start=\"{start:e}\""),
     };

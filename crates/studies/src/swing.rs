@@ -69,9 +69,14 @@ pub fn swing(arguments: &Swing) -> Result<(), String> {
     if arguments.consistent {
         cable.inertia = Inertia::Consistent;
     }
-    let rod = (uniform(cable, arguments.elements), problem.gravity);
-    let times = [arguments.every, arguments.stop_time];
-    let found = fall(arguments.formulation, rod, arguments.courant, times)?;
+    let elements = uniform(cable, arguments.elements);
+    let found = fall(
+        arguments.formulation,
+        elements,
+        problem.gravity,
+        arguments.courant,
+        [arguments.every, arguments.stop_time],
+    )?;
     let report = json!({
         "path": found.path,
         "gap": found.gaps.iter().fold(0.0_f64, |most, gap| most.max(gap[0])),
@@ -93,7 +98,8 @@ pub fn swing(arguments: &Swing) -> Result<(), String> {
 /// A system that cannot be built, in words.
 pub fn fall(
     formulation: Formulation,
-    (elements, gravity): (Vec<Element>, [f64; 2]),
+    elements: Vec<Element>,
+    gravity: [f64; 2],
     courant: f64,
     [every, stop]: [f64; 2],
 ) -> Result<Fall, String> {

@@ -43,19 +43,14 @@ pub fn measure(bench: &Bench) -> Result<()> {
         let mut outcomes = outcomes.into_iter();
         let reference = outcomes.next().context("expected runs")??;
         for (tolerance, outcome) in TOLERANCES.into_iter().zip(outcomes) {
-            compare(&mut csv, name, tolerance, (&reference, &outcome?))?;
+            compare(&mut csv, name, tolerance, &reference, &outcome?)?;
         }
     }
     csv.save()
 }
 
 /// Adds the errors of all outputs of a run, each over the largest size of the output.
-fn compare(
-    csv: &mut Csv,
-    scene: &str,
-    tolerance: f64,
-    (reference, ran): (&Ran, &Ran),
-) -> Result<()> {
+fn compare(csv: &mut Csv, scene: &str, tolerance: f64, reference: &Ran, ran: &Ran) -> Result<()> {
     let (exact, found) = (&reference.table, &ran.table);
     let doubtful = ran.report["doubtful"].as_array();
     let doubtful: Vec<&Value> = doubtful.into_iter().flatten().collect();

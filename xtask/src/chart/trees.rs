@@ -32,15 +32,15 @@ const LONG: f64 = 3.0;
 const CALLS: usize = 40_000;
 
 /// Program, model of bodies, method.
-const OTHERS: [(&str, &str, &str); 8] = [
-    ("MuJoCo", "joint angles", "rk4"),
-    ("MuJoCo", "joint angles", "implicitfast"),
-    ("Pinocchio", "joint angles", "rk4"),
-    ("Exudyn", "kinematic tree", "rk4"),
-    ("Exudyn", "kinematic tree", "rk67"),
-    ("Exudyn", "euler parameters", "trapezoidal"),
-    ("Exudyn", "rotation vectors", "trapezoidal"),
-    ("Exudyn", "euler parameters", "alpha"),
+const OTHERS: [Solver; 8] = [
+    Solver::new("MuJoCo", "joint angles", "rk4"),
+    Solver::new("MuJoCo", "joint angles", "implicitfast"),
+    Solver::new("Pinocchio", "joint angles", "rk4"),
+    Solver::new("Exudyn", "kinematic tree", "rk4"),
+    Solver::new("Exudyn", "kinematic tree", "rk67"),
+    Solver::new("Exudyn", "euler parameters", "trapezoidal"),
+    Solver::new("Exudyn", "rotation vectors", "trapezoidal"),
+    Solver::new("Exudyn", "euler parameters", "alpha"),
 ];
 
 /// Places of a point in space, m.
@@ -54,11 +54,27 @@ struct Tree {
     scene: Value,
 }
 
-/// A run that is repeated: its method and setting, its error, m, and its CPU times, s.
-struct Timed {
+/// A program with its model of joints and its method.
+#[derive(Clone, Copy, PartialEq)]
+struct Solver {
     program: &'static str,
     model: &'static str,
     method: &'static str,
+}
+
+impl Solver {
+    const fn new(program: &'static str, model: &'static str, method: &'static str) -> Self {
+        Self {
+            program,
+            model,
+            method,
+        }
+    }
+}
+
+/// A run that is repeated: its method and setting, its error, m, and its CPU times, s.
+struct Timed {
+    solver: Solver,
     setting: f64,
     steps: f64,
     error: f64,
@@ -83,9 +99,9 @@ pub fn measure(bench: &Bench) -> Result<()> {
             csv.row(&[
                 &tree.name,
                 &tree.bodies,
-                &timed.program,
-                &timed.model,
-                &timed.method,
+                &timed.solver.program,
+                &timed.solver.model,
+                &timed.solver.method,
                 &timed.setting,
                 &timed.steps,
                 &timed.error,
@@ -173,15 +189,10 @@ impl Tree {
     }
 
     /// Options of a run of another program.
-    fn options(
-        &self,
-        bench: &Bench,
-        (program, model, method): (&str, &str, &str),
-        steps: u32,
-    ) -> Result<Value> {
+    fn options(&self, bench: &Bench, solver: Solver, steps: u32) -> Result<Value> {
         Ok(json!({
-            "scene": bench.write(&self.scene)?, "marker": self.marker, "program": program, "model": model,
-            "method": method, "step": EVERY / f64::from(steps), "stop_time": STOP_TIME, "every": EVERY,
+            "scene": bench.write(&self.scene)?, "marker": self.marker, "program": solver.program,
+            "model": solver.model, "method": solver.method, "step": EVERY / f64::from(steps), "stop_time": STOP_TIME, "every": EVERY,
             "folder": bench.workspace().target("chart"),
         }))
     }
@@ -200,9 +211,9 @@ impl Tree {
 
     /// Pinocchio at the finest step, which another mechanics in the same steps, steps twice as long and the product must confirm.
     fn reference(&self, bench: &Bench, server: &mut Server, csv: &mut Csv) -> Result<Path> {
-        let mut path = |program: &str, steps: u32| {
-            let how = (program, "joint angles", "rk4");
-            let answer = server.ask(&self.options(bench, how, steps)?)?;
+        let mut path = |program: &'static str, steps: u32| {
+            let solver = Solver::new(program, "joint angles", "rk4");
+            let answer = server.ask(&self.options(bench, solver, steps)?)?;
             places(&answer).with_context(|| format!("{program} failed: {}", answer["failure"]))
         };
         let reference = path("Pinocchio", FINEST[0])?;
@@ -220,17 +231,15 @@ impl Tree {
         let mut all: Vec<Timed> = Vec::new();
         for round in 1..=ROUNDS {
             let mut found = self.own(bench, round, reference)?;
-            for how in OTHERS {
+            for solver in OTHERS {
                 for steps in STEPS {
-                    let answer = server.ask(&self.options(bench, how, steps)?)?;
+                    let answer = server.ask(&self.options(bench, solver, steps)?)?;
                     let Some(path) = places(&answer) else {
                         continue;
                     };
                     let cpu_time = number(&answer["cpu_time"])?;
                     found.push(Timed {
-                        program: how.0,
-                        model: how.1,
-                        method: how.2,
+                        solver,
                         setting: EVERY / f64::from(steps),
                         steps: (f64::from(steps) * STOP_TIME / EVERY).round(),
                         error: largest_distance(&path, reference),
@@ -246,11 +255,8 @@ impl Tree {
                 continue;
             }
             for timed in found {
-                let is_same = |old: &&mut Timed| {
-                    (old.program, old.model, old.method)
-                        == (timed.program, timed.model, timed.method)
-                        && old.setting == timed.setting
-                };
+                let is_same =
+                    |old: &&mut Timed| old.solver == timed.solver && old.setting == timed.setting;
                 if let Some(old) = all.iter_mut().find(is_same) {
                     old.cpu_times.extend(timed.cpu_times);
                 }
@@ -272,9 +278,7 @@ impl Tree {
         for (outcome, (method, setting)) in bench.run(&title, &runs)?.into_iter().zip(plan) {
             let ran = outcome?;
             found.push(Timed {
-                program: "Flexbody",
-                model: "",
-                method,
+                solver: Solver::new("Flexbody", "", method),
                 setting: *setting,
                 steps: ran.number("steps"),
                 error: largest_distance(&self.path(&ran)?, reference),
@@ -292,7 +296,7 @@ impl Tree {
         let mut found = Vec::new();
         for _ in 0..ROUNDS {
             for (program, times) in ["MuJoCo", "Pinocchio"].iter().zip(&mut times) {
-                let mut options = self.options(bench, (program, "", ""), 1)?;
+                let mut options = self.options(bench, Solver::new(program, "", ""), 1)?;
                 options["angles"] = json!(rest);
                 options["rates"] = json!(rest);
                 options["calls"] = json!((CALLS / self.bodies).max(100));

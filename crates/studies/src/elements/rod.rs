@@ -196,14 +196,19 @@ impl<const F: usize> Rod<F> {
                 let (own, outer) = (ea * (1.0 - 1.0 / stretch), ea / stretch.powi(3));
                 let uu = symmetric(own, outer, u);
                 let zero = [[0.0; 2]; 2];
-                gather(&mut sum, (&s.slope, &none), (&uu, &zero, &zero));
+                let hessian = SectionHessian {
+                    uu,
+                    uw: zero,
+                    ww: zero,
+                };
+                gather(&mut sum, &s.slope, &none, &hessian);
             }
             if self.material.bending > 0.0 {
                 let from = self.bending_from[element];
                 for s in &self.bending[from..self.bending_from[element + 1]] {
                     let (u, w) = (combine(&s.slope, local), combine(&s.curvature, local));
-                    let (uu, uw, ww) = bending_hessian(s.weight * self.material.bending, u, w);
-                    gather(&mut sum, (&s.slope, &s.curvature), (&uu, &uw, &ww));
+                    let hessian = bending_hessian(s.weight * self.material.bending, u, w);
+                    gather(&mut sum, &s.slope, &s.curvature, &hessian);
                 }
             }
             let first = element * self.stride;
@@ -306,8 +311,15 @@ fn symmetric(own: f64, outer: f64, u: Vector) -> [[f64; 2]; 2] {
 
 type Block = [[f64; 2]; 2];
 
+/// Second derivatives by `u` and `w`.
+struct SectionHessian {
+    uu: Block,
+    uw: Block,
+    ww: Block,
+}
+
 /// Second derivatives of `1/2 material kappa^2` by `u` and `w`.
-fn bending_hessian(material: f64, u: Vector, w: Vector) -> (Block, Block, Block) {
+fn bending_hessian(material: f64, u: Vector, w: Vector) -> SectionHessian {
     let inverse = 1.0 / dot(u, u);
     let kappa = cross(u, w) * inverse;
     let m = material * kappa;
@@ -332,13 +344,14 @@ fn bending_hessian(material: f64, u: Vector, w: Vector) -> (Block, Block, Block)
             ww[a][b] = material * gw[a] * gw[b];
         }
     }
-    (uu, uw, ww)
+    SectionHessian { uu, uw, ww }
 }
 
 fn gather<const F: usize>(
     sum: &mut [[Block; F]; F],
-    (s, c): (&[f64; F], &[f64; F]),
-    (uu, uw, ww): (&Block, &Block, &Block),
+    s: &[f64; F],
+    c: &[f64; F],
+    SectionHessian { uu, uw, ww }: &SectionHessian,
 ) {
     for i in 0..F {
         for j in 0..=i {

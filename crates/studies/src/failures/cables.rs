@@ -80,7 +80,7 @@ fn alpha(start: &Start, step: f64, stop: f64) -> Outcome<(f64, Result<(), f64>)>
 }
 
 /// What such a run is in the table, with a size of its energy, J.
-fn stopped((gained, end): (f64, Result<(), f64>), size: f64) -> Figure {
+fn stopped(gained: f64, end: Result<(), f64>, size: f64) -> Figure {
     match end {
         Err(time) if gained > size => figure(
             f64::INFINITY,
@@ -97,7 +97,8 @@ pub fn whip() -> Outcome<Row> {
     let mut start = start(&scene)?;
     start.inputs = vec![0.0; 2];
     // m g L/4 is what the free half can give.
-    let failing = stopped(alpha(&start, 5e-3, 0.6)?, 0.25 * GRAVITY);
+    let (gained, end) = alpha(&start, 5e-3, 0.6)?;
+    let failing = stopped(gained, end, 0.25 * GRAVITY);
     let mut product = Product::start(&scene)?;
     for axis in 1..=2 {
         product.set(&format!("rod.tip.force[{axis}]"), 0.0)?;
@@ -132,7 +133,8 @@ pub fn whip() -> Outcome<Row> {
 /// A rope that is slack at first.
 pub fn taut() -> Outcome<Row> {
     let scene = slack();
-    let failing = stopped(alpha(&start(&scene)?, 5e-3, 0.4)?, GRAVITY);
+    let (gained, end) = alpha(&start(&scene)?, 5e-3, 0.4)?;
+    let failing = stopped(gained, end, GRAVITY);
     let mut product = Product::start(&scene)?;
     let mut lowest = 0.0_f64;
     for point in 1..=400 {

@@ -50,8 +50,8 @@ fn as_printed(scene: &Value) -> Outcome<[f64; 2]> {
         inertia: Inertia::Consistent,
         ..problem.cable()
     };
-    let rod = (uniform(cable, 2), problem.gravity);
-    let found = fall(Formulation::AsPrinted, rod, COURANT, TIMES)?;
+    let (elements, gravity) = (uniform(cable, 2), problem.gravity);
+    let found = fall(Formulation::AsPrinted, elements, gravity, COURANT, TIMES)?;
     let gaps = found.gaps.iter().map(|gap| gap[0]);
     let pins = found.pins.iter().copied();
     Ok([gaps.fold(0.0, f64::max), pins.fold(0.0, f64::max)])

@@ -214,11 +214,12 @@ impl Body for Corotational {
     fn residual(&self, motion: Motion<'_>, gravity: Vector, r: &mut [f64]) {
         for first in (0..self.elements).map(|e| 3 * e) {
             let nodes = first..first + 6;
-            let (q, v, a) = (
-                &motion.q[nodes.clone()],
-                &motion.v[nodes.clone()],
-                &motion.a[nodes.clone()],
-            );
+            let own = Motion {
+                q: &motion.q[nodes.clone()],
+                v: &motion.v[nodes.clone()],
+                a: &motion.a[nodes.clone()],
+            };
+            let (q, a) = (own.q, own.a);
             let out = &mut r[nodes];
             let frame = self.frame(q);
             let [force, one, two] = self.energy(frame.local).gradient;
@@ -231,7 +232,7 @@ impl Body for Corotational {
             out[2] += one;
             out[5] += two;
             match self.inertia {
-                Inertia::Cubic => self.add_inertia(&frame, (v, a), gravity, out),
+                Inertia::Cubic => self.add_inertia(&frame, own, gravity, out),
                 Inertia::Lumped => {
                     let [mass, turning] = self.lumps();
                     for node in [0, 3] {
@@ -303,15 +304,13 @@ impl Corotational {
     }
 
     #[inline(always)]
-    fn add_inertia(
-        &self,
-        frame: &Frame,
-        (v, a): (&[f64], &[f64]),
-        gravity: Vector,
-        out: &mut [f64],
-    ) {
+    fn add_inertia(&self, frame: &Frame, motion: Motion<'_>, gravity: Vector, out: &mut [f64]) {
         for point in &self.points {
-            let left = plus(Self::acceleration(frame, point, v, a), -1.0, gravity);
+            let left = plus(
+                Self::acceleration(frame, point, motion.v, motion.a),
+                -1.0,
+                gravity,
+            );
             Self::add_force(frame, point, left.map(|f| point.mass * f), out);
         }
     }

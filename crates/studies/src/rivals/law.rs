@@ -105,7 +105,7 @@ fn nodes(elements: usize, e: &[f64], reference: f64) -> Vec<Node> {
 }
 
 /// Coordinates of the absolute formulation, their rates and their accelerations, from those of the floating frame.
-fn absolute(elements: usize, [q, v, a]: [&[f64]; 3]) -> [Vec<Node>; 3] {
+fn absolute(elements: usize, q: &[f64], v: &[f64], a: &[f64]) -> [Vec<Node>; 3] {
     let (s, c) = q[2].sin_cos();
     let local = [
         nodes(elements, &q[3..], 1.0),
@@ -198,7 +198,7 @@ fn accelerations(elements: usize, q: &[f64], v: &[f64], linear: bool) -> (DMatri
 /// Relative differences of positions, kinetic energy and accelerations of the two formulations.
 fn apart(elements: usize, q: &[f64], v: &[f64], linear: bool) -> [f64; 3] {
     let (floating, a) = accelerations(elements, q, v, linear);
-    let [x, rates, seconds] = absolute(elements, [q, v, &a]);
+    let [x, rates, seconds] = absolute(elements, q, v, &a);
     let whole = rod(elements, GRAVITY);
     let mass = mass(&whole);
     let mut force = x.clone();

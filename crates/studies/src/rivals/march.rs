@@ -11,7 +11,7 @@ use cpu_time::ThreadTime;
 
 use super::band::Band;
 use super::system::{Factors, System};
-use super::{Marker, Motion, Vector};
+use super::{BodyMarker, Motion, Vector};
 
 /// Spectral radius at infinite frequency.
 const RADIUS: f64 = 0.8;
@@ -53,7 +53,7 @@ pub fn run(
     system: &mut System,
     kind: Kind,
     times: &[f64],
-    markers: &[(usize, Marker)],
+    markers: &[BodyMarker],
 ) -> Result<Seen, f64> {
     let longest = match kind {
         Kind::Alpha(step) => step,

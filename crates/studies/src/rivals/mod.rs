@@ -61,6 +61,22 @@ pub enum Marker {
     End,
 }
 
+impl Marker {
+    /// The marker of a body, by the number of the body.
+    pub const fn on(self, body: usize) -> BodyMarker {
+        BodyMarker { body, marker: self }
+    }
+}
+
+/// A marker of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BodyMarker {
+    /// Number of the body.
+    pub body: usize,
+    /// Marker of that body.
+    pub marker: Marker,
+}
+
 /// Placement of a straight body at the start, with a rigid motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {

@@ -8,7 +8,7 @@ use super::frame::FloatingFrame;
 use super::rigid::Rigid;
 use super::rotations::{Interpolation, Rotations};
 use super::system::{Item, Joint, Load, System, To};
-use super::{Body, Marker, Placement, Vector, plus};
+use super::{Body, BodyMarker, Marker, Placement, Vector, plus};
 
 /// A straight uniform rod.
 #[derive(Clone, Copy, Debug)]
@@ -176,11 +176,15 @@ impl Played {
     }
 
     /// Returns the markers that are compared, on bodies of [`Played::system`].
-    pub fn places(self) -> &'static [(usize, Marker)] {
+    pub fn places(self) -> &'static [BodyMarker] {
         match self {
-            Self::SteelPendulum | Self::SoftPendulum | Self::SpinUp => &[(0, Marker::End)],
-            Self::SliderCrank => &[(1, Marker::Middle), (2, Marker::Start)],
-            Self::Spaghetti => &[(0, Marker::Start), (0, Marker::Middle), (0, Marker::End)],
+            Self::SteelPendulum | Self::SoftPendulum | Self::SpinUp => {
+                const { &[Marker::End.on(0)] }
+            }
+            Self::SliderCrank => const { &[Marker::Middle.on(1), Marker::Start.on(2)] },
+            Self::Spaghetti => {
+                const { &[Marker::Start.on(0), Marker::Middle.on(0), Marker::End.on(0)] }
+            }
         }
     }
 
@@ -262,7 +266,7 @@ impl Played {
     pub fn with(self, rod: Rod, choice: Choice) -> System {
         let rod = choice.rod(rod, self.held());
         let placement = self.line().0;
-        let start = (0, Marker::Start);
+        let start = Marker::Start.on(0);
         let pin = Item::Joint(Joint::Pin {
             at: start,
             to: To::Ground(placement.start),
@@ -328,21 +332,21 @@ fn slider_crank(rod: Box<dyn Body>, placement: Placement) -> System {
         spin,
     };
     let drive = Joint::Drive {
-        at: (crank, Marker::Start),
+        at: Marker::Start.on(crank),
         angle: |t| [20.0 * t, 20.0, 0.0],
     };
     let pin = |at, to| Item::Joint(Joint::Pin { at, to });
     let guide = Joint::Guide {
-        at: (block, Marker::Start),
+        at: Marker::Start.on(block),
         height: 0.0,
     };
     let items = vec![
-        pin((crank, Marker::Start), To::Ground([0.0; 2])),
+        pin(Marker::Start.on(crank), To::Ground([0.0; 2])),
         Item::Joint(drive),
         Item::Body(Box::new(bar), at(0.0, 0.0, 20.0)),
-        pin((link, Marker::Start), To::Body(crank, Marker::End)),
+        pin(Marker::Start.on(link), To::Body(Marker::End.on(crank))),
         Item::Body(rod, placement),
-        pin((block, Marker::Start), To::Body(link, Marker::End)),
+        pin(Marker::Start.on(block), To::Body(Marker::End.on(link))),
         Item::Body(Box::new(particle), at(0.456, 0.0, 0.0)),
         Item::Joint(guide),
     ];

@@ -33,7 +33,7 @@ pub fn cantilever(
         velocity: [0.0; 2],
         spin: 0.0,
     };
-    let start = (0, Marker::Start);
+    let start = Marker::Start.on(0);
     let items = vec![
         Item::Joint(Joint::Pin {
             at: start,
@@ -47,7 +47,7 @@ pub fn cantilever(
     ];
     let value = Box::new(move |part: f64| [0.0, part * force, part * moment]);
     let load = Load {
-        at: (0, Marker::End),
+        at: Marker::End.on(0),
         value,
     };
     let mut system = System::new(items, vec![load], [0.0; 2]);
@@ -57,7 +57,7 @@ pub fn cantilever(
         let factor = f64::from(part) / f64::from(parts);
         equilibrium(&mut system, factor, &mut q, &mut multipliers).ok_or(part)?;
     }
-    Ok(system.position((0, Marker::End), &q))
+    Ok(system.position(Marker::End.on(0), &q))
 }
 
 /// Newton's method; the tangent is exact.

@@ -1,7 +1,7 @@
 //! Bodies and joints in a row: one vector of unknowns, multipliers beside what they join, so that tangents are banded.
 
 use super::band::Band;
-use super::{Block, Body, Columns, Marker, Motion, Placement, Vector, plus};
+use super::{Block, Body, BodyMarker, Columns, Motion, Placement, Vector, plus};
 
 /// Partner that a pin holds a marker to.
 #[derive(Clone, Copy, Debug)]
@@ -9,7 +9,7 @@ pub enum To {
     /// A point of the ground, m
     Ground(Vector),
     /// A marker of another body
-    Body(usize, Marker),
+    Body(BodyMarker),
 }
 
 /// Angle (rad), its rate and its second derivative at a time.
@@ -21,21 +21,21 @@ pub enum Joint {
     /// Two points are one
     Pin {
         /// Body and its marker.
-        at: (usize, Marker),
+        at: BodyMarker,
         /// The other point.
         to: To,
     },
     /// A point stays on a line along the first axis
     Guide {
         /// Body and its marker.
-        at: (usize, Marker),
+        at: BodyMarker,
         /// Height of the line, m.
         height: f64,
     },
     /// A direction is driven
     Drive {
         /// Body and its marker.
-        at: (usize, Marker),
+        at: BodyMarker,
         /// The direction.
         angle: Angle,
     },
@@ -53,7 +53,7 @@ impl Joint {
 /// Force along both axes (N) and moment (N m) on a marker at a time.
 pub struct Load {
     /// Body and its marker.
-    pub at: (usize, Marker),
+    pub at: BodyMarker,
     /// Values.
     pub value: Box<dyn Fn(f64) -> [f64; 3]>,
 }
@@ -167,8 +167,10 @@ impl System {
     }
 
     /// Position of a marker, m.
-    pub fn position(&self, (body, marker): (usize, Marker), q: &[f64]) -> Vector {
-        self.bodies[body].1.position(marker, self.part(body, q))
+    pub fn position(&self, at: BodyMarker, q: &[f64]) -> Vector {
+        self.bodies[at.body]
+            .1
+            .position(at.marker, self.part(at.body, q))
     }
 
     /// Elastic energy, J.
@@ -185,11 +187,11 @@ impl System {
         let joint = self.joints[joint].1;
         let mut rows = std::mem::take(&mut self.rows);
         rows.iter_mut().for_each(Vec::clear);
-        let mut point = |system: &mut Self, (body, marker): (usize, Marker), sign: f64| {
+        let mut point = |system: &mut Self, at: BodyMarker, sign: f64| {
             let mut columns = std::mem::take(&mut system.columns);
             columns.clear();
-            let (offset, made) = &system.bodies[body];
-            made.columns(marker, system.part(body, q), &mut columns);
+            let (offset, made) = &system.bodies[at.body];
+            made.columns(at.marker, system.part(at.body, q), &mut columns);
             for (i, by) in &columns {
                 for d in 0..2 {
                     rows[d].push((offset + i, sign * by[d]));
@@ -200,19 +202,21 @@ impl System {
         match joint {
             Joint::Pin { at, to } => {
                 point(self, at, 1.0);
-                if let To::Body(body, marker) = to {
-                    point(self, (body, marker), -1.0);
+                if let To::Body(other) = to {
+                    point(self, other, -1.0);
                 }
             }
             Joint::Guide { at, .. } => {
                 point(self, at, 1.0);
                 rows.swap(0, 1);
             }
-            Joint::Drive {
-                at: (body, marker), ..
-            } => {
-                let (offset, body) = &self.bodies[body];
-                rows[0].extend(body.angle(marker).iter().map(|(i, by)| (offset + i, *by)));
+            Joint::Drive { at, .. } => {
+                let (offset, body) = &self.bodies[at.body];
+                rows[0].extend(
+                    body.angle(at.marker)
+                        .iter()
+                        .map(|(i, by)| (offset + i, *by)),
+                );
             }
         }
         self.rows = rows;
@@ -225,17 +229,14 @@ impl System {
             Joint::Pin { at, to } => {
                 let other = match to {
                     To::Ground(point) => point,
-                    To::Body(body, marker) => self.position((body, marker), q),
+                    To::Body(other) => self.position(other, q),
                 };
                 plus(self.position(at, q), -1.0, other)
             }
             Joint::Guide { at, height } => [self.position(at, q)[1] - height, 0.0],
-            Joint::Drive {
-                at: (body, marker),
-                angle,
-            } => {
-                let (offset, body) = &self.bodies[body];
-                let terms = body.angle(marker);
+            Joint::Drive { at, angle } => {
+                let (offset, body) = &self.bodies[at.body];
+                let terms = body.angle(at.marker);
                 let found: f64 = terms.iter().map(|(i, by)| by * q[offset + i]).sum();
                 [found - angle(time)[0], 0.0]
             }
@@ -244,10 +245,9 @@ impl System {
 
     /// Second derivative of that, where coordinates do not accelerate.
     fn bias(&self, joint: Joint, time: f64, q: &[f64], v: &[f64]) -> Vector {
-        let of = |(body, marker): (usize, Marker)| {
-            self.bodies[body]
-                .1
-                .bias(marker, self.part(body, q), self.part(body, v))
+        let of = |at: BodyMarker| {
+            let [q, v] = [q, v].map(|all| self.part(at.body, all));
+            self.bodies[at.body].1.bias(at.marker, q, v)
         };
         match joint {
             Joint::Pin {
@@ -256,8 +256,8 @@ impl System {
             } => of(at),
             Joint::Pin {
                 at,
-                to: To::Body(body, marker),
-            } => plus(of(at), -1.0, of((body, marker))),
+                to: To::Body(other),
+            } => plus(of(at), -1.0, of(other)),
             Joint::Guide { at, .. } => [of(at)[1], 0.0],
             Joint::Drive { angle, .. } => [-angle(time)[2], 0.0],
         }
@@ -291,7 +291,7 @@ impl System {
         }
         for load in &self.loads {
             let [x, y, moment] = (load.value)(time);
-            let (body, marker) = load.at;
+            let BodyMarker { body, marker } = load.at;
             let (offset, made) = &self.bodies[body];
             let mut columns = std::mem::take(&mut self.columns);
             columns.clear();
@@ -350,8 +350,8 @@ impl System {
                 _ if weights[0] == 0.0 => {}
                 Joint::Pin { at, to } => {
                     self.add_bend(at, motion.q, [force(0), force(1)], band);
-                    if let To::Body(body, marker) = to {
-                        self.add_bend((body, marker), motion.q, [-force(0), -force(1)], band);
+                    if let To::Body(other) = to {
+                        self.add_bend(other, motion.q, [-force(0), -force(1)], band);
                     }
                 }
                 Joint::Guide { at, .. } => self.add_bend(at, motion.q, [0.0, force(0)], band),
@@ -360,13 +360,13 @@ impl System {
         }
     }
 
-    fn add_bend(&self, (body, marker): (usize, Marker), q: &[f64], force: Vector, band: &mut Band) {
-        let (offset, made) = &self.bodies[body];
+    fn add_bend(&self, at: BodyMarker, q: &[f64], force: Vector, band: &mut Band) {
+        let (offset, made) = &self.bodies[at.body];
         let mut block = Block {
             band,
             offset: *offset,
         };
-        made.bend(marker, self.part(body, q), force, &mut block);
+        made.bend(at.marker, self.part(at.body, q), force, &mut block);
     }
 
     /// Accelerations, multipliers in their places, by a factored `[M J^T; J 0]` that is made again where it changes.

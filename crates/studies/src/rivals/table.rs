@@ -151,6 +151,14 @@ fn grid(scene: Played) -> Grid {
 /// One run, to be repeated.
 type Once<'a> = &'a dyn Fn() -> Outcome<(Path, Duration)>;
 
+/// Columns that say what a row is of.
+struct RowLabel<'a> {
+    name: &'a str,
+    settings: &'a str,
+    /// Number of elements.
+    count: usize,
+}
+
 /// Where rows go.
 struct Sheet<'a> {
     scene: Played,
@@ -160,12 +168,12 @@ struct Sheet<'a> {
 
 impl Sheet<'_> {
     /// Measures a row; its CPU time, or nothing where it is left out or ends in failure, which the row says.
-    fn row(
-        &self,
-        (name, settings, count): (&str, &str, usize),
-        reference: &Path,
-        once: Once,
-    ) -> Option<f64> {
+    fn row(&self, label: &RowLabel<'_>, reference: &Path, once: Once) -> Option<f64> {
+        let RowLabel {
+            name,
+            settings,
+            count,
+        } = *label;
         if !name.contains(self.only) {
             return None;
         }
@@ -210,15 +218,25 @@ fn play(scene: Played, only: &str) -> Outcome<()> {
     let grid = grid(scene);
     for elements in grid.elements {
         for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-            let label = ("product", &*format!("tolerance={tolerance:e}"), *elements);
+            let label = RowLabel {
+                name: "product",
+                settings: &format!("tolerance={tolerance:e}"),
+                count: *elements,
+            };
             let once = || adaptive(scene, *elements, tolerance);
-            if (sheet.row(label, &references.cable, &once)).is_some_and(|time| time > LONGEST) {
+            if (sheet.row(&label, &references.cable, &once)).is_some_and(|time| time > LONGEST) {
                 break;
             }
         }
         for step in grid.steps {
-            let label = ("product_alpha", &*format!("step={step:e}"), *elements);
-            let time = sheet.row(label, &references.cable, &|| alpha(scene, *elements, *step));
+            let label = RowLabel {
+                name: "product_alpha",
+                settings: &format!("step={step:e}"),
+                count: *elements,
+            };
+            let time = sheet.row(&label, &references.cable, &|| {
+                alpha(scene, *elements, *step)
+            });
             if time.is_some_and(|time| time > LONGEST) {
                 break;
             }
@@ -281,24 +299,24 @@ fn measure(sheet: &Sheet<'_>, choice: Choice, grid: &Grid, references: &Referenc
     };
     if grid.explicit[usize::from(modal)] && choice.count() > 0 {
         for part in parts {
-            let label = (
-                choice.name(),
-                &*format!("rk4={part}{axial}"),
-                choice.count(),
-            );
-            let time = sheet.row(label, reference, &|| once(Kind::Explicit(*part)));
+            let label = RowLabel {
+                name: choice.name(),
+                settings: &format!("rk4={part}{axial}"),
+                count: choice.count(),
+            };
+            let time = sheet.row(&label, reference, &|| once(Kind::Explicit(*part)));
             if time.is_some_and(|time| time > LONGEST) {
                 break;
             }
         }
     }
     for step in grid.steps {
-        let label = (
-            choice.name(),
-            &*format!("alpha={step:e}{axial}"),
-            choice.count(),
-        );
-        let time = sheet.row(label, reference, &|| once(Kind::Alpha(*step)));
+        let label = RowLabel {
+            name: choice.name(),
+            settings: &format!("alpha={step:e}{axial}"),
+            count: choice.count(),
+        };
+        let time = sheet.row(&label, reference, &|| once(Kind::Alpha(*step)));
         if time.is_some_and(|time| time > LONGEST) {
             break;
         }

@@ -292,12 +292,12 @@ fn lowest_frequency(choice: Choice) -> f64 {
     };
     let items = vec![
         Item::Joint(Joint::Pin {
-            at: (0, Marker::Start),
+            at: Marker::Start.on(0),
             to: To::Ground([0.0; 2]),
         }),
         Item::Body(choice.rod(rod, Held::BothEnds), placement),
         Item::Joint(Joint::Guide {
-            at: (0, Marker::End),
+            at: Marker::End.on(0),
             height: 0.0,
         }),
     ];

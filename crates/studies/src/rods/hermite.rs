@@ -124,7 +124,7 @@ impl Rod {
     }
 
     /// Strain energy of bending and torsion of an element at nodes, J.
-    fn bending(&self, [a, b]: [&[Vector; 3]; 2], bubble: Number) -> Number {
+    fn bending(&self, a: &[Vector; 3], b: &[Vector; 3], bubble: Number) -> Number {
         let l = self.length;
         let line = |weights: [f64; 4]| {
             let [ra, ua, _] = a;
@@ -163,7 +163,7 @@ impl Rod {
     }
 
     /// Strain energy of stretching of an element at nodes, J.
-    fn stretching(&self, [a, b]: [&[Vector; 3]; 2]) -> Number {
+    fn stretching(&self, a: &[Vector; 3], b: &[Vector; 3]) -> Number {
         let l = self.length;
         let mut sum = number(0.0);
         for [xi, weight] in LOBATTO {
@@ -179,7 +179,7 @@ impl Rod {
         let a = self.nodes[element].moved(&step[..NODE]);
         let b = self.nodes[element + 1].moved(&step[NODE..2 * NODE]);
         let bubble = number(self.bubbles[element]) + step[2 * NODE];
-        self.bending([&a, &b], bubble) + self.stretching([&a, &b])
+        self.bending(&a, &b, bubble) + self.stretching(&a, &b)
     }
 
     /// Strain energy, J.

@@ -223,11 +223,12 @@ impl Motion {
                 *sum += turn * (weight / 6.0);
             }
             if let Some(part) = [0.5, 0.5, 1.0].get(stage) {
-                at = begin.advanced(part * h, [&rates, &accelerations], &turns);
+                at = begin.advanced(part * h, &rates, &accelerations, &turns);
             }
         }
-        let [rates, accelerations] = [0, 1].map(|k| sums.iter().map(|sum| sum[k]).collect());
-        *moving = begin.advanced(h, [&rates, &accelerations], &frames);
+        let [rates, accelerations]: [Vec<f64>; 2] =
+            [0, 1].map(|k| sums.iter().map(|sum| sum[k]).collect());
+        *moving = begin.advanced(h, &rates, &accelerations, &frames);
     }
 }
 
@@ -242,7 +243,7 @@ fn turns(at: &Moving) -> Vec<Real3> {
 }
 
 impl Moving {
-    fn advanced(&self, h: f64, [rates, accelerations]: [&Vec<f64>; 2], frames: &[Real3]) -> Self {
+    fn advanced(&self, h: f64, rates: &[f64], accelerations: &[f64], frames: &[Real3]) -> Self {
         let mut at = self.clone();
         for (rate, change) in at.rates.iter_mut().zip(accelerations) {
             *rate += h * change;
