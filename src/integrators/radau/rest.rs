@@ -19,7 +19,7 @@ const NOTHING: f64 = 1e-4;
 const UNSOLVED_WITHIN: f64 = 0.05;
 
 impl Radau {
-    /// As [`Method::polish_accelerations`](crate::integrators::Method::polish_accelerations).
+    /// As [`OneStepMethod::polish_accelerations`](crate::integrators::OneStepMethod::polish_accelerations).
     pub(super) fn relax_at_end(
         &mut self,
         dynamics: &mut dyn Dynamics,
@@ -51,7 +51,7 @@ impl Radau {
         true
     }
 
-    /// As [`Method::polish_within`](crate::integrators::Method::polish_within).
+    /// As [`OneStepMethod::polish_within`](crate::integrators::OneStepMethod::polish_within).
     pub(super) fn relax_in_between(
         &mut self,
         dynamics: &mut dyn Dynamics,
@@ -86,7 +86,7 @@ impl Radau {
         left
     }
 
-    /// As [`Method::error`](crate::integrators::Method::error).
+    /// As [`OneStepMethod::error`](crate::integrators::OneStepMethod::error).
     pub(super) fn error_left(
         &mut self,
         dynamics: &mut dyn Dynamics,
@@ -125,7 +125,7 @@ impl Radau {
         self.correct(s, position, velocity);
     }
 
-    /// As [`Method::follow`](crate::integrators::Method::follow).
+    /// As [`OneStepMethod::follow`](crate::integrators::OneStepMethod::follow).
     pub(super) fn follow_error(&mut self, dynamics: &mut dyn Dynamics, state: StateViewMut<'_>) {
         let StateViewMut {
             time,
