@@ -11,9 +11,9 @@ use crate::math::rotation::Quaternion;
 /// Rotations of rigid bodies and section frames from the frames that the state holds.
 #[derive(Debug)]
 pub struct Rotations<'a> {
-    /// Of rigid bodies.
+    /// Rotations of rigid bodies.
     pub turns: &'a mut [RotationIncrement],
-    /// Of section frames.
+    /// States of section frames.
     pub carries: &'a mut [SectionFrameState],
 }
 

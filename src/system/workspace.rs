@@ -17,7 +17,7 @@ pub struct Workspace<const D: usize = 2> {
     /// Configuration: computed first, and read by all other stages.
     pub kinematics: Kinematics<D>,
     /// Forces over the nodes at that configuration.
-    pub forces: Forces<D>,
+    pub forces: NodalForces<D>,
     /// Jacobian and multipliers of the non-linear constraints.
     pub(super) constraints: Constraints<D>,
     /// Tangent of an implicit method.
@@ -69,7 +69,7 @@ pub struct Kinematics<const D: usize = 2> {
 
 /// Forces over the nodes. [`System::forces`] computes the first part, an acceleration the rest.
 #[derive(Clone, Debug)]
-pub struct Forces<const D: usize = 2> {
+pub struct NodalForces<const D: usize = 2> {
     /// Forces on the nodal coordinates but those of constraints, `[nodes]`, N.
     pub f: Vec<Node<D>>,
     /// Moments of rods on their sections about the tangents, or of beams along the section axes, `[sections][3]`, N m.
@@ -191,7 +191,7 @@ impl<const D: usize> Workspace<D> {
                 base_turns: kinematics.turns.clone(),
                 stages: std::array::from_fn(|_| kinematics.carries.clone()),
             },
-            forces: Forces {
+            forces: NodalForces {
                 f: nodes.clone(),
                 torques: vec![[0.0; 3]; kinematics.carries.len()],
                 dissipated: 0.0,

@@ -6,7 +6,7 @@ use crate::tidy::source::{Source, no_complaints, sources, words};
 const FLOORS: [&str; 11] = [
     "math",
     "elements",
-    "body",
+    "bodies",
     "system",
     "integrators",
     "scene",
@@ -246,7 +246,7 @@ fn below_the_scene_and_in_the_simulation_nothing_sees_the_world() {
     let rooms = [
         "math",
         "elements",
-        "body",
+        "bodies",
         "system",
         "integrators",
         "simulation",
@@ -331,7 +331,7 @@ const STRANGERS: [(&str, &[&str]); 6] = [
     (
         "integrators/",
         &[
-            "body",
+            "bodies",
             "elements",
             "joints",
             "loads",
@@ -341,7 +341,7 @@ const STRANGERS: [(&str, &[&str]); 6] = [
         ],
     ),
     ("elements/", &["node", "nodes", "joint", "body"]),
-    ("body/", &["joint", "joints", "load", "loads", "drive"]),
+    ("bodies/", &["joint", "joints", "load", "loads", "drive"]),
     (
         "math/",
         &[

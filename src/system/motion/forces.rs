@@ -8,7 +8,7 @@ use crate::math::sparse::Matrix;
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::signal::Drive;
-use crate::system::workspace::{Forces, Kinematics, Scratch};
+use crate::system::workspace::{Kinematics, NodalForces, Scratch};
 use crate::system::{System, Workspace};
 
 impl<const D: usize> System<D> {
@@ -128,7 +128,7 @@ impl<const D: usize> System<D> {
             ..
         } = work;
         let motion @ (x, v) = (&kinematics.x[..], &kinematics.v[..]);
-        let Forces {
+        let NodalForces {
             f,
             torques,
             dissipated,
@@ -250,7 +250,7 @@ impl<const D: usize> System<D> {
 
     /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.forces.linear_constraint_forces`.
     pub(in crate::system) fn add_multiplied(&self, work: &mut Workspace<D>) {
-        let Forces {
+        let NodalForces {
             f,
             linear_constraint_forces: sum,
             ..
