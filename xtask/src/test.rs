@@ -1,6 +1,6 @@
 //! `cargo xtask test`: the checks of a change, the quick ones first; with `--all` those of a release.
 
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
@@ -129,6 +129,8 @@ pub fn test(workspace: &Workspace, words: &[String], all: bool) -> Result<()> {
     );
     let mut recorded = Passed::read(workspace)?;
     let mut times = Vec::new();
+    let ahead = words.is_empty().then(|| Ahead::start(workspace));
+    let _ahead = ahead.transpose()?;
     for (index, check) in checks {
         let place = format!("[{}/{}] {}", index + 1, CHECKS.len(), check.name);
         eprintln!("{place}");
@@ -171,6 +173,29 @@ fn table(times: &[(&str, Outcome, Duration)]) -> String {
     lines
         .map(|(name, outcome, took)| format!("{name:width$}  {}\n", told(*outcome, *took)))
         .collect()
+}
+
+/// The build of what is delivered. It takes one core for minutes, so it goes on while other checks run; where one fails it is stopped.
+struct Ahead(Child);
+
+impl Ahead {
+    /// Starts the build. The check that needs it asks cargo for it again, waits, and says what fails.
+    fn start(workspace: &Workspace) -> Result<Self> {
+        let mut build = workspace.tests_of_product()?;
+        build
+            .arg("--no-run")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        Ok(Self(build.spawn().context("cannot start cargo")?))
+    }
+}
+
+impl Drop for Ahead {
+    fn drop(&mut self) {
+        // One that has ended is not there to be stopped.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
 }
 
 /// Outcome of a check that has run to its end.
