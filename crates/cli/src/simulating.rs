@@ -140,6 +140,11 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
         scene.experiment = Experiment { stop_time, step };
     }
     let table = arguments.inputs.table()?;
+    if table.is_none() && !scene.accuracy.input_profiles.is_empty() {
+        eprintln!(
+            "flexbody: inputs stay at their start values; `flexbody plan --courses FILE` writes `accuracy.input_profiles` as a table for `--input FILE`"
+        );
+    }
     let given = TrialConditions {
         set: assignments(&scene, &arguments.set)?,
         inputs: table.as_ref().map(|(table, _)| table.clone()),

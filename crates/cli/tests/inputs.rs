@@ -104,3 +104,17 @@ fn what_cannot_be_planned_for_is_refused_by_name() {
         "{printed}"
     );
 }
+
+/// A run holds inputs at their start values, whatever the scene says for the planner, and tells so.
+#[test]
+fn a_run_without_a_table_tells_that_profiles_are_for_planning() {
+    let place = Place::new("profiles");
+    let accuracy = r#""accuracy": {"error": 1e-3, "input_profiles": [{"input": "rod.middle.force[2]", "from": 0.0, "to": -10.0}]}"#;
+    let scene = SCENE.replace(r#""accuracy": {"error": 1e-3}"#, accuracy);
+    std::fs::write(place.0.join("scene.json"), scene).expect("a writable temporary directory");
+    let told = "inputs stay at their start values";
+    let (done, printed) = place.run(&["simulate", "scene.json"]);
+    assert!(done && printed.contains(told), "{printed}");
+    let (done, printed) = place.run(&["simulate", "scene.json", "--input", "table.csv"]);
+    assert!(done && !printed.contains(told), "{printed}");
+}

@@ -1213,7 +1213,7 @@ class NaturalFrequencyOutput(Part):
     """
     Natural frequencies of the scene at rest in the initial configuration, rad/s, without dampers; an unstable
     mode is a negative number. In a turning frame the imaginary parts of the eigenvalues without dampers. Refused
-    where a force follows its marker and where cables turn initially: see `eigenvalue`.
+    where a force follows its marker, and where cables, rods or beams rotate initially or by a prescribed motion: see `eigenvalue`.
     """
 
     kind: Literal["natural_frequency"] = "natural_frequency"

@@ -100,7 +100,7 @@ kinds! {
         Residual(OfScene),
         /// Natural frequencies of the scene at rest in the initial configuration, rad/s, without dampers; an unstable
         /// mode is a negative number. In a turning frame the imaginary parts of the eigenvalues without dampers. Refused
-        /// where a force follows its marker and where cables turn initially: see `eigenvalue`.
+        /// where a force follows its marker, and where cables, rods or beams rotate initially or by a prescribed motion: see `eigenvalue`.
         NaturalFrequency(FrequencyOutput),
         /// Eigenvalues `s = -decay_rate + i frequency` of small motions `c e^(s t)` about the initial state, as
         /// `decay_rate` in 1/s, negative where the motion grows, and `frequency` in rad/s, slowest (least size of `s`) first;
