@@ -60,14 +60,6 @@ impl<const D: usize> Bodies<D> {
         })
     }
 
-    /// Length of the longest flexible line, m; 0 without one.
-    pub fn longest(&self) -> f64 {
-        self.chains
-            .iter()
-            .map(LineChain::length)
-            .fold(0.0, f64::max)
-    }
-
     /// Largest distance of a node from the first one, m; 1 where there is none.
     pub fn extent(&self, x: &[Node<D>]) -> f64 {
         let first = Vector::from(x[0][0]);
@@ -94,9 +86,15 @@ impl<const D: usize> Bodies<D> {
             || self.chains.iter().any(LineChain::is_damped)
     }
 
-    /// The body with this first node.
+    /// The body with this first node. Bodies stand in the order of their nodes.
     pub fn body_from(&self, first: usize) -> Option<usize> {
-        self.ranges.iter().position(|nodes| nodes.start == first)
+        let start = |nodes: &Range<usize>| nodes.start;
+        self.ranges.binary_search_by_key(&first, start).ok()
+    }
+
+    /// The body that a node belongs to.
+    pub fn body_of(&self, node: usize) -> Option<usize> {
+        self.ranges.iter().position(|nodes| nodes.contains(&node))
     }
 
     /// The first rod or beam, among the bodies, with an element that is bent or twisted beyond what its frames hold, and the element.
@@ -129,14 +127,14 @@ impl<const D: usize> Bodies<D> {
     /// The winch that pays out a chain.
     #[inline(always)]
     pub fn winch_of(&self, chain: &LineChain<D>) -> Option<&Winch<D>> {
-        let is_own = |winch: &&Winch<D>| winch.nodes[0] == chain.nodes(0)[0];
+        let is_own = |winch: &&Winch<D>| winch.nodes.start == chain.first_node();
         self.winches.iter().find(is_own)
     }
 
     /// The line of a body.
     pub fn line(&self, body: usize) -> Option<&LineChain<D>> {
         let first = self.ranges[body].start;
-        self.chains.iter().find(|chain| chain.nodes(0)[0] == first)
+        self.chains.iter().find(|chain| chain.first_node() == first)
     }
 
     /// Chain, element and place inside it of a marker of a flexible body.
@@ -162,12 +160,12 @@ impl<const D: usize> Bodies<D> {
 
     /// Bending and torsion of a rod or beam with this line.
     pub fn sections(&self, chain: &LineChain<D>) -> Option<&RodChain> {
-        let first = chain.nodes(0)[0];
+        let first = chain.first_node();
         self.rod_chains.iter().find(|rod| rod.line() == first)
     }
 
-    /// The straight rigid body that a marker is on.
-    pub fn rod(&self, marker: &Marker) -> Option<&RigidRod> {
-        self.rods.iter().find(|rod| rod.node == marker.nodes[0])
+    /// The straight rigid body with this node.
+    pub fn rod(&self, node: usize) -> Option<&RigidRod> {
+        self.rods.iter().find(|rod| rod.node == node)
     }
 }

@@ -106,6 +106,16 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         [node, node + 1]
     }
 
+    /// First node.
+    pub fn first_node(&self) -> usize {
+        self.first
+    }
+
+    /// Nodes in order.
+    pub fn range(&self) -> Range<usize> {
+        self.first..self.first + self.node_count()
+    }
+
     /// Number of nodes.
     pub fn node_count(&self) -> usize {
         self.nodes(self.elements.len() - 1)[1] + 1 - self.first
@@ -397,16 +407,10 @@ impl<E: Element<D>, const D: usize> Vectorized for AddForce<'_, E, D> {
             chain.read(pack, self.x, by, &mut e);
             if chain.is_damped {
                 chain.read_rates(pack, (self.x, self.rate), [by, growth], &mut v);
-                let motion = ElementMotion {
-                    at: ends(&e),
-                    rates: Some(ends(&v)),
-                };
+                let motion = ElementMotion::new(ends(&e), Some(ends(&v)));
                 *self.power += E::pack_force(simd, &pack.kernel, motion, by, &mut f);
             } else {
-                let motion = ElementMotion {
-                    at: ends(&e),
-                    rates: None,
-                };
+                let motion = ElementMotion::new(ends(&e), None);
                 E::pack_force(simd, &pack.kernel, motion, by, &mut f);
             }
             let first = chain.first + pack.elements.start;
@@ -455,19 +459,13 @@ impl<E: Element<D>, const D: usize> Vectorized for AddTangent<'_, E, D> {
             chain.read(pack, self.x, by, &mut e);
             if chain.is_damped {
                 chain.read_rates(pack, (self.x, self.rate), [by, growth], &mut v);
-                let motion = ElementMotion {
-                    at: ends(&e),
-                    rates: Some(ends(&v)),
-                };
+                let motion = ElementMotion::new(ends(&e), Some(ends(&v)));
                 E::pack_stiffness(simd, &pack.kernel, motion, by, &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, stiffness);
                 E::pack_damping(simd, &pack.kernel, ends(&e), by, &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, damping);
             } else {
-                let motion = ElementMotion {
-                    at: ends(&e),
-                    rates: None,
-                };
+                let motion = ElementMotion::new(ends(&e), None);
                 E::pack_stiffness(simd, &pack.kernel, motion, by, &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, stiffness);
             }

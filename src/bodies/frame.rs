@@ -203,6 +203,15 @@ impl RigidBodyFrame {
     }
 }
 
+/// Rotations of rigid bodies and section frames from the frames that the state holds.
+#[derive(Debug)]
+pub struct Rotations<'a> {
+    /// Rotations of rigid bodies.
+    pub turns: &'a mut [RotationIncrement],
+    /// States of section frames.
+    pub carries: &'a mut [SectionFrameState],
+}
+
 /// Meaning of the two vectors of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeKind {
@@ -304,7 +313,7 @@ impl RotationMaps {
     pub fn place<const D: usize>(
         &self,
         from: &[Quaternion],
-        (turns, carries): (&mut [RotationIncrement], &mut [SectionFrameState]),
+        Rotations { turns, carries }: Rotations<'_>,
         x: &mut [Node<D>],
     ) {
         if D == 2 {
@@ -321,7 +330,7 @@ impl RotationMaps {
     pub fn place_rates<const D: usize>(
         &self,
         x: &[Node<D>],
-        (turns, carries): (&mut [RotationIncrement], &mut [SectionFrameState]),
+        Rotations { turns, carries }: Rotations<'_>,
         v: &mut [Node<D>],
     ) {
         if D == 2 {

@@ -4,18 +4,9 @@
 use super::Bodies;
 use super::assembly::NodeBlock;
 use super::connectivity::Node;
-use super::frame::{RotationIncrement, SectionFrameState};
+use super::frame::Rotations;
 use crate::math::jet::Number;
 use crate::math::rotation::Quaternion;
-
-/// Rotations of rigid bodies and section frames from the frames that the state holds.
-#[derive(Debug)]
-pub struct Rotations<'a> {
-    /// Rotations of rigid bodies.
-    pub turns: &'a mut [RotationIncrement],
-    /// States of section frames.
-    pub carries: &'a mut [SectionFrameState],
-}
 
 impl<const D: usize> Bodies<D> {
     /// Takes what is integrated, which `x` holds before, to nodal coordinates. Rotations count from the frames `from`.
@@ -28,7 +19,6 @@ impl<const D: usize> Bodies<D> {
         x: &mut [Node<D>],
     ) {
         self.lengthen(drives, x);
-        let rotations = (rotations.turns, rotations.carries);
         self.frames.place(from, rotations, x);
     }
 
@@ -42,7 +32,6 @@ impl<const D: usize> Bodies<D> {
         v: &mut [Node<D>],
     ) {
         self.lengthen_rates(drives, x, v);
-        let rotations = (rotations.turns, rotations.carries);
         self.frames.place_rates(x, rotations, v);
     }
 

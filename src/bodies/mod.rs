@@ -32,11 +32,10 @@ pub use connectivity::{
 pub use elimination::Elimination;
 pub use frame::{
     Axes, Derivative, NodeKind, RENEWED, RigidBodyFrame, RotationIncrement, RotationMaps,
-    SectionFrame, SectionFrameState, axes_at, combined, spin_at, turned, turning_block,
+    Rotations, SectionFrame, SectionFrameState, axes_at, combined, spin_at, turned, turning_block,
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use lumped::{LumpedMass, RigidRod};
-pub use map::Rotations;
 pub use marker::{Marker, Partial, block_of};
 pub use rod_chain::{RodChain, carried_nodes, middle, planar_axes, turn_inner, untwisted};
 pub use stages::STAGES;

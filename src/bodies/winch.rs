@@ -15,6 +15,8 @@
 
 mod lengthening;
 
+use std::ops::Range;
+
 use super::{LineChain, Node};
 use crate::elements::shape::{Values, on_coordinates};
 use crate::elements::{Element, Nodal, shape};
@@ -31,8 +33,8 @@ pub struct Winch<const D: usize = 2> {
     pub at_last: bool,
     /// Driven coordinate: the length that has been paid out, m.
     pub coordinate: usize,
-    /// First node of the chain and number of nodes.
-    pub nodes: [usize; 2],
+    /// Nodes of the chain.
+    pub nodes: Range<usize>,
     /// Reference length, m.
     pub length: f64,
     /// Where elements begin, from the first end by the reference length, m.
@@ -126,7 +128,7 @@ impl<const D: usize> Winch<D> {
             chain: index,
             at_last,
             coordinate,
-            nodes: [chain.nodes(0)[0], chain.node_count()],
+            nodes: chain.range(),
             length,
             starts: starts.collect(),
             density: chain.mass() / length,
@@ -134,19 +136,12 @@ impl<const D: usize> Winch<D> {
         }
     }
 
-    /// Returns the range of nodes of the cable.
-    pub fn range(&self) -> std::ops::Range<usize> {
-        let [first, count] = self.nodes;
-        first..first + count
-    }
-
     /// The node at the winch.
     pub fn end(&self) -> usize {
-        let [first, count] = self.nodes;
         if self.at_last {
-            first + count - 1
+            self.nodes.end - 1
         } else {
-            first
+            self.nodes.start
         }
     }
 

@@ -42,6 +42,14 @@ pub struct ElementMotion<A, R = A> {
     pub rates: Option<R>,
 }
 
+impl<A, R> ElementMotion<A, R> {
+    /// Coordinates, and rates where the elements are damped.
+    #[inline(always)]
+    pub fn new(at: A, rates: Option<R>) -> Self {
+        Self { at, rates }
+    }
+}
+
 /// [`EndBlocks`] of a pack of elements.
 pub type BlockPack<const D: usize> = EndBlocks<[f64; PACK], D>;
 

@@ -356,17 +356,17 @@ impl<const D: usize> Engine<D> {
         state: &State,
         inputs: &Inputs,
     ) -> (&Assembled<D>, &Evaluation<D>) {
-        self.evaluate(Evaluated::Kinematics, state, inputs);
-        (&self.assembled, &self.evaluation)
+        self.evaluated(Evaluated::Kinematics, state, inputs)
     }
 
-    /// The system, and how it moves in a state, with its accelerations.
-    pub(super) fn moving(
+    /// The system, and its evaluation in a state, as far as it is needed.
+    pub(super) fn evaluated(
         &mut self,
+        needed: Evaluated,
         state: &State,
         inputs: &Inputs,
     ) -> (&Assembled<D>, &Evaluation<D>) {
-        self.evaluate(Evaluated::Dynamics, state, inputs);
+        self.evaluate(needed, state, inputs);
         (&self.assembled, &self.evaluation)
     }
 

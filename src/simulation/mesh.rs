@@ -92,8 +92,8 @@ impl<const D: usize> Engine<D> {
         let system = &assembled.system;
         let missed = (system.bodies().chains.iter()).map(|chain| off(values, assembled, chain));
         let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        let first = worst.map(|(chain, _)| system.bodies().chains[chain].nodes(0)[0]);
-        let body = (system.bodies().ranges.iter()).position(|nodes| Some(nodes.start) == first);
+        let first = worst.map(|(chain, _)| system.bodies().chains[chain].first_node());
+        let body = first.and_then(|first| system.bodies().body_from(first));
         self.mesh.found = body.map(|body| (body, resolution));
     }
 

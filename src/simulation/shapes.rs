@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::engine::Engine;
 use super::inputs::Inputs;
-use super::quantities::value;
+use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
 use crate::bodies::{LineChain, Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
@@ -204,22 +204,14 @@ impl<const D: usize> Engine<D> {
     pub(super) fn elastic_displacements(&mut self, state: &State, inputs: &Inputs) -> Vec<f64> {
         let (assembled, values) = self.placed(state, inputs);
         let Assembled { system, nodes, .. } = assembled;
-        let of = |first: usize| {
-            let chain = system
-                .bodies()
-                .chains
-                .iter()
-                .find(|c| c.nodes(0)[0] == first);
-            let bends = chain.map(|chain| values.elastic_displacement(system, chain, nodes));
-            bends.or(system
-                .bodies()
-                .rods
-                .iter()
-                .any(|rod| rod.node == first)
-                .then_some(0.0))
+        let bodies = system.bodies();
+        let of = |body: usize| {
+            let bends = bodies.line(body);
+            let bends = bends.map(|chain| values.elastic_displacement(system, chain, nodes));
+            let is_rod = bodies.rod(bodies.ranges[body].start).is_some();
+            bends.or(is_rod.then_some(0.0))
         };
-        let bodies = system.bodies().ranges.iter();
-        bodies.filter_map(|nodes| of(nodes.start)).collect()
+        (0..bodies.ranges.len()).filter_map(of).collect()
     }
 
     /// How all bodies stand.
@@ -235,7 +227,7 @@ impl<const D: usize> Engine<D> {
 
     /// Axial force and bending moments at the nodes of all flexible bodies.
     pub(super) fn section_forces(&mut self, state: &State, inputs: &Inputs) -> Vec<Vec<[f64; 3]>> {
-        let (assembled, values) = self.moving(state, inputs);
+        let (assembled, values) = self.evaluated(Evaluated::Dynamics, state, inputs);
         let system = &assembled.system;
         let at = |marker: &Marker| values.section_forces(system, marker);
         let of = |body: usize| {
@@ -252,10 +244,8 @@ impl<const D: usize> Engine<D> {
 }
 
 fn poses<const D: usize>(assembled: &Assembled<D>, x: &[Node<D>]) -> Vec<Pose> {
-    let bodies = assembled.system.bodies().ranges.iter().enumerate();
-    bodies
-        .map(|(body, nodes)| pose(assembled, body, nodes.start, x))
-        .collect()
+    let bodies = 0..assembled.system.bodies().ranges.len();
+    bodies.map(|body| pose(assembled, body, x)).collect()
 }
 
 /// Returns the value of a position, an angle or a direction in the configuration that the scene draws. Other quantities
@@ -285,25 +275,16 @@ pub(super) fn drawn<const D: usize>(quantity: Quantity, assembled: &Assembled<D>
     )
 }
 
-/// How a body stands whose nodes begin at one.
-fn pose<const D: usize>(
-    assembled: &Assembled<D>,
-    body: usize,
-    first: usize,
-    x: &[Node<D>],
-) -> Pose {
-    let system = &assembled.system;
-    let chain = system
-        .bodies()
-        .chains
-        .iter()
-        .find(|c| c.nodes(0)[0] == first);
-    if let Some(chain) = chain {
+/// How a body stands.
+fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) -> Pose {
+    let (system, bodies) = (&assembled.system, assembled.system.bodies());
+    if let Some(chain) = bodies.line(body) {
         return chain_pose(system, chain, x);
     }
+    let first = bodies.ranges[body].start;
     let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
     let [position, slope] = [vector(first, 0), vector(first, 1)];
-    if let Some(rod) = system.bodies().rods.iter().find(|rod| rod.node == first) {
+    if let Some(rod) = bodies.rod(first) {
         let way = Vector3::from(slope) * (0.5 * rod.length);
         let ends = [-way, way].map(|way| (Vector3::from(position) + way).into());
         return Pose {
@@ -311,13 +292,7 @@ fn pose<const D: usize>(
             axes: Vec::new(),
         };
     }
-    if !system
-        .bodies()
-        .frames
-        .list()
-        .iter()
-        .any(|f| f.node == first)
-    {
+    if bodies.frames.body_of(first).is_none() {
         return Pose {
             nodes: vec![[position, slope]],
             axes: Vec::new(),
@@ -334,9 +309,8 @@ fn pose<const D: usize>(
 }
 
 fn chain_pose<const D: usize>(system: &System<D>, chain: &LineChain<D>, x: &[Node<D>]) -> Pose {
-    let first = chain.nodes(0)[0];
     let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
-    let nodes = (first..first + chain.node_count()).map(|node| [0, 1].map(|k| vector(node, k)));
+    let nodes = chain.range().map(|node| [0, 1].map(|k| vector(node, k)));
     let mut axes = Vec::new();
     if let Some(sections) = system.bodies().sections(chain) {
         for element in 0..sections.count() {
@@ -363,14 +337,13 @@ fn outlines<const D: usize>(
     for chain in &system.bodies().chains {
         let parts = parts(chain.elements().len());
         let along = |part: u32| chain.length() * f64::from(part) / f64::from(parts);
-        let body = (0..found.len()).find(|body| first(*body) == chain.nodes(0)[0]);
-        if let Some(body) = body {
+        if let Some(body) = system.bodies().body_from(chain.first_node()) {
             let place = |part| Marker::along(body, chain, along(part)).position(x);
             found[body] = (0..=parts).map(|part| components(&place(part))).collect();
         }
     }
     for rod in &system.bodies().rods {
-        if let Some(body) = (0..found.len()).find(|body| first(*body) == rod.node) {
+        if let Some(body) = system.bodies().body_from(rod.node) {
             let ends = [-0.5, 0.5].map(|part| [part * rod.length, 0.0]);
             let ends = ends.map(|end| Marker::rigid(body, rod.node, end).position(x));
             found[body] = ends.iter().map(components).collect();

@@ -220,7 +220,7 @@ impl<const D: usize> System<D> {
         }
         let far = |place: Vector<D>| (place - first).norm();
         let nodes = self.bodies.reference.iter().zip(&arms).enumerate();
-        let nodes = nodes.filter(|(node, _)| self.bodies.frames.kind(*node) == NodeKind::Point);
+        let nodes = nodes.filter(|(node, _)| self.bodies.kind(*node) == NodeKind::Point);
         let nodes = nodes.map(|(_, (node, arm))| far(node[0].into()) + arm);
         let on_ground = ends().filter(|end| end.marker().is_none());
         let on_ground = on_ground.map(|end| far(end.position(&self.bodies.reference)));
@@ -376,7 +376,7 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
     // Coordinates of a cable that is paid out are not moved alike by a translation of all.
     let paid_out = parts.winches.iter();
     let mut nodes: Vec<usize> = paid_out
-        .map(|(chain, ..)| parts.bodies.chains[*chain].nodes(0)[0])
+        .map(|(chain, ..)| parts.bodies.chains[*chain].first_node())
         .collect();
     for load in &parts.loads {
         let is_grounded = match load {

@@ -30,7 +30,7 @@ impl<'a, const D: usize, N: Number> Instant<'a, D, N> {
     /// The body with this first node, if a winch pays it out.
     pub fn paid_out(&self, first: usize) -> Option<PaidOut<'a, D, N>> {
         let mut winches = self.bodies.winches.iter();
-        let winch = winches.find(|winch| winch.nodes[0] == first)?;
+        let winch = winches.find(|winch| winch.nodes.start == first)?;
         Some(PaidOut {
             winch,
             chain: &self.bodies.chains[winch.chain],

@@ -8,6 +8,7 @@ use super::{State, System};
 use crate::bodies::{
     Articulated, Jacobian, Node, RotationIncrement, STAGES, SectionFrameState, Tangent, no_node,
 };
+use crate::math::jet::Number;
 use crate::math::recent::Recent;
 use crate::math::rotation::{NO_TURN, Quaternion};
 
@@ -243,7 +244,29 @@ impl<const D: usize> Workspace<D> {
     }
 }
 
+/// Inputs, driven coordinates and angles as numbers of another kind that stand still.
+pub(super) struct Frozen<N> {
+    /// Inputs and their rates, `[inputs]`.
+    pub inputs: Vec<N>,
+    pub input_rates: Vec<N>,
+    /// Driven coordinates with two derivatives, `[drives][3]`.
+    pub drives: Vec<[N; 3]>,
+    /// Counted angles, `[angles]`, rad.
+    pub angles: Vec<N>,
+}
+
 impl<const D: usize> Kinematics<D> {
+    /// Converts what stands beside nodal coordinates and rates to constants of another kind of number.
+    pub(super) fn frozen<N: Number>(&self) -> Frozen<N> {
+        let lift = |x: &[f64]| x.iter().copied().map(N::of).collect();
+        Frozen {
+            inputs: lift(&self.inputs),
+            input_rates: lift(&self.input_rates),
+            drives: self.drives.iter().map(|drive| drive.map(N::of)).collect(),
+            angles: lift(&self.angles),
+        }
+    }
+
     fn new(system: &System<D>) -> Self {
         let nodes = vec![no_node(); system.bodies.reference.len()];
         Self {
@@ -271,8 +294,7 @@ impl<const D: usize> Kinematics<D> {
 fn moving<const D: usize>(system: &System<D>) -> ([Vec<bool>; 2], Vec<(usize, usize)>) {
     let mut elastic = vec![false; system.bodies.reference.len()];
     for chain in &system.bodies.chains {
-        let first = chain.nodes(0)[0];
-        elastic[first..first + chain.node_count()].fill(true);
+        elastic[chain.range()].fill(true);
     }
     let mut still = vec![false; elastic.len()];
     let mut sections = Vec::new();

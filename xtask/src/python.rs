@@ -19,52 +19,33 @@ struct PinnedPackages {
     folder: &'static str,
 }
 
+/// Packages that a file lists, in an environment in a folder among the products.
+const fn pinned(requirements: &'static str, folder: &'static str) -> PinnedPackages {
+    PinnedPackages {
+        requirements,
+        folder,
+    }
+}
+
 /// The packages of tests and pictures.
-const PROJECT: PinnedPackages = PinnedPackages {
-    requirements: "tests/fmpy/requirements.txt",
-    folder: "python",
-};
+const PROJECT: PinnedPackages = pinned("tests/fmpy/requirements.txt", "python");
 /// Environment of the programs that charts compare the product with. It is separate, so that no check needs them.
-const PEERS: PinnedPackages = PinnedPackages {
-    requirements: "crates/studies/exudyn/requirements.txt",
-    folder: "python-peers",
-};
+const PEERS: PinnedPackages = pinned("crates/studies/exudyn/requirements.txt", "python-peers");
 /// Environment of the masters that tests couple FMUs in. It is separate, so that a picture needs none of them.
-const MASTERS: PinnedPackages = PinnedPackages {
-    requirements: "tests/masters/requirements.txt",
-    folder: "python-masters",
-};
+const MASTERS: PinnedPackages = pinned("tests/masters/requirements.txt", "python-masters");
 /// Environment of the Python package and of the generator of its models. It is separate, so that no picture needs a
 /// cluster.
-const OWN: PinnedPackages = PinnedPackages {
-    requirements: "tests/python/requirements.txt",
-    folder: "python-own",
-};
+const OWN: PinnedPackages = pinned("tests/python/requirements.txt", "python-own");
 /// Environment of the references of random scenes. It is separate, so that no picture needs it.
-const PLANS: PinnedPackages = PinnedPackages {
-    requirements: "tests/plans/requirements.txt",
-    folder: "python-plans",
-};
+const PLANS: PinnedPackages = pinned("tests/plans/requirements.txt", "python-plans");
 /// The linker of libraries; apart, so that what needs no library does not need it.
-const LINKER: PinnedPackages = PinnedPackages {
-    requirements: "xtask/linker.txt",
-    folder: "python-linker",
-};
+const LINKER: PinnedPackages = pinned("xtask/linker.txt", "python-linker");
 /// The checker of dependencies, built.
-const DENY: PinnedPackages = PinnedPackages {
-    requirements: "xtask/deny.txt",
-    folder: "python-deny",
-};
+const DENY: PinnedPackages = pinned("xtask/deny.txt", "python-deny");
 /// Environment of the browser driver in tests. It is separate, since not every machine has a browser.
-const BROWSER: PinnedPackages = PinnedPackages {
-    requirements: "tests/view/requirements.txt",
-    folder: "python-browser",
-};
+const BROWSER: PinnedPackages = pinned("tests/view/requirements.txt", "python-browser");
 /// Environment that builds the script of moving pages. It is separate, since its result is committed.
-const NODE: PinnedPackages = PinnedPackages {
-    requirements: "xtask/node.txt",
-    folder: "python-node",
-};
+const NODE: PinnedPackages = pinned("xtask/node.txt", "python-node");
 /// The file in an environment that says what it was made from; the last one written.
 const STAMP: &str = "installed.txt";
 /// Oldest Python that the pinned packages run on.

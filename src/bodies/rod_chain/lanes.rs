@@ -332,10 +332,8 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
-        let motion = ElementMotion {
-            at: &rod_at(&self.motion.0.at()),
-            rates: rates.as_ref(),
-        };
+        let at = rod_at(&self.motion.0.at());
+        let motion = ElementMotion::new(&at, rates.as_ref());
         *self.power += Rod::pack_force(simd, self.kernel, motion, self.out);
     }
 }
@@ -354,18 +352,6 @@ where
         power: &mut power,
     });
     power
-}
-
-impl Vectorized for InLanes<'_, beam::Pack, Force<[f64; PACK]>> {
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = ElementMotion {
-            at: &self.motion.0.at(),
-            rates: rates.as_ref(),
-        };
-        *self.power += Beam::pack_force(simd, self.kernel, motion, self.out);
-    }
 }
 
 /// Tangent of a pack of rods.
@@ -392,10 +378,8 @@ impl Vectorized for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
-        let motion = ElementMotion {
-            at: &rod_at(&self.motion.0.at()),
-            rates: rates.as_ref(),
-        };
+        let at = rod_at(&self.motion.0.at());
+        let motion = ElementMotion::new(&at, rates.as_ref());
         Rod::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }
@@ -418,38 +402,29 @@ fn beam_tangent<K>(
     });
 }
 
-impl Vectorized for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = ElementMotion {
-            at: &self.motion.0.at(),
-            rates: rates.as_ref(),
-        };
-        Beam::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
-    }
-}
+/// Forces and tangents of beam elements in lanes.
+macro_rules! beams_in_lanes {
+    ($element:ident of $pack:ty) => {
+        impl Vectorized for InLanes<'_, $pack, Force<[f64; PACK]>> {
+            #[inline(always)]
+            fn run<S: Simd>(self, simd: S) {
+                let rates = self.motion.1.map(SectionNodePack::rates);
+                let at = self.motion.0.at();
+                let motion = ElementMotion::new(&at, rates.as_ref());
+                *self.power += $element::pack_force(simd, self.kernel, motion, self.out);
+            }
+        }
 
-impl Vectorized for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = ElementMotion {
-            at: &self.motion.0.at(),
-            rates: rates.as_ref(),
-        };
-        *self.power += Planar::pack_force(simd, self.kernel, motion, self.out);
-    }
+        impl Vectorized for InLanes<'_, $pack, ElementMatrix<[f64; PACK]>> {
+            #[inline(always)]
+            fn run<S: Simd>(self, simd: S) {
+                let rates = self.motion.1.map(SectionNodePack::rates);
+                let at = self.motion.0.at();
+                let motion = ElementMotion::new(&at, rates.as_ref());
+                $element::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
+            }
+        }
+    };
 }
-
-impl Vectorized for InLanes<'_, planar::Pack, ElementMatrix<[f64; PACK]>> {
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let rates = self.motion.1.map(SectionNodePack::rates);
-        let motion = ElementMotion {
-            at: &self.motion.0.at(),
-            rates: rates.as_ref(),
-        };
-        Planar::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
-    }
-}
+beams_in_lanes!(Beam of beam::Pack);
+beams_in_lanes!(Planar of planar::Pack);

@@ -28,7 +28,7 @@ impl<const D: usize> Bodies<D> {
     ) -> impl Iterator<Item = (&'a Winch<D>, usize, Length<N>)> {
         self.winches.iter().flat_map(move |winch| {
             let now = winch.now(drives);
-            winch.range().map(move |node| (winch, node, now))
+            winch.nodes.clone().map(move |node| (winch, node, now))
         })
     }
 
@@ -37,7 +37,7 @@ impl<const D: usize> Bodies<D> {
         let winch = self
             .winches
             .iter()
-            .find(|winch| winch.range().contains(&node));
+            .find(|winch| winch.nodes.contains(&node));
         winch.map_or(N::of(1.0), |winch| winch.now(drives).root[0])
     }
 

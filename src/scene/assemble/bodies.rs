@@ -274,9 +274,8 @@ impl<const D: usize> Builder<'_, D> {
         match cable.id.form {
             Form::Chain(chain) => {
                 let (chain, marker) = (&self.parts.bodies.chains[chain], self.on_line_of(cable, s));
-                let sections = self.parts.bodies.rod_chains.iter();
-                let mut sections = sections.filter(|rod| rod.line() == chain.nodes(0)[0]);
-                let section = sections.next().and_then(|rod| rod.section_at(&marker));
+                let sections = self.parts.bodies.sections(chain);
+                let section = sections.and_then(|rod| rod.section_at(&marker));
                 section.unwrap_or(marker)
             }
             Form::Rod(_) => self.on_line_of(cable, s),

@@ -95,10 +95,10 @@ impl<const D: usize> Assembled<D> {
             ..
         } = state;
         let system = &self.system;
-        let bodies = &system.bodies().ranges;
-        for (node, held, now) in system.bodies().frames.quaternions(frames, coordinates) {
-            let body = bodies.binary_search_by_key(&node, |nodes| nodes.start);
-            if body.is_ok_and(|body| self.held(now, body)[0] < 0.0) {
+        let bodies = system.bodies();
+        for (node, held, now) in bodies.frames.quaternions(frames, coordinates) {
+            let body = bodies.body_from(node);
+            if body.is_some_and(|body| self.held(now, body)[0] < 0.0) {
                 *held = held.map(|part| -part);
             }
         }

@@ -26,7 +26,7 @@ pub(super) fn free_ends<const D: usize>(parts: &mut Parts<D>) {
         used[node] = true;
     }
     for chain in &mut parts.bodies.chains {
-        let first = chain.nodes(0)[0];
+        let first = chain.first_node();
         let last = first + chain.node_count() - 1;
         chain.set_free_ends([!used[first], !used[last]], &parts.bodies.reference);
     }
@@ -135,8 +135,7 @@ fn release_rows<const D: usize>(
 fn paid_out<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
     let mut paid_out = vec![false; parts.bodies.reference.len()];
     for (chain, ..) in &parts.winches {
-        let chain = &parts.bodies.chains[*chain];
-        paid_out[chain.nodes(0)[0]..][..chain.node_count()].fill(true);
+        paid_out[parts.bodies.chains[*chain].range()].fill(true);
     }
     paid_out
 }

@@ -329,9 +329,7 @@ impl<const D: usize> Constraint<D> {
         match &self.kind {
             ConstraintKind::UnitLength(c) => vec![c.node],
             ConstraintKind::PointOnCurve(c) => {
-                let first = chains[c.chain].nodes(0)[0];
-                let chain = first..first + chains[c.chain].node_count();
-                c.end.nodes().chain(chain).collect()
+                c.end.nodes().chain(chains[c.chain].range()).collect()
             }
             _ => self.ends().iter().flat_map(Attachment::nodes).collect(),
         }

@@ -19,7 +19,7 @@ pub struct ConvectiveInertia {
 impl ConvectiveInertia {
     /// First node of the cable.
     pub(super) fn first_node<const D: usize>(&self, chains: &[LineChain<D>]) -> usize {
-        chains[self.chain].nodes(0)[0]
+        chains[self.chain].first_node()
     }
 
     fn cable<'a, const D: usize, N: Number>(&self, at: Instant<'a, D, N>) -> PaidOut<'a, D, N> {

@@ -59,7 +59,7 @@ impl<const D: usize> DistributedForce<D> {
     /// First node of the body that it acts on.
     pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
         match self.on {
-            LoadedLine::Chain(chain) => chains[chain].nodes(0)[0],
+            LoadedLine::Chain(chain) => chains[chain].first_node(),
             LoadedLine::Rod(rod) => rod.node,
         }
     }

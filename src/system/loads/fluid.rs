@@ -132,7 +132,7 @@ impl<const D: usize> Fluid<D> {
     /// First node of the body that it streams past.
     pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
         match self.on {
-            LoadedLine::Chain(chain) => chains[chain].nodes(0)[0],
+            LoadedLine::Chain(chain) => chains[chain].first_node(),
             LoadedLine::Rod(rod) => rod.node,
         }
     }

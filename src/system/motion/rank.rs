@@ -343,12 +343,7 @@ impl<const D: usize> System<D> {
             match (constraint.joint, &constraint.kind) {
                 (Some(joint), _) => held.holders.push(joint),
                 (None, ConstraintKind::UnitLength(unit)) => {
-                    let body = self
-                        .bodies
-                        .ranges
-                        .iter()
-                        .position(|b| b.contains(&unit.node));
-                    held.bodies.extend(body);
+                    held.bodies.extend(self.bodies.body_of(unit.node));
                 }
                 (None, _) => {}
             }

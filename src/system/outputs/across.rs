@@ -10,7 +10,7 @@ impl<const D: usize> Evaluation<D> {
         let rotation = system.rotation;
         let count = chain.elements().len();
         let nodes = (0..=count).map(|k| match k {
-            0 => chain.nodes(0)[0],
+            0 => chain.first_node(),
             _ => chain.nodes(k - 1)[1],
         });
         let square = |node: usize| {

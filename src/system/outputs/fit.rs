@@ -126,9 +126,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         marker: &Marker,
         from: Option<&Marker>,
     ) -> [N; 3] {
-        let first = system.bodies().ranges[marker.body].start;
-        let chain = system.bodies.chains.iter().find(|c| c.nodes(0)[0] == first);
-        let Some(chain) = chain else {
+        let Some(chain) = system.bodies.line(marker.body) else {
             return [N::of(0.0); 3];
         };
         let by = system.bodies.length_now(chain, &self.drives).longer_by();
@@ -171,10 +169,10 @@ impl<const D: usize> Evaluation<D> {
     ) -> f64 {
         let fit = self.rigid_fit(system, chain, drawn);
         let by = system.bodies.length_now(chain, &self.drives).longer_by();
-        let first = chain.nodes(0)[0];
         let at = |x: &[Node<D>], node: usize| full(Vector::from(x[node][0]));
-        let nodes = first..first + chain.node_count();
-        let away = nodes.map(|node| fit.displacement(&(at(drawn, node) * by), &at(&self.x, node)));
+        let away = chain
+            .range()
+            .map(|node| fit.displacement(&(at(drawn, node) * by), &at(&self.x, node)));
         away.map(|away| away.norm()).fold(0.0, f64::max)
     }
 }

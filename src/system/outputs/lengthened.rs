@@ -14,7 +14,7 @@ impl<const D: usize> Derivatives<D> {
     ) {
         for winch in &system.bodies.winches {
             let [root, ..] = winch.now(&self.values.drives).root;
-            for node in winch.range() {
+            for node in winch.nodes.clone() {
                 let driven = self.driven[node].as_flattened();
                 let known = self.values.acceleration[node].as_flattened();
                 let value = plain.acceleration[node].as_flattened();

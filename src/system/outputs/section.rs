@@ -27,7 +27,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// what the one before lacks for equilibrium. Joints and point loads at the node count with what
     /// comes after. Zero at the first end.
     pub fn connectivity_force(&self, system: &System<D>, marker: &Marker) -> Vector<D, N> {
-        if let Some(rod) = system.bodies.rod(marker) {
+        if let Some(rod) = system.bodies.rod(marker.nodes[0]) {
             return self.rod_force(system, rod, marker);
         }
         let Some((chain, j, xi)) = system.bodies.element(marker) else {
@@ -51,7 +51,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Force (N) and bending moment (N m) in a section, of the part after on the part before; the latter as of [`Self::section`].
     pub(super) fn cut(&self, system: &System<D>, marker: &Marker) -> (Vector<D, N>, [N; 3]) {
-        if let Some(rod) = system.bodies.rod(marker) {
+        if let Some(rod) = system.bodies.rod(marker.nodes[0]) {
             return self.rod_section(system, rod, marker);
         }
         let Some((chain, j, xi)) = system.bodies.element_after(marker) else {
@@ -97,8 +97,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let part = &chain.elements()[j];
         let l = part.length();
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
-        let load = self.distributed(system, chain.nodes(0)[0]);
-        let changing = self.changing(system, (chain.nodes(0)[0], j));
+        let load = self.distributed(system, chain.first_node());
+        let changing = self.changing(system, (chain.first_node(), j));
         let longer = N::of(1.0) / system.bodies.length_now(chain, &self.drives).by;
         let force = |xi: f64| {
             let (weight, moved) = (part.weight_before(xi), part.moved_before(xi));
@@ -142,8 +142,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let weight = (system.gravity * part.weight().transpose()).map(N::of);
         lack += (weight - self.inertia(system, (chain, j)) * part.mass().map(N::of)) / now.by;
         let weights = shape::integrals(N::of(1.0), part.length());
-        lack += self.distributed(system, chain.nodes(0)[0]) * weights.transpose();
-        if let Some(values) = self.changing(system, (chain.nodes(0)[0], j)) {
+        lack += self.distributed(system, chain.first_node()) * weights.transpose();
+        if let Some(values) = self.changing(system, (chain.first_node(), j)) {
             lack += shape::on_coordinates(&values, part.length());
         }
         let mut torques = [Vector3::zeros(); 2];
@@ -213,7 +213,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         system: &System<D>,
         (chain, j): (&LineChain<D>, usize),
     ) -> Option<Values<3, N>> {
-        let (at, first) = (self.instant(system), chain.nodes(0)[0]);
+        let (at, first) = (self.instant(system), chain.first_node());
         let mut sum: Option<Values<3, N>> = None;
         for load in &system.loads {
             let AppliedLoad::DistributedMoment(load) = load else {

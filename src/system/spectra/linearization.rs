@@ -25,6 +25,7 @@ use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::{General, Matrix};
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
+use crate::system::workspace::Frozen;
 use crate::system::{System, Workspace};
 
 /// `K` and `R` over the free coordinates, and what constraints make of them: rows and columns of multipliers stand with
@@ -99,8 +100,10 @@ impl<const D: usize> System<D> {
         self.linearize_rotation(work, &mut made);
         self.linearize_turning(work, &mut probe, &mut made);
         let mut elsewhere = Vec::new();
+        let still = work.kinematics.frozen();
         for (constraint, lambda) in self.constraints.iter().zip(&work.constraints.lambda) {
-            let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);
+            let held = (constraint, *lambda);
+            let blocks = self.linearize_constraint(work, &still, held, &mut probe);
             let blocks = blocks.pulled(&self.bodies.frames, &work.kinematics.x);
             let assembly = &self.elimination.assembly;
             blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
@@ -191,22 +194,12 @@ impl<const D: usize> System<D> {
         made: &mut Linearization<'_, D>,
     ) {
         let assembly = &self.elimination.assembly;
-        let lift = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
-        let [inputs, input_rates, angles] = [
-            &work.kinematics.inputs,
-            &work.kinematics.input_rates,
-            &work.kinematics.angles,
-        ]
-        .map(|x| lift(x));
+        let mut still: Frozen<Jet> = work.kinematics.frozen();
         // What is driven stands still at rest.
-        let drive = |[p, v, a]: &[f64; 3]| {
-            if at_rest {
-                [*p, 0.0, 0.0].map(Jet::from_re)
-            } else {
-                [*p, *v, *a].map(Jet::from_re)
-            }
-        };
-        let drives: Vec<[Jet; 3]> = work.kinematics.drives.iter().map(drive).collect();
+        if at_rest {
+            let zero = Jet::from_re(0.0);
+            (still.drives.iter_mut()).for_each(|drive| (drive[1], drive[2]) = (zero, zero));
+        }
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
@@ -218,13 +211,13 @@ impl<const D: usize> System<D> {
                 let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
                     let at = Instant {
                         time: Jet::from_re(time),
-                        inputs: &inputs,
-                        input_rates: &input_rates,
-                        drives: &drives,
+                        inputs: &still.inputs,
+                        input_rates: &still.input_rates,
+                        drives: &still.drives,
                         x,
                         v,
                         bodies: &self.bodies,
-                        angles: (&self.angles, &angles),
+                        angles: (&self.angles, &still.angles),
                     };
                     load.add_part(at, part, f);
                 };
@@ -398,17 +391,10 @@ impl<const D: usize> System<D> {
     fn linearize_constraint(
         &self,
         work: &Workspace<D>,
+        still: &Frozen<Jet>,
         (constraint, lambda): (&Constraint<D>, f64),
         probe: &mut Probe<D>,
     ) -> NodeBlocks {
-        let lift = |x: &f64| Jet::from_re(*x);
-        let drives: Vec<[Jet; 3]> = work
-            .kinematics
-            .drives
-            .iter()
-            .map(|d| d.map(Jet::from_re))
-            .collect();
-        let angles: Vec<Jet> = work.kinematics.angles.iter().map(lift).collect();
         let mut nodes = constraint.nodes(&self.bodies.chains);
         if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
             let chain = &self.bodies.chains[along.chain];
@@ -420,7 +406,8 @@ impl<const D: usize> System<D> {
                 .collect();
         }
         let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
-            let mut travel: Vec<Jet> = work.kinematics.travel.iter().map(lift).collect();
+            let travel = work.kinematics.travel.iter();
+            let mut travel: Vec<Jet> = travel.map(|place| Jet::from_re(*place)).collect();
             if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
                 let place = &mut travel[along.slide];
                 *place = along.travel(&self.bodies.chains[along.chain], x, *place);
@@ -428,10 +415,10 @@ impl<const D: usize> System<D> {
             let view = View {
                 x,
                 v,
-                drives: &drives,
+                drives: &still.drives,
                 bodies: &self.bodies,
                 travel: &travel,
-                angles: &angles,
+                angles: &still.angles,
                 released: &work.kinematics.released,
             };
             constraint.for_each(&view, |node, term| {

@@ -254,8 +254,7 @@ fn refuse_paid_out<const D: usize>(
     for winch in &system.bodies.winches {
         let [travel, rate, _] = work.kinematics.drives[winch.coordinate];
         if travel.abs() > 1e-9 * winch.length || !(at_rest || rate == 0.0) {
-            let mut bodies = system.bodies.ranges.iter();
-            let body = bodies.position(|nodes| nodes.contains(&winch.nodes[0]));
+            let body = system.bodies.body_from(winch.nodes.start);
             return Err(SpectrumError::PaidOut(
                 body.expect("a winch pays out a body"),
                 travel,
@@ -285,8 +284,7 @@ fn refuse_turning<const D: usize>(
     }
     elimination.expand(&state.rates, &mut y, &mut v);
     for chain in &system.bodies.chains {
-        let first = chain.nodes(0)[0];
-        let shared = rotation(&x, &v, first..first + chain.node_count());
+        let shared = rotation(&x, &v, chain.range());
         let Some(turn) = shared.filter(|turn| turn.norm() > 0.0) else {
             continue;
         };
@@ -315,14 +313,9 @@ fn refuse_driven<const D: usize>(
     {
         return Ok(());
     }
-    let turns = system.bodies.chains.iter().map(|chain| {
-        let first = chain.nodes(0)[0];
-        rotation(
-            &work.kinematics.x,
-            &work.kinematics.v,
-            first..first + chain.node_count(),
-        )
-    });
+    let (x, v) = (&work.kinematics.x, &work.kinematics.v);
+    let chains = system.bodies.chains.iter();
+    let turns = chains.map(|chain| rotation(x, v, chain.range()));
     if let Some(turn) = turns.flatten().find(|turn| turn.norm() > 0.0) {
         return Err(SpectrumError::Turns(turn.norm()));
     }
@@ -388,9 +381,8 @@ pub(super) fn at_rest<'a, const D: usize>(
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
         let parts = system.loads[load].parts(&system.bodies.chains, &system.bodies.rod_chains);
-        let acted: Vec<usize> = parts.into_iter().flatten().collect();
-        let mut bodies = system.bodies.ranges.iter();
-        let body = bodies.position(|nodes| acted.iter().any(|node| nodes.contains(node)));
+        let acted = parts.into_iter().flatten();
+        let body = acted.filter_map(|node| system.bodies.body_of(node)).min();
         return Err(SpectrumError::NotConservative(
             body.expect("a load acts on a body"),
         ));

@@ -18,7 +18,7 @@ impl<const D: usize> System<D> {
         if self.bodies.frames.of_node::<D>(nodes.start).is_some() {
             return x[nodes.start][0].into();
         }
-        let points = nodes.filter(|node| self.bodies.frames.kind(*node) == NodeKind::Point);
+        let points = nodes.filter(|node| self.bodies.kind(*node) == NodeKind::Point);
         let points: Vec<Vector<D>> = points.map(|node| x[node][0].into()).collect();
         points.iter().sum::<Vector<D>>() / points.len() as f64
     }
@@ -33,7 +33,7 @@ impl<const D: usize> System<D> {
     ) {
         for node in nodes {
             let [p, d] = x[node].map(Vector::from);
-            let p = match self.bodies.frames.kind(node) {
+            let p = match self.bodies.kind(node) {
                 NodeKind::Point => about + way + rotated(p - about, turn),
                 NodeKind::Axes => rotated(p, turn),
                 NodeKind::Inner => {
@@ -167,7 +167,7 @@ impl<const D: usize> System<D> {
             let body = of_node[node];
             let about = self.center(body, x);
             let ([p, d], [on, by]) = (x[node].map(Vector::from), c.map(Vector::from));
-            let is_second = self.bodies.frames.kind(node) == NodeKind::Axes;
+            let is_second = self.bodies.kind(node) == NodeKind::Axes;
             for k in (0..D).filter(|_| !is_second) {
                 jacobian[(row, free * body + k)] += on[k] * size / scale;
             }

@@ -111,7 +111,7 @@ impl<const D: usize> System<D> {
     pub fn field(&self, steady: &Steady<D>, x: &[Node<D>]) -> Vec<Node<D>> {
         let mut rates = steady.rates(x);
         for (node, rate) in rates.iter_mut().enumerate() {
-            match self.bodies.frames.kind(node) {
+            match self.bodies.kind(node) {
                 NodeKind::Point => {}
                 NodeKind::Axes => *rate = x[node].map(|axis| spun(steady.rate, axis.into()).into()),
                 NodeKind::Inner => {

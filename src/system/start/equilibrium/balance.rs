@@ -97,7 +97,7 @@ fn sizes<const D: usize>(system: &System<D>, work: &Workspace<D>) -> Vec<Node<D>
     let size = system.size();
     let node = |(node, x): (usize, &Node<D>)| {
         let mut sizes = x.map(|part| part.map(|x| x.abs().max(1.0)));
-        if system.bodies.frames.kind(node) == NodeKind::Point {
+        if system.bodies.kind(node) == NodeKind::Point {
             sizes[0] = x[0].map(|x| x.abs() + size);
         }
         sizes
@@ -151,7 +151,7 @@ fn gather<const D: usize>(
     (system.elimination.assembly).prolong(force, &mut work.scratch.other);
     for (nodes, squares) in system.bodies.ranges.iter().zip(squares) {
         for node in nodes.clone() {
-            let is_point = system.bodies.frames.kind(node) == NodeKind::Point;
+            let is_point = system.bodies.kind(node) == NodeKind::Point;
             for (part, forces) in work.scratch.other[node].iter().enumerate() {
                 let kind = usize::from(!(is_point && part == 0));
                 squares[kind][column] += weight * forces.iter().map(|f| f * f).sum::<f64>();

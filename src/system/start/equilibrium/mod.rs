@@ -157,16 +157,16 @@ pub fn find<const D: usize>(
         part.scale_loads(fraction, work);
         part
     };
+    let first = first_step(&held, inputs, work, state);
     let path = Path {
         inputs,
-        first: first_step(&held, inputs, work, state),
         predicts: false,
         kept: 0.0,
         swings: turning.is_none(),
         left: Cell::new(most_work),
     };
     let before = state.clone();
-    let found = path.follow(way, work, state);
+    let found = path.follow(first, way, work, state);
     let found = found.map(|found| path.unfold(&held, found, &before, work, state));
     match turning {
         // A turn that nothing drives is neutral, and the tangent singular.
@@ -174,7 +174,7 @@ pub fn find<const D: usize>(
             state.copy_from(&before);
             let kept = norm(&rate);
             let path = Path { kept, ..path };
-            path.follow(way, work, state)
+            path.follow(first, way, work, state)
         }
         _ => found,
     }
@@ -204,20 +204,18 @@ pub(super) fn close<const D: usize>(
     };
     let closing = Path {
         inputs,
-        first: CLOSING,
         predicts: true,
         kept: 0.0,
         swings: true,
         left: Cell::new(f64::INFINITY),
     };
-    let found = closing.follow(way, work, state)?;
+    let found = closing.follow(CLOSING, way, work, state)?;
     let bent = state.clone();
     let last = Path {
-        first: 1.0,
         predicts: false,
         ..closing
     };
-    let relaxed = last.follow(|_, _| ropes.clone(), work, state);
+    let relaxed = last.follow(1.0, |_, _| ropes.clone(), work, state);
     if relaxed.is_ok() && ropes.is_folded(state, work) {
         state.copy_from(&bent);
         return Ok(found);
@@ -264,7 +262,6 @@ impl Tries {
 /// A way through systems.
 struct Path<'a> {
     inputs: &'a [f64],
-    first: f64,
     /// Whether what changes along it moves nodes, so that a step starts from where that takes all others.
     predicts: bool,
     /// Shift that Newton's method keeps, 1/s.
@@ -276,14 +273,15 @@ struct Path<'a> {
 }
 
 impl Path<'_> {
-    /// Follows systems from 0 to 1.
+    /// Follows systems from 0 to 1, in a first step that is given.
     fn follow<const D: usize>(
         &self,
+        first: f64,
         way: impl Fn(f64, &Workspace<D>) -> System<D>,
         work: &mut Workspace<D>,
         state: &mut State,
     ) -> Result<FoundEquilibrium, NoEquilibrium> {
-        let (mut reached, mut step) = (0.0, self.first);
+        let (mut reached, mut step) = (0.0, first);
         let mut why = Failure::Correction(f64::INFINITY);
         let (mut from, mut before) = (state.clone(), way(0.0, work));
         let mut found = FoundEquilibrium { is_stable: true };

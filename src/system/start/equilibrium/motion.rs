@@ -129,7 +129,7 @@ impl<const D: usize> Newton<'_, '_, D> {
         let is_away = |node: usize| {
             let [now, start] = [&now, start].map(|x| Vector::from(x[node][0]));
             let way = (now - start).norm();
-            system.bodies.frames.kind(node) == NodeKind::Point && (way > bound || way.is_nan())
+            system.bodies.kind(node) == NodeKind::Point && (way > bound || way.is_nan())
         };
         let mut bodies = system.bodies.ranges.iter();
         bodies.position(|nodes| nodes.clone().any(is_away))

@@ -3,8 +3,6 @@
 //! cable. An equilibrium that has folds is looked for again from the start, with a bending stiffness under which nothing folds, and which
 //! fades on the way.
 
-use std::cell::Cell;
-
 use super::{BENT, CLOSING, FoundEquilibrium, Path};
 use crate::bodies::Node;
 use crate::system::{State, System, Workspace};
@@ -39,14 +37,7 @@ impl Path<'_> {
             }
             part
         };
-        let slowly = Path {
-            first: CLOSING,
-            left: Cell::new(self.left.get()),
-            ..*self
-        };
-        let again = slowly.follow(path, work, state);
-        self.left.set(slowly.left.get());
-        match again {
+        match self.follow(CLOSING, path, work, state) {
             Ok(again) if !held.is_folded(state, work) => again,
             _ => {
                 state.copy_from(&folded);

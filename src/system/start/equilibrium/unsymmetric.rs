@@ -8,6 +8,7 @@ use crate::bodies::{Node, map_node};
 use crate::math::jet::{Jet, moving, part};
 use crate::math::vector::{dot, norm};
 use crate::system::instant::Instant;
+use crate::system::workspace::Frozen;
 use crate::system::{DrivenSystem, Dynamics};
 
 /// Most steps, and the residual at which the iteration ends, relative to that at its start.
@@ -150,32 +151,21 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
         .bodies
         .frames
         .place_changes(&work.kinematics.x, &mut work.scratch.other);
-    let jets = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
-    let (inputs, rates) = (
-        jets(&work.kinematics.inputs),
-        jets(&work.kinematics.input_rates),
-    );
-    let angles = jets(&work.kinematics.angles);
+    let still: Frozen<Jet> = work.kinematics.frozen();
     let zero = Jet::from_re(0.0);
-    let drives: Vec<[Jet; 3]> = work
-        .kinematics
-        .drives
-        .iter()
-        .map(|d| d.map(Jet::from_re))
-        .collect();
     let pairs = work.kinematics.x.iter().zip(&work.scratch.other);
     let x: Vec<Node<D, Jet>> = pairs.map(|(x, dx)| moving(x, dx)).collect();
     let v = vec![[[zero; D]; 2]; x.len()];
     let mut f = v.clone();
     let at = Instant {
         time,
-        inputs: &inputs,
-        input_rates: &rates,
-        drives: &drives,
+        inputs: &still.inputs,
+        input_rates: &still.input_rates,
+        drives: &still.drives,
         x: &x,
         v: &v,
         bodies: &system.bodies,
-        angles: (&system.angles, &angles),
+        angles: (&system.angles, &still.angles),
     };
     let loads = || (system.loads.iter()).filter(|load| !load.is_conservative());
     loads().for_each(|load| load.add_force(at, &mut f));
