@@ -3,9 +3,9 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    ContactBody, DirectionSource, Ends, Hold, JointCoordinate, LoadKind, MotionKind, PortKind,
-    ResolvedContact, ResolvedFluid, ResolvedGear, ResolvedJoint, ResolvedLoad, ResolvedMotion,
-    ResolvedPort, Scene, SceneVector, Surface, Value,
+    ContactBody, DirectionSource, Ends, JointCoordinate, JointPrimitive, LoadKind, MotionKind,
+    PortKind, ResolvedContact, ResolvedFluid, ResolvedGear, ResolvedJoint, ResolvedLoad,
+    ResolvedMotion, ResolvedPort, Scene, SceneVector, Surface, Value,
 };
 use crate::system::{Drive, Signal};
 
@@ -140,7 +140,7 @@ fn given(before: &str, value: Option<f64>, unit: &str) -> String {
 /// The row of a joint.
 fn joint_in_words(dimension: usize, joint: &ResolvedJoint<'_>) -> String {
     let kind = joint.kind_name();
-    let holds = joint.holds.iter();
+    let holds = joint.primitives.iter();
     let holds = holds.map(|hold| hold_in_words(dimension, joint, hold));
     let until = joint.release.and_then(|release| release.time);
     let until = until.map(|time| format!("lets go at {} s", number(time)));
@@ -149,11 +149,11 @@ fn joint_in_words(dimension: usize, joint: &ResolvedJoint<'_>) -> String {
 }
 
 /// Describes what a joint holds.
-fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &Hold) -> String {
+fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &JointPrimitive) -> String {
     let point = at_point(dimension, &joint.ends);
     match hold {
-        Hold::Position => format!("the position{point}"),
-        Hold::Line(direction) => {
+        JointPrimitive::AtPoint => format!("the position{point}"),
+        JointPrimitive::Inline(direction) => {
             let axes = if joint.ends.is_grounded() {
                 ""
             } else {
@@ -162,23 +162,27 @@ fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &Hold) -> St
             let along = vector(dimension, *direction);
             format!("the position on a line along {along}{axes}{point}")
         }
-        Hold::Direction(angle) => format!("the direction{}", given(" at", *angle, "rad")),
-        Hold::Distance(length) => format!("the distance{}{point}", given(" of", *length, "m")),
-        Hold::Axis(axis) => {
+        JointPrimitive::Orientation(angle) => {
+            format!("the direction{}", given(" at", *angle, "rad"))
+        }
+        JointPrimitive::Distance(length) => {
+            format!("the distance{}{point}", given(" of", *length, "m"))
+        }
+        JointPrimitive::ParallelAxes(axis) => {
             let axis = vector(dimension, *axis);
             format!("the axis that is along {axis} at the start")
         }
-        Hold::Across(a, b) => {
+        JointPrimitive::Perpendicular(a, b) => {
             let [a, b] = [*a, *b].map(|of| vector(dimension, of));
             format!("a right angle between the axes that are along {a} and {b} at the start")
         }
-        Hold::Plane(across) => format!(
+        JointPrimitive::Inplane(across) => format!(
             "the position in the plane across {} at the start{point}",
             vector(dimension, *across)
         ),
-        Hold::Screw(pitch) => format!("{} m along it a full turn", number(*pitch)),
-        Hold::Curve(..) => "the position on the line of the cable".into(),
-        Hold::Spring {
+        JointPrimitive::Screw(pitch) => format!("{} m along it a full turn", number(*pitch)),
+        JointPrimitive::PointOnCurve => "the position on the line of the cable".into(),
+        JointPrimitive::Spring {
             rest,
             stiffness,
             damping,

@@ -5,8 +5,9 @@
 //! are given by what a cable has no key for, and joints that hold how a line stands about its tangent.
 
 use super::description::{Body, Input, LineBody, LineModel, SectionNumbers};
-use super::resolved::{First, Hold, Place, Resolved};
+use super::resolved::{First, Place, Resolved};
 use super::{Error, Scene};
+use crate::scene::description::JointPrimitive;
 
 /// Choice of the planner for a body of `"element": "auto"`.
 #[derive(Clone, Debug, PartialEq)]
@@ -318,9 +319,9 @@ fn held(resolved: &Resolved<'_>, chosen: &[Chosen]) -> Option<(usize, String)> {
     cables.find_map(|(place, of)| {
         let is_of = |place: &Place<'_>| place.body_index() == of.body;
         let joints = resolved.joints.iter().filter(|joint| {
-            let is_held = |hold: &Hold| matches!(hold, Hold::Direction(_));
+            let is_held = |hold: &JointPrimitive| matches!(hold, JointPrimitive::Orientation(_));
             let ends = joint.ends.markers();
-            joint.holds.iter().any(is_held) && ends.into_iter().any(|end| is_of(&end.place))
+            joint.primitives.iter().any(is_held) && ends.into_iter().any(|end| is_of(&end.place))
         });
         let joints: Vec<_> = joints.collect();
         let is_ground = |first: &First<'_>| matches!(first, First::Ground(_));

@@ -4,13 +4,14 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::description::{Kinds as _, Symbol};
 use super::resolved::{
-    Action, BodyReference, Cable, DirectionSource, Ends, First, Form, Hold, JointCoordinate,
-    LineId, LoadTarget, MarkerId, MotionKind, Pivot, Place, Resolved, ResolvedJoint,
-    ResolvedMarker, Rigid, RigidId, SlideId, Slider,
+    Action, BodyReference, Cable, DirectionSource, Ends, First, Form, JointCoordinate, LineId,
+    LoadTarget, MarkerId, MotionKind, Pivot, Place, Resolved, ResolvedJoint, ResolvedMarker, Rigid,
+    RigidId, Slider,
 };
 use super::{Body, LineBody, Model, RigidBody, Scene};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
+use crate::scene::description::JointPrimitive;
 use crate::system::Drive;
 
 /// From a point to another.
@@ -306,8 +307,8 @@ impl<'a> ResolvedJoint<'a> {
 
     /// Stiffness (N m/rad) and damping (N m s/rad) of its spring.
     pub fn spring(&self) -> Option<[f64; 2]> {
-        self.holds.iter().find_map(|hold| match hold {
-            Hold::Spring {
+        self.primitives.iter().find_map(|hold| match hold {
+            JointPrimitive::Spring {
                 stiffness, damping, ..
             } => Some([*stiffness, *damping]),
             _ => None,
@@ -316,31 +317,36 @@ impl<'a> ResolvedJoint<'a> {
 
     /// Whether it holds the direction of what it joins.
     pub fn holds_direction(&self) -> bool {
-        self.holds
-            .iter()
-            .any(|hold| matches!(hold, Hold::Direction(_) | Hold::Axis(_) | Hold::Across(..)))
+        self.primitives.iter().any(JointPrimitive::is_directional)
     }
 
     /// Whether it holds a position or a distance.
     pub fn holds_position(&self) -> bool {
-        let is_position = |hold: &Hold| {
-            use Hold::{Across, Axis, Direction, Spring};
-            !matches!(hold, Direction(_) | Axis(_) | Across(..) | Spring { .. })
-        };
-        self.holds.iter().any(is_position)
+        let is_spring = |of: &JointPrimitive| matches!(of, JointPrimitive::Spring { .. });
+        let mut primitives = self.primitives.iter();
+        primitives.any(|of| !of.is_directional() && !is_spring(of))
     }
 
     /// As a joint with an angle: its ends turn about one point.
     pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
-        if self.holds.iter().any(|hold| matches!(hold, Hold::Plane(_))) {
+        if self
+            .primitives
+            .iter()
+            .any(|hold| matches!(hold, JointPrimitive::Inplane(_)))
+        {
             return None;
         }
-        let axis = self.holds.iter().find_map(|hold| match hold {
-            Hold::Axis(axis) => Some(*axis),
+        let axis = self.primitives.iter().find_map(|hold| match hold {
+            JointPrimitive::ParallelAxes(axis) => Some(*axis),
             _ => None,
         });
-        match (axis, &self.holds[..]) {
-            (None, [Hold::Position] | [Hold::Position, Hold::Spring { .. }]) | (Some(_), _) => {}
+        match (axis, &self.primitives[..]) {
+            (
+                None,
+                [JointPrimitive::AtPoint]
+                | [JointPrimitive::AtPoint, JointPrimitive::Spring { .. }],
+            )
+            | (Some(_), _) => {}
             (None, _) => return None,
         }
         Some(Pivot {
@@ -353,8 +359,8 @@ impl<'a> ResolvedJoint<'a> {
 
     /// As a joint along a line of the ground or of a rigid body.
     pub(super) fn slider(&self) -> Option<Slider<'a>> {
-        let direction = self.holds.iter().find_map(|hold| match hold {
-            Hold::Line(direction) => Some(*direction),
+        let direction = self.primitives.iter().find_map(|hold| match hold {
+            JointPrimitive::Inline(direction) => Some(*direction),
             _ => None,
         })?;
         let along = match self.ends.first {
@@ -380,14 +386,6 @@ impl<'a> ResolvedJoint<'a> {
             ends: self.ends,
             direction,
             along: along.map(|part| part / size),
-        })
-    }
-
-    /// The slide along a cable that it is.
-    pub(super) fn slide(&self) -> Option<SlideId> {
-        self.holds.iter().find_map(|hold| match hold {
-            Hold::Curve(_, slide) => Some(*slide),
-            _ => None,
         })
     }
 }

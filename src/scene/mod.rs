@@ -28,15 +28,16 @@ pub use alike::did_you_mean;
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, Experiment, Inertia, Initial,
-    InitialMotion, InitialState, InputCourse, Integrator, Interpolation, LineBody, LineModel,
-    Material, Method, Model, Orientation, OutputKind, Profile, RigidBody, Scene, SceneVector,
-    Section, SectionNumbers, Shape, Solid, Spin, Station, Strain, Surface, Symbol, Table, Value,
+    InitialMotion, InitialState, InputCourse, Integrator, Interpolation, JointPrimitive, LineBody,
+    LineModel, Material, Method, Model, Orientation, OutputKind, Profile, RigidBody, Scene,
+    SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain, Surface, Symbol,
+    Table, Value,
 };
 pub use elements::Chosen;
 pub use remarks::remarks;
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, ContactBody,
-    Coupling, CouplingId, DirectionSource, Ends, First, Hold, Incoming, Input, InputKind,
+    Coupling, CouplingId, DirectionSource, Ends, First, Incoming, Input, InputKind,
     JointCoordinate, LineId, LoadId, LoadKind, LoadTarget, MarkerId, MotionKind, Output,
     OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Resolved, ResolvedBushing,
     ResolvedContact, ResolvedFluid, ResolvedGear, ResolvedJoint, ResolvedLoad, ResolvedMarker,

@@ -6,7 +6,9 @@ mod outputs;
 
 use std::collections::BTreeMap;
 
-use super::description::{JointKind, LineBody, Port as GivenPort, RigidBody, Scene, Value};
+use super::description::{
+    JointKind, JointPrimitive, LineBody, Port as GivenPort, RigidBody, Scene, Value,
+};
 use crate::system::{Drive, Release};
 pub use loads::{
     Action, ContactBody, LoadKind, LoadTarget, ResolvedBushing, ResolvedContact, ResolvedFluid,
@@ -182,7 +184,7 @@ pub struct Slider<'a> {
     pub joint: ConstraintOwnerId,
     /// Ends of the joint.
     pub ends: Ends<'a>,
-    /// Direction of the line as [`Hold::Line`] has it.
+    /// Direction of the line as [`JointPrimitive::Inline`] has it.
     pub direction: [f64; 3],
     /// Direction of the line at the start, a unit vector in global axes.
     pub along: [f64; 3],
@@ -244,42 +246,12 @@ pub struct ResolvedJoint<'a> {
     pub(super) is_planar: bool,
     /// Ends of the joint.
     pub ends: Ends<'a>,
-    /// Primitives of the joint.
-    pub holds: Vec<Hold>,
+    /// Primitives of the joint, in space with directions in global axes at the start.
+    pub primitives: Vec<JointPrimitive>,
+    /// Place of the cable among the chains, and number of the slide, of a point on the curve of a cable.
+    pub slide: Option<(usize, SlideId)>,
     /// Time or input of the release, if the joint can be released.
     pub release: Option<Release>,
-}
-
-/// Primitive of a joint. An angle (rad) or a length (m) that is not given is that at the start.
-#[derive(Clone, Copy, Debug)]
-pub enum Hold {
-    /// The position.
-    Position,
-    /// The position on a line through the first end: its direction in the axes of that end, of any length.
-    Line([f64; 3]),
-    /// The direction, at this angle from that of the first end; in space how bodies stand to each other.
-    Direction(Option<f64>),
-    /// An axis, which stays along that of the first body: its direction at the start, in global axes.
-    Axis([f64; 3]),
-    /// A right angle between an axis of the first body and one of the second: their directions at the start, in global axes.
-    Across([f64; 3], [f64; 3]),
-    /// The position in a plane through the first end: the direction across it at the start, in global axes.
-    Plane([f64; 3]),
-    /// Displacement along a line in proportion to the angle about it: the displacement of one full turn, m.
-    Screw(f64),
-    /// The distance.
-    Distance(Option<f64>),
-    /// The position on the curve of a cable that bends, by its place among the chains, and which slide that is.
-    Curve(usize, SlideId),
-    /// The direction, by a spring and a damper.
-    Spring {
-        /// Angle at rest.
-        rest: Option<f64>,
-        /// Stiffness, N m/rad.
-        stiffness: f64,
-        /// Damping, N m s/rad.
-        damping: f64,
-    },
 }
 
 /// A driven motion.

@@ -4,8 +4,10 @@
 mod rows;
 
 use super::end::{Angle, Attachment};
-use super::joints::{Constraint, ConstraintKind, JointEquations, Linear, Primitive, Target, View};
-use super::loads::AppliedLoad;
+use super::joints::{
+    Constraint, ConstraintKind, Equation as _, JointEquations, Linear, Primitive, Target, View,
+};
+use super::loads::{AppliedLoad, BushingMeasure, ForceElement as _};
 use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{DrivenRow, System};
@@ -127,11 +129,13 @@ impl<const D: usize> System<D> {
 
     /// Finds what functions of time there are.
     fn find_functions(&mut self) {
-        let has_breaks = self.functions().any(|(_, f)| f.has_breaks())
-            || self.releases.iter().any(|release| release.time.is_some());
-        // Tables are smooth between their points.
-        let is_expression = |f: &Function| matches!(f, Function::Expression(_));
-        let is_driven_by_time = self.functions().any(|(_, f)| is_expression(f));
+        let mut has_breaks = self.releases.iter().any(|release| release.time.is_some());
+        let mut is_driven_by_time = false;
+        self.each_function(|function| {
+            has_breaks |= function.has_breaks();
+            // Tables are smooth between their points.
+            is_driven_by_time |= matches!(function, Function::Expression(_));
+        });
         (self.has_breaks, self.is_driven_by_time) = (has_breaks, is_driven_by_time);
     }
 
@@ -381,7 +385,7 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
     for load in &parts.loads {
         let is_grounded = match load {
             AppliedLoad::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),
-            AppliedLoad::Bushing(_) => true,
+            AppliedLoad::Bushing(of) => matches!(of.measure, BushingMeasure::Point(_)),
             _ => false,
         };
         if is_grounded {
@@ -389,7 +393,7 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
         }
     }
     for constraint in nonlinear.iter().filter(|c| c.is_grounded()) {
-        nodes.extend(constraint.nodes(&parts.bodies.chains));
+        nodes.extend(constraint.kind.nodes(&parts.bodies));
     }
     nodes
 }

@@ -25,7 +25,6 @@ pub use direction::{AxisTurn, Direction};
 pub use end::{Angle, Attachment, reach};
 pub use gradient::Gradient;
 pub use instant::Instant;
-pub use motion::breaks::Follower;
 pub use motion::dynamics::{DrivenSystem, Dynamics, StepOutcome};
 pub use motion::multipliers::ConstraintRow;
 pub use motion::rank::{HoldingParts, Redundant};
@@ -51,7 +50,7 @@ use crate::math::space::Vector;
 use crate::bodies::{Bodies, Elimination, Node};
 pub use joints::Release;
 use joints::{Constraint, JointEquations, Linear};
-use loads::AppliedLoad;
+use loads::{AppliedLoad, ForceElement as _};
 use motion::tree::Tree;
 
 /// Everything about a system that does not change in time.

@@ -6,9 +6,9 @@ use super::recording::Recording;
 use super::sections::{SectionStress, has_corners, sections};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
 use crate::scene::{
-    BodyReference, Cable, Ends, First, Hold, Inertia, JointCoordinate, LineBody, LoadKind, Place,
-    PortKind, Resolved, ResolvedJoint, ResolvedLoad, ResolvedMarker, Rigid, RigidBody, Solid,
-    Symbol,
+    BodyReference, Cable, Ends, First, Inertia, JointCoordinate, JointPrimitive, LineBody,
+    LoadKind, Place, PortKind, Resolved, ResolvedJoint, ResolvedLoad, ResolvedMarker, Rigid,
+    RigidBody, Solid, Symbol,
 };
 use crate::simulation::Pose;
 
@@ -347,12 +347,7 @@ fn of_joint(recording: &Recording, joint: &ResolvedJoint<'_>) -> String {
         Symbol::Link => "link",
         Symbol::Ring => "ring",
     };
-    let direction = joint.holds.iter().find_map(|hold| match hold {
-        Hold::Line(along) | Hold::Axis(along) | Hold::Plane(along) | Hold::Across(along, _) => {
-            Some(*along)
-        }
-        _ => None,
-    });
+    let direction = joint.primitives.iter().find_map(JointPrimitive::direction);
     let direction = direction
         .filter(|_| recording.scene.dimension == 3 || matches!(symbol, "slider" | "prismatic"));
     let direction = direction.map_or("null".into(), |direction| format!("{direction:?}"));

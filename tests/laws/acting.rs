@@ -6,8 +6,8 @@ use flexbody::elements::Element;
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
-    AppliedLoad, Bushing, Contact, ContactPoint, ContactSurface, JointLimit, JointSpring,
-    RotationalBushing,
+    AppliedLoad, Bushing, BushingMeasure, Contact, ContactPoint, ContactSurface, ForceElement as _,
+    FromAngle, FromPoint, JointLimit, JointSpring,
 };
 use flexbody::system::{Angle, Attachment, Coordinate, Direction, Signal, Translation};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -257,6 +257,15 @@ fn moving(wave: Wave) -> [Signal; 2] {
     [Signal::Function(wave.function()), Signal::Function(rate)]
 }
 
+/// A bushing with one stiffness and one damping, along and about all axes.
+fn bushing(measure: BushingMeasure, [stiffness, damping]: [f64; 2]) -> AppliedLoad {
+    AppliedLoad::Bushing(Box::new(Bushing {
+        measure,
+        stiffness: [[stiffness; 3]; 2],
+        damping: [[damping; 3]; 2],
+    }))
+}
+
 /// Springs and dampers to a point and an angle that move, and springs alone.
 fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
     let made = &frame.made;
@@ -272,25 +281,27 @@ fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
             let ends = [Attachment::Ground(Default::default()), end];
             couplings.push(Acted {
                 frame,
-                load: AppliedLoad::Bushing(Bushing {
-                    marker,
-                    stiffness: 3.0 + made.noise[34],
-                    damping,
-                    position: [x, y],
-                    velocity: [vx, vy],
-                }),
+                load: bushing(
+                    BushingMeasure::Point(FromPoint {
+                        marker,
+                        position: [x, y],
+                        velocity: [vx, vy],
+                    }),
+                    [3.0 + made.noise[34], damping],
+                ),
                 angles: Vec::new(),
             });
             couplings.push(Acted {
                 frame,
-                load: AppliedLoad::RotationalBushing(RotationalBushing {
-                    marker,
-                    counted: 0,
-                    stiffness: 3.0 + made.noise[34],
-                    damping,
-                    angle,
-                    velocity,
-                }),
+                load: bushing(
+                    BushingMeasure::Angle(FromAngle {
+                        marker,
+                        counted: 0,
+                        angle,
+                        velocity,
+                    }),
+                    [3.0 + made.noise[34], damping],
+                ),
                 angles: vec![Angle { ends, turn: None }],
             });
         }
@@ -320,8 +331,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
             | AppliedLoad::JointSpring(_)
             | AppliedLoad::JointLimit(_)
             | AppliedLoad::Contact(_) => true,
-            AppliedLoad::Bushing(load) => load.damping == 0.0,
-            AppliedLoad::RotationalBushing(load) => load.damping == 0.0,
+            AppliedLoad::Bushing(load) => !load.is_damped(),
             _ => false,
         };
         if conservative {

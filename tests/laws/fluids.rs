@@ -3,7 +3,9 @@
 use flexbody::bodies::{Node, NodeBlock};
 use flexbody::math::quadrature::GAUSS_5;
 use flexbody::math::space::Vector;
-use flexbody::system::loads::{AppliedLoad, Fluid, FluidSegment, LineLoad, LoadedLine};
+use flexbody::system::loads::{
+    AppliedLoad, Fluid, FluidSegment, ForceElement as _, LineLoad, LoadedLine,
+};
 use flexbody::system::{Instant, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

@@ -7,7 +7,9 @@ use flexbody::math::function::Function;
 use flexbody::math::rotation;
 use flexbody::scene::Scene;
 use flexbody::simulation::Simulation;
-use flexbody::system::loads::{AppliedLoad, Force, OrientationBushing, SpatialMoment};
+use flexbody::system::loads::{
+    AppliedLoad, Bushing, BushingMeasure, Force, FromOrientation, SpatialMoment,
+};
 use flexbody::system::{
     Attachment, Derivatives, Direction, DrivenSystem, Evaluation, Parts, Signal, State, System,
     Workspace,
@@ -192,13 +194,15 @@ fn held(value: f64) -> Signal {
 fn pulled(body: usize, towards: Rotation3<f64>, stiffness: f64) -> AppliedLoad<3> {
     let columns = [0, 1, 2].map(|k| towards.matrix().column(k).into_owned());
     let q = rotation::quaternion(&columns);
-    AppliedLoad::OrientationBushing(Box::new(OrientationBushing {
-        axes: [0, 1, 2].map(|k| marker((body, V::zeros()), axis(k))),
-        stiffness,
-        damping: 0.0,
-        // Of any length and either sign.
-        quaternion: q.map(|part| held(-1.7 * part)),
-        velocity: [0.0; 3].map(held),
+    AppliedLoad::Bushing(Box::new(Bushing {
+        measure: BushingMeasure::Orientation(FromOrientation {
+            axes: [0, 1, 2].map(|k| marker((body, V::zeros()), axis(k))),
+            // Of any length and either sign.
+            quaternion: q.map(|part| held(-1.7 * part)),
+            velocity: [0.0; 3].map(held),
+        }),
+        stiffness: [[0.0; 3], [stiffness; 3]],
+        damping: [[0.0; 3]; 2],
     }))
 }
 

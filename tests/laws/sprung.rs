@@ -4,7 +4,9 @@
 use flexbody::bodies::Marker;
 use flexbody::math::function::Function;
 use flexbody::system::joints::{Coupler, JointEquations, Primitive};
-use flexbody::system::loads::{AppliedLoad, JointLimit, JointSpring, SixBushing};
+use flexbody::system::loads::{
+    self, AppliedLoad, BetweenFrames, BushingMeasure, JointLimit, JointSpring,
+};
 use flexbody::system::{
     Angle, Attachment, AxisTurn, Coordinate, Direction, Drive, Parts, Translation,
 };
@@ -156,14 +158,16 @@ impl Sprung {
                     Ok(marker) => Attachment::Body(marker),
                     Err(_) => Attachment::Ground(bushing.points[i]),
                 };
-                AppliedLoad::SixBushing(Box::new(SixBushing {
-                    ways: std::array::from_fn(|k| Translation {
-                        ends: [end(0, k), end(1, k)],
-                        direction: direction(0, k),
-                        turn: [0.0, 1.0],
+                AppliedLoad::Bushing(Box::new(loads::Bushing {
+                    measure: BushingMeasure::Frames(BetweenFrames {
+                        ways: std::array::from_fn(|k| Translation {
+                            ends: [end(0, k), end(1, k)],
+                            direction: direction(0, k),
+                            turn: [0.0, 1.0],
+                        }),
+                        rest: bushing.rest.into(),
+                        axes: [0, 1].map(|i| std::array::from_fn(|k| direction(i, k))),
                     }),
-                    rest: bushing.rest.into(),
-                    axes: [0, 1].map(|i| std::array::from_fn(|k| direction(i, k))),
                     stiffness: bushing.stiffness.map(Into::into),
                     damping: bushing.damping.map(Into::into),
                 }))

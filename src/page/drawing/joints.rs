@@ -4,8 +4,8 @@ use super::picture::{MarkerInImage, Picture};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{
-    Ends, First, Hold, JointCoordinate, LoadKind, MotionKind, Place as On, PortKind, ResolvedGear,
-    ResolvedJoint, Symbol,
+    Ends, First, JointCoordinate, JointPrimitive, LoadKind, MotionKind, Place as On, PortKind,
+    ResolvedGear, ResolvedJoint, Symbol,
 };
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
@@ -61,14 +61,16 @@ impl Picture<'_> {
     /// Direction of the line that a joint holds its second marker on.
     fn along(&self, joint: &ResolvedJoint<'_>) -> [f64; 2] {
         if self.scene.dimension == 3 {
-            let given = joint.holds.iter().find_map(|hold| match hold {
-                Hold::Line(direction) | Hold::Plane(direction) => Some(*direction),
+            let given = joint.primitives.iter().find_map(|hold| match hold {
+                JointPrimitive::Inline(direction) | JointPrimitive::Inplane(direction) => {
+                    Some(*direction)
+                }
                 _ => None,
             });
             return self.way(given.unwrap_or_default());
         }
-        let given = joint.holds.iter().find_map(|hold| match hold {
-            Hold::Line(direction) => Some(*direction),
+        let given = joint.primitives.iter().find_map(|hold| match hold {
+            JointPrimitive::Inline(direction) => Some(*direction),
             _ => None,
         });
         let [a, b] = self.way(given.unwrap_or_default());

@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use super::Builder;
 use crate::bodies::{Marker, axes_at};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
-use crate::scene::resolved::{self, Action, DirectionSource, Hold, Pivot, Place};
+use crate::scene::description::JointPrimitive;
+use crate::scene::resolved::{self, Action, DirectionSource, Pivot, Place};
 use crate::system::joints::{Across, Clamp, Perpendicular, Primitive};
 use crate::system::loads::{AppliedLoad, SpatialMoment};
 use crate::system::{Attachment, AxisTurn, Direction, reach};
@@ -147,11 +148,16 @@ impl<const D: usize> Builder<'_, D> {
 
     /// A section of a rod or beam that is welded to the ground is held by rows alone, if no other joint does so already.
     pub(super) fn clamp(&self, joint: &resolved::ResolvedJoint<'_>) -> Option<Primitive<D>> {
-        let ([Hold::Position, Hold::Direction(_)], true, Place::Along(cable, s)) = (
-            &joint.holds[..],
+        let (
+            [JointPrimitive::AtPoint, JointPrimitive::Orientation(_)],
+            true,
+            Place::Along(cable, s),
+        ) = (
+            &joint.primitives[..],
             D == 3 && joint.ends.is_grounded(),
             joint.ends.second.place,
-        ) else {
+        )
+        else {
             return None;
         };
         let marker = self.marker(joint.ends.second);

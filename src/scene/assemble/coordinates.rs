@@ -6,7 +6,9 @@ use crate::scene::resolved::{
     self, DirectionSource, First, JointCoordinate, Pivot, ResolvedGear, Slider,
 };
 use crate::system::joints::{Coupler, Primitive};
-use crate::system::loads::{AppliedLoad, JointLimit, JointSpring, SixBushing};
+use crate::system::loads::{
+    AppliedLoad, BetweenFrames, Bushing, BushingMeasure, JointLimit, JointSpring,
+};
 use crate::system::{Angle, Attachment, Coordinate, Direction, Translation};
 
 impl<const D: usize> Builder<'_, D> {
@@ -99,10 +101,12 @@ impl<const D: usize> Builder<'_, D> {
             direction,
             turn: [0.0, 1.0],
         });
-        AppliedLoad::SixBushing(Box::new(SixBushing {
-            rest: ways.map(|way| way.value(nodes)),
-            ways,
-            axes: [three(&first), three(&second)],
+        AppliedLoad::Bushing(Box::new(Bushing {
+            measure: BushingMeasure::Frames(BetweenFrames {
+                rest: ways.map(|way| way.value(nodes)),
+                ways,
+                axes: [three(&first), three(&second)],
+            }),
             stiffness: bushing.stiffness,
             damping: bushing.damping,
         }))

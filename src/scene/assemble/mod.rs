@@ -19,13 +19,13 @@ pub use initial::Motions;
 use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
-    self, CouplingId, DirectionSource, Ends, First, Hold, LoadId, MarkerId, Place, PointId,
-    Resolved,
+    self, CouplingId, DirectionSource, Ends, First, LoadId, MarkerId, Place, PointId, Resolved,
 };
 use super::{Error, OutputKind, Scene};
 use crate::bodies::{Bodies, LumpedMass, Marker, Node};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
+use crate::scene::description::JointPrimitive;
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
     Angle, Attachment, AxisTurn, BuildError, Coordinate, Parts, State, StressPoint, System,
@@ -336,9 +336,9 @@ impl<const D: usize> Builder<'_, D> {
         for joint in &self.resolved.joints {
             let ends = self.ends(joint.ends);
             let mut holds = Vec::new();
-            for hold in &joint.holds {
+            for hold in &joint.primitives {
                 match (hold, joint.pivot(), joint.slider()) {
-                    (Hold::Screw(pitch), Some(pivot), Some(slider)) => {
+                    (JointPrimitive::Screw(pitch), Some(pivot), Some(slider)) => {
                         holds.push(self.screw(pivot, slider, *pitch));
                     }
                     _ => holds.extend(self.primitives(hold, joint, ends)),
@@ -346,7 +346,7 @@ impl<const D: usize> Builder<'_, D> {
             }
             // A joint that can be released needs multipliers.
             holds.extend(self.clamp(joint).filter(|_| joint.release.is_none()));
-            let springs = joint.holds.iter();
+            let springs = joint.primitives.iter();
             let turn = self.turn_of(joint);
             let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));
             let spring = spring.last();
@@ -370,21 +370,21 @@ impl<const D: usize> Builder<'_, D> {
     /// The equations of what a joint holds; none of a spring.
     fn primitives(
         &self,
-        hold: &Hold,
+        hold: &JointPrimitive,
         joint: &resolved::ResolvedJoint<'_>,
         ends: [Attachment<D>; 2],
     ) -> Vec<Primitive<D>> {
         let is_framed = ends.iter().any(Attachment::is_framed);
         match *hold {
-            Hold::Line(direction) if D == 3 && !joint.ends.is_grounded() => {
+            JointPrimitive::Inline(direction) if D == 3 && !joint.ends.is_grounded() => {
                 self.on_line(ends, direction)
             }
-            Hold::Axis(axis) => self.along_axis(ends, axis),
-            Hold::Across(first, second) => {
+            JointPrimitive::ParallelAxes(axis) => self.along_axis(ends, axis),
+            JointPrimitive::Perpendicular(first, second) => {
                 vec![self.right_angle(ends, [first, second].map(vector))]
             }
-            Hold::Plane(across) => vec![self.across_way(ends, unit(across))],
-            Hold::Direction(_) if D == 3 && is_framed => self.standing(ends),
+            JointPrimitive::Inplane(across) => vec![self.across_way(ends, unit(across))],
+            JointPrimitive::Orientation(_) if D == 3 && is_framed => self.standing(ends),
             _ => self.primitive(hold, joint, ends).into_iter().collect(),
         }
     }
@@ -392,35 +392,39 @@ impl<const D: usize> Builder<'_, D> {
     /// The equation of what a joint holds; none of a spring.
     fn primitive(
         &self,
-        hold: &Hold,
+        hold: &JointPrimitive,
         joint: &resolved::ResolvedJoint<'_>,
         ends: [Attachment<D>; 2],
     ) -> Option<Primitive<D>> {
         Some(match *hold {
-            Hold::Position => Primitive::Coincident,
-            Hold::Line(direction) => Primitive::Line(unit(direction)),
-            Hold::Direction(given) if D == 2 => Primitive::Direction(self.angle(ends, given)),
-            Hold::Direction(_) => Primitive::Clamped(vector(joint.ends.second.direction)),
-            Hold::Distance(given) => {
+            JointPrimitive::AtPoint => Primitive::Coincident,
+            JointPrimitive::Inline(direction) => Primitive::Line(unit(direction)),
+            JointPrimitive::Orientation(given) if D == 2 => {
+                Primitive::Direction(self.angle(ends, given))
+            }
+            JointPrimitive::Orientation(_) => {
+                Primitive::Clamped(vector(joint.ends.second.direction))
+            }
+            JointPrimitive::Distance(given) => {
                 Primitive::Distance(given.unwrap_or_else(|| self.distance_at_start(&ends)))
             }
-            Hold::Curve(chain, _) => Primitive::Curve(chain),
-            Hold::Spring { .. }
-            | Hold::Axis(_)
-            | Hold::Across(..)
-            | Hold::Plane(_)
-            | Hold::Screw(_) => return None,
+            JointPrimitive::PointOnCurve => Primitive::Curve(joint.slide?.0),
+            JointPrimitive::Spring { .. }
+            | JointPrimitive::ParallelAxes(_)
+            | JointPrimitive::Perpendicular(..)
+            | JointPrimitive::Inplane(_)
+            | JointPrimitive::Screw(_) => return None,
         })
     }
 
     /// Appends the spring of a revolute joint to the loads; its place there.
     fn spring_of(
         &mut self,
-        hold: &Hold,
+        hold: &JointPrimitive,
         ends: [Attachment<D>; 2],
         turn: Option<AxisTurn<D>>,
     ) -> Option<usize> {
-        let Hold::Spring {
+        let JointPrimitive::Spring {
             rest,
             stiffness,
             damping,

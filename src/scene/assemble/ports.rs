@@ -3,7 +3,9 @@
 use super::Builder;
 use crate::scene::resolved::{Coupling, PortKind, ResolvedPort};
 use crate::system::Signal;
-use crate::system::loads::{self, AppliedLoad, OrientationBushing, RotationalBushing};
+use crate::system::loads::{
+    AppliedLoad, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint,
+};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn ports(&mut self) {
@@ -27,42 +29,49 @@ impl<const D: usize> Builder<'_, D> {
 
     fn couple_position(&mut self, port: &ResolvedPort<'_>, coupling: &Coupling<'_>) {
         let signal = |k| Signal::Input(coupling.first + k);
-        self.couple(AppliedLoad::Bushing(loads::Bushing {
+        let of = BushingMeasure::Point(FromPoint {
             marker: self.marker(port.marker),
-            stiffness: coupling.stiffness,
-            damping: coupling.damping,
             position: std::array::from_fn(|k| signal(2 * k)),
             velocity: std::array::from_fn(|k| signal(2 * k + 1)),
-        }));
+        });
+        self.couple(of, 0, coupling);
     }
 
     fn couple_angle(&mut self, port: &ResolvedPort<'_>, coupling: &Coupling<'_>) {
-        let counted = self.count_angle(self.on_marker(port.marker), None);
-        self.couple(AppliedLoad::RotationalBushing(RotationalBushing {
+        let of = BushingMeasure::Angle(FromAngle {
             marker: self.marker(port.marker),
-            counted,
-            stiffness: coupling.stiffness,
-            damping: coupling.damping,
+            counted: self.count_angle(self.on_marker(port.marker), None),
             angle: Signal::Input(coupling.first),
             velocity: Signal::Input(coupling.first + 1),
-        }));
+        });
+        self.couple(of, 1, coupling);
     }
 
     fn couple_orientation(&mut self, port: &ResolvedPort<'_>, coupling: &Coupling<'_>) {
         let signal = |k| Signal::Input(coupling.first + k);
         let axes = self.frame_axes(port.marker);
-        let bushing = OrientationBushing {
+        let of = BushingMeasure::Orientation(FromOrientation {
             axes: std::array::from_fn(|k| axes[k]),
-            stiffness: coupling.stiffness,
-            damping: coupling.damping,
             quaternion: std::array::from_fn(signal),
             velocity: std::array::from_fn(|k| signal(4 + k)),
-        };
-        self.couple(AppliedLoad::OrientationBushing(Box::new(bushing)));
+        });
+        self.couple(of, 1, coupling);
     }
 
-    fn couple(&mut self, load: AppliedLoad<D>) {
+    /// Adds a bushing whose stiffness and damping are the same along (part 0) or about (part 1) all axes.
+    fn couple(&mut self, measure: BushingMeasure<D>, part: usize, coupling: &Coupling<'_>) {
+        let all = |value: f64| {
+            let mut parts = [[0.0; 3]; 2];
+            parts[part] = [value; 3];
+            parts
+        };
         self.couplings.push(self.parts.loads.len());
-        self.parts.loads.push(load);
+        self.parts
+            .loads
+            .push(AppliedLoad::Bushing(Box::new(Bushing {
+                measure,
+                stiffness: all(coupling.stiffness),
+                damping: all(coupling.damping),
+            })));
     }
 }

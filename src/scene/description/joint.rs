@@ -270,31 +270,87 @@ impl Freedom {
     }
 }
 
-/// Condition that a joint imposes on its second marker, as seen from the first one.
-#[derive(Clone, Copy, Debug)]
-pub enum Condition<'a> {
+/// Primitive that a joint is made of: what it holds of its second marker, seen from the first one. Directions are in the axes of the first
+/// marker's body at the start. An angle or a length that is not given is that at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointPrimitive {
     /// The position, at that of the first marker.
-    Position,
-    /// The position, on a line through the first marker of this direction; by default that of the marker itself.
-    Line(Option<SceneVector>),
-    /// The direction; in space how bodies stand to each other. The angle between both, rad; by default that at the start.
-    Direction(Option<f64>),
-    /// In space an axis, which stays along that of the first body.
-    Axis(SceneVector),
-    /// In space an axis, the second, which stays across one of the first body, the first.
-    Across(SceneVector, SceneVector),
-    /// In space the position, in a plane through the first marker of this normal.
-    Plane(SceneVector),
-    /// The distance, m; by default that at the start.
-    Distance(Option<f64>),
-    /// The position, on the curve of a cable, which stands in place of the first marker.
-    Curve,
-    /// Nothing: a spring and a damper act against the rotation.
-    Spring(&'a Revolute),
-    /// In space the way along a line, in proportion to the angle about it: so much a full turn, m.
+    AtPoint,
+    /// The position, on a line through the first marker in this direction.
+    Inline([f64; 3]),
+    /// The position, in a plane through the first marker across this direction, in space.
+    Inplane([f64; 3]),
+    /// The position, on the curve of the cable that stands in place of the first marker.
+    PointOnCurve,
+    /// The direction, at this angle, rad; in space all axes.
+    Orientation(Option<f64>),
+    /// An axis, which stays along that of the first body, in space.
+    ParallelAxes([f64; 3]),
+    /// A right angle between an axis of the first body and one of the second, in space.
+    Perpendicular([f64; 3], [f64; 3]),
+    /// Displacement along a line in proportion to the angle about it, in space: that of one full rotation, m.
     Screw(f64),
-    /// In space whatever is not let go.
-    Rest(&'a [Freedom]),
+    /// The distance, m.
+    Distance(Option<f64>),
+    /// Nothing: a spring and a damper act against the rotation.
+    Spring {
+        /// Angle at rest, rad.
+        rest: Option<f64>,
+        /// Stiffness, N m/rad.
+        stiffness: f64,
+        /// Damping, N m s/rad.
+        damping: f64,
+    },
+}
+
+impl JointPrimitive {
+    /// Whether it holds directions alone.
+    pub fn is_directional(&self) -> bool {
+        matches!(
+            self,
+            Self::Orientation(_) | Self::ParallelAxes(_) | Self::Perpendicular(..)
+        )
+    }
+
+    /// Whether both markers need axes: those of a rigid body with inertia, a rod or a beam.
+    pub fn needs_axes(&self) -> bool {
+        matches!(
+            self,
+            Self::ParallelAxes(_) | Self::Perpendicular(..) | Self::Inplane(_)
+        )
+    }
+
+    /// Returns the direction of a line, an axis or a normal; the first of two.
+    pub fn direction(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Inline(of)
+            | Self::Inplane(of)
+            | Self::ParallelAxes(of)
+            | Self::Perpendicular(of, _) => Some(*of),
+            Self::AtPoint
+            | Self::PointOnCurve
+            | Self::Orientation(_)
+            | Self::Screw(_)
+            | Self::Distance(_)
+            | Self::Spring { .. } => None,
+        }
+    }
+
+    /// Converts the directions by a function.
+    pub fn directed(self, by: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        match self {
+            Self::Inline(along) => Self::Inline(by(along)),
+            Self::Inplane(across) => Self::Inplane(by(across)),
+            Self::ParallelAxes(axis) => Self::ParallelAxes(by(axis)),
+            Self::Perpendicular(first, second) => Self::Perpendicular(by(first), by(second)),
+            Self::AtPoint
+            | Self::PointOnCurve
+            | Self::Orientation(_)
+            | Self::Screw(_)
+            | Self::Distance(_)
+            | Self::Spring { .. } => self,
+        }
+    }
 }
 
 /// How a joint is drawn.
@@ -332,30 +388,48 @@ impl JointKind {
         )
     }
 
-    /// Conditions that it is made of, with their values.
-    pub fn holds(&self) -> Vec<Condition<'_>> {
-        use Condition::{Across, Axis, Curve, Direction, Line, Plane, Position, Rest};
+    /// Returns the primitives that the joint is made of.
+    pub fn primitives(&self) -> Vec<JointPrimitive> {
+        use JointPrimitive::{AtPoint, Inline, Inplane, Orientation, ParallelAxes, Perpendicular};
+        let full = |of: &SceneVector| of.full();
         match self {
             Self::Revolute(of) => {
-                let axis = of.direction.map(Axis);
-                let spring = of.is_sprung().then_some(Condition::Spring(of));
-                [Position].into_iter().chain(axis).chain(spring).collect()
+                let axis = of.direction.as_ref().map(full).map(ParallelAxes);
+                let spring = of.is_sprung().then_some(JointPrimitive::Spring {
+                    rest: of.angle,
+                    stiffness: of.stiffness.unwrap_or(0.0),
+                    damping: of.damping.unwrap_or(0.0),
+                });
+                [AtPoint].into_iter().chain(axis).chain(spring).collect()
             }
-            Self::Spherical(_) => vec![Position],
-            Self::Universal(of) => vec![Position, Across(of.direction, of.second_direction)],
-            Self::Weld(of) => vec![Position, Direction(of.angle)],
-            Self::PointOnLine(of) => vec![Line(Some(of.direction))],
-            Self::Cylindrical(of) => vec![Line(Some(of.direction)), Axis(of.direction)],
+            Self::Spherical(_) => vec![AtPoint],
+            Self::Universal(of) => {
+                let axes = Perpendicular(of.direction.full(), of.second_direction.full());
+                vec![AtPoint, axes]
+            }
+            Self::Weld(of) => vec![AtPoint, Orientation(of.angle)],
+            Self::PointOnLine(of) => vec![Inline(of.direction.full())],
+            Self::Cylindrical(of) => {
+                let along = of.direction.full();
+                vec![Inline(along), ParallelAxes(along)]
+            }
             Self::Screw(of) => {
-                let (line, axis) = (Line(Some(of.direction)), Axis(of.direction));
-                vec![line, axis, Condition::Screw(of.pitch)]
+                let (along, pitch) = (of.direction.full(), JointPrimitive::Screw(of.pitch));
+                vec![Inline(along), ParallelAxes(along), pitch]
             }
-            Self::Prismatic(of) => vec![Line(of.direction), Direction(of.angle)],
-            Self::Planar(of) => vec![Plane(of.direction), Axis(of.direction)],
-            Self::Orientation(of) => vec![Direction(of.angle)],
-            Self::Distance(of) => vec![Condition::Distance(of.length)],
-            Self::PointOnCable(_) => vec![Curve],
-            Self::Generic(of) => vec![Rest(&of.free)],
+            Self::Prismatic(of) => {
+                // By default the direction of the first end itself.
+                let along = of.direction.as_ref().map_or([1.0, 0.0, 0.0], full);
+                vec![Inline(along), Orientation(of.angle)]
+            }
+            Self::Planar(of) => {
+                let normal = of.direction.full();
+                vec![Inplane(normal), ParallelAxes(normal)]
+            }
+            Self::Orientation(of) => vec![Orientation(of.angle)],
+            Self::Distance(of) => vec![JointPrimitive::Distance(of.length)],
+            Self::PointOnCable(_) => vec![JointPrimitive::PointOnCurve],
+            Self::Generic(of) => of.primitives(),
         }
     }
 
@@ -438,6 +512,34 @@ impl JointKind {
             | Self::Orientation(OrientationJoint { angle, .. }) => *angle,
             _ => None,
         }
+    }
+}
+
+impl Generic {
+    /// Returns the primitives that hold what is not free.
+    fn primitives(&self) -> Vec<JointPrimitive> {
+        let axis = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
+        let named = |is_rotation: bool| {
+            let free = self.free.iter().map(|freedom| freedom.axis());
+            let free = free.filter(|(_, of)| *of == is_rotation).map(|(k, _)| k);
+            free.collect::<Vec<usize>>()
+        };
+        let (ways, turns) = (named(false), named(true));
+        let mut primitives: Vec<JointPrimitive> = match ways[..] {
+            [] => vec![JointPrimitive::AtPoint],
+            [along] => vec![JointPrimitive::Inline(axis(along))],
+            _ => {
+                let held = (0..3).filter(|k| !ways.contains(k));
+                held.map(|k| JointPrimitive::Inplane(axis(k))).collect()
+            }
+        };
+        primitives.extend(match turns[..] {
+            [] => Some(JointPrimitive::Orientation(None)),
+            [about] => Some(JointPrimitive::ParallelAxes(axis(about))),
+            [first, second] => Some(JointPrimitive::Perpendicular(axis(first), axis(second))),
+            _ => None,
+        });
+        primitives
     }
 }
 

@@ -40,7 +40,7 @@ pub use body::{
 pub use gear::{CoordinateKind, Gear};
 pub use initial::{Initial, InitialState};
 pub use input::Input;
-pub use joint::{Condition, Freedom, Generic, Joint, JointKind, Revolute, Symbol};
+pub use joint::{Generic, Joint, JointKind, JointPrimitive, Revolute, Symbol};
 pub use kinds::{tell_apart, tell_by_tag};
 pub use load::{
     BushingLoad, ContactLoad, DistributedForceLoad, DistributedMomentLoad, FluidLoad, ForceLoad,

@@ -3,7 +3,8 @@
 
 use nalgebra::Vector3;
 
-use crate::scene::resolved::{First, Hold, Place, Resolved, ResolvedJoint};
+use crate::scene::description::JointPrimitive;
+use crate::scene::resolved::{First, Place, Resolved, ResolvedJoint};
 
 /// Angle between axes, rad, up to which they are one: the error of directions that are written with six digits, or with five and a
 /// length below one.
@@ -54,20 +55,20 @@ fn bodies(joint: &ResolvedJoint<'_>) -> Option<[Option<usize>; 2]> {
 
 /// The axis about which a joint lets its bodies rotate.
 fn axis_of(joint: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
-    joint.holds.iter().find_map(|hold| match hold {
-        Hold::Axis(axis) => Vector3::from(*axis).try_normalize(0.0),
+    joint.primitives.iter().find_map(|hold| match hold {
+        JointPrimitive::ParallelAxes(axis) => Vector3::from(*axis).try_normalize(0.0),
         _ => None,
     })
 }
 
 /// The point that a joint holds, as described.
 fn point(joint: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
-    let holds = |hold: &Hold| matches!(hold, Hold::Position);
+    let holds = |hold: &JointPrimitive| matches!(hold, JointPrimitive::AtPoint);
     let at = match joint.ends.first {
         First::Ground(Some(point)) => point,
         _ => joint.ends.second.position,
     };
-    (joint.holds.iter().any(holds)).then(|| Vector3::from(at))
+    (joint.primitives.iter().any(holds)).then(|| Vector3::from(at))
 }
 
 /// The axis that two joints have in common, if theirs nearly agree.
@@ -87,8 +88,8 @@ fn common(a: &ResolvedJoint<'_>, b: &ResolvedJoint<'_>) -> Option<Vector3<f64>> 
 
 /// Gives a joint an axis, in the sense of its own.
 fn turn(joint: &mut ResolvedJoint<'_>, axis: Vector3<f64>) {
-    for hold in &mut joint.holds {
-        if let Hold::Axis(own) | Hold::Line(own) = hold {
+    for hold in &mut joint.primitives {
+        if let JointPrimitive::ParallelAxes(own) | JointPrimitive::Inline(own) = hold {
             let along = Vector3::from(*own).dot(&axis);
             let off = Vector3::from(*own).cross(&axis).norm();
             // A line of a joint may have another direction than its axis; what agrees stays as it is.

@@ -6,10 +6,10 @@ use super::checks::{
     direction, expected, finite, not_negative, not_zero, planar, positive, quoted, shape,
     spring_damper,
 };
-use crate::scene::description::{Condition, Freedom, Generic, JointKind, Kinds as _};
+use crate::scene::Error;
+use crate::scene::description::{Generic, JointKind, JointPrimitive, Kinds as _};
 use crate::scene::marker::GROUND;
-use crate::scene::resolved::{self, Ends, First, Hold, Place, Resolved, ResolvedMarker, SlideId};
-use crate::scene::{Error, SceneVector};
+use crate::scene::resolved::{self, Ends, First, Place, Resolved, ResolvedMarker, SlideId};
 use crate::system::Release;
 
 /// Cosine of an angle that is a right one but for rounding.
@@ -22,8 +22,8 @@ impl JointKind {
     /// # Errors
     /// The joint has no place in this dimension.
     fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let is_held = |of: &Condition<'_>| matches!(of, Condition::Direction(Some(_)));
-        if self.holds().iter().any(is_held) {
+        let is_held = |of: &JointPrimitive| matches!(of, JointPrimitive::Orientation(Some(_)));
+        if self.primitives().iter().any(is_held) {
             planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;
         }
         let place = format!("{path}.direction");
@@ -104,35 +104,6 @@ impl Generic {
     }
 }
 
-/// Returns the primitives of a generic joint, with its axes at the start in global components.
-fn rest(free: &[Freedom], ends: &Ends<'_>) -> Vec<Hold> {
-    let axis = |k: usize| {
-        let unit = std::array::from_fn(|i| f64::from(u8::from(i == k)));
-        Resolved::global(ends, unit)
-    };
-    let named = |is_rotation: bool| {
-        let free = free.iter().map(|freedom| freedom.axis());
-        let free = free.filter(|(_, of)| *of == is_rotation).map(|(k, _)| k);
-        free.collect::<Vec<usize>>()
-    };
-    let (ways, turns) = (named(false), named(true));
-    let mut holds: Vec<Hold> = match ways[..] {
-        [] => vec![Hold::Position],
-        [along] => vec![Hold::Line(axis(along))],
-        _ => {
-            let held = (0..3).filter(|k| !ways.contains(k));
-            held.map(|k| Hold::Plane(axis(k))).collect()
-        }
-    };
-    holds.extend(match turns[..] {
-        [] => Some(Hold::Direction(None)),
-        [about] => Some(Hold::Axis(axis(about))),
-        [first, second] => Some(Hold::Across(axis(first), axis(second))),
-        _ => None,
-    });
-    holds
-}
-
 impl<'a> Resolved<'a> {
     /// Resolves the joints.
     ///
@@ -148,13 +119,8 @@ impl<'a> Resolved<'a> {
             if let Some(time) = joint.release_time {
                 not_negative(&format!("{path}.release_time"), "s", time)?;
             }
-            let holds = kind.holds().into_iter().map(|condition| match condition {
-                Condition::Rest(free) => Ok(rest(free, &ends)),
-                _ => self
-                    .resolve_condition(&path, condition, &ends)
-                    .map(|hold| vec![hold]),
-            });
-            let holds = holds.collect::<Result<Vec<_>, _>>()?.concat();
+            let primitives = self.resolve_primitives(&path, kind, &ends)?;
+            let slide = self.resolve_slide(&path, kind, &ends)?;
             let holder = self.hold(&path, &joint.name);
             self.joints.push(resolved::ResolvedJoint {
                 name: &joint.name,
@@ -162,7 +128,8 @@ impl<'a> Resolved<'a> {
                 kind,
                 is_planar: self.scene.dimension == 2,
                 ends,
-                holds,
+                primitives,
+                slide,
                 release: joint.release_time.map(|time| Release {
                     time: Some(time),
                     input: None,
@@ -175,7 +142,7 @@ impl<'a> Resolved<'a> {
 
     /// Resolves the ends of a joint.
     fn joint_ends(&self, path: &str, joint: &'a JointKind) -> Result<Ends<'a>, Error> {
-        let holds = joint.holds();
+        let primitives = joint.primitives();
         let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
         let markers = joint.markers();
         let [a, b] = markers;
@@ -195,11 +162,15 @@ impl<'a> Resolved<'a> {
             Self::require_moments(path, joint, &ends)?;
             return Ok(ends);
         }
-        let turns =
-            |of: &Condition<'_>| matches!(of, Condition::Direction(_) | Condition::Spring(_));
-        let holds_direction = holds.iter().any(turns);
-        let is_line = |of: &Condition<'_>| matches!(of, Condition::Line(_));
-        if a != GROUND && (holds_direction || holds.iter().any(is_line)) {
+        let turns = |of: &JointPrimitive| {
+            matches!(
+                of,
+                JointPrimitive::Orientation(_) | JointPrimitive::Spring { .. }
+            )
+        };
+        let holds_direction = primitives.iter().any(turns);
+        let is_line = |of: &JointPrimitive| matches!(of, JointPrimitive::Inline(_));
+        if a != GROUND && (holds_direction || primitives.iter().any(is_line)) {
             self.require_directed(&first, a)?;
         }
         if holds_direction {
@@ -211,7 +182,7 @@ impl<'a> Resolved<'a> {
     /// In space: axes belong to the ground and to rigid bodies with inertia; a cable has a direction alone, which the ground
     /// or such a body can hold.
     fn require_axes(&self, path: &str, joint: &JointKind, ends: &Ends<'a>) -> Result<(), Error> {
-        let holds = joint.holds();
+        let primitives = joint.primitives();
         let is_cable = |marker: &ResolvedMarker<'_>| {
             matches!(marker.place, Place::Along(..)) && !marker.place.is_framed()
         };
@@ -219,13 +190,11 @@ impl<'a> Resolved<'a> {
             First::Marker(marker) => Some(marker),
             First::Ground(_) | First::Cable(_) => None,
         };
-        let is_any = |of: fn(&Condition<'_>) -> bool| holds.iter().any(of);
-        let needs_frames = is_any(|of| {
-            use Condition::{Across, Axis, Plane, Rest};
-            matches!(of, Axis(_) | Across(..) | Plane(_) | Rest(_))
-        });
-        let is_line = is_any(|of| matches!(of, Condition::Line(_)));
-        let holds_direction = is_any(|of| matches!(of, Condition::Direction(_)));
+        let is_any = |of: fn(&JointPrimitive) -> bool| primitives.iter().any(of);
+        let needs_frames =
+            is_any(JointPrimitive::needs_axes) || matches!(joint, JointKind::Generic(_));
+        let is_line = is_any(|of| matches!(of, JointPrimitive::Inline(_)));
+        let holds_direction = is_any(|of| matches!(of, JointPrimitive::Orientation(_)));
         let sides = [
             (0, first, needs_frames || is_line),
             (1, Some(ends.second), needs_frames),
@@ -252,7 +221,7 @@ impl<'a> Resolved<'a> {
     /// In space: a thin rod has no inertia that could follow a joint which turns it about its own axis, and does not turn
     /// about it. So a joint holds that axis alone, or stands on the ground and turns the rod across it.
     fn require_moments(path: &str, joint: &JointKind, ends: &Ends<'a>) -> Result<(), Error> {
-        let holds = joint.holds();
+        let primitives = joint.primitives();
         let first = match ends.first {
             First::Marker(marker) => Some(marker),
             First::Ground(_) | First::Cable(_) => None,
@@ -276,16 +245,20 @@ impl<'a> Resolved<'a> {
             let cosine = both[side].dot(&axis);
             let (is_along, on_ground) = (1.0 - cosine.abs() < RIGHT, first.is_none());
             let is_pivot = on_ground && cosine.abs() < RIGHT;
-            let may_hold = |condition: &Condition<'_>| match condition {
-                Condition::Axis(_) | Condition::Plane(_) => is_along || is_pivot,
-                Condition::Across(..) => is_along,
-                Condition::Line(_) => side == 1 || is_along,
-                Condition::Direction(_) => on_ground,
-                Condition::Spring(_) => is_pivot,
-                Condition::Screw(_) | Condition::Rest(_) => false,
-                Condition::Position | Condition::Distance(_) | Condition::Curve => true,
+            let may_hold = |primitive: &JointPrimitive| match primitive {
+                JointPrimitive::ParallelAxes(_) | JointPrimitive::Inplane(_) => {
+                    is_along || is_pivot
+                }
+                JointPrimitive::Perpendicular(..) => is_along,
+                JointPrimitive::Inline(_) => side == 1 || is_along,
+                JointPrimitive::Orientation(_) => on_ground,
+                JointPrimitive::Spring { .. } => is_pivot,
+                JointPrimitive::Screw(_) => false,
+                JointPrimitive::AtPoint
+                | JointPrimitive::Distance(_)
+                | JointPrimitive::PointOnCurve => true,
             };
-            if !holds.iter().all(may_hold) {
+            if matches!(joint, JointKind::Generic(_)) || !primitives.iter().all(may_hold) {
                 let wanted = "a body with a moment of inertia about every axis, which the joint turns it about";
                 let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
@@ -309,50 +282,45 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// What a condition of a joint comes to between its ends.
-    fn resolve_condition(
+    /// Resolves the primitives of a joint: in space with directions in global axes at the start.
+    fn resolve_primitives(
         &self,
         path: &str,
-        condition: Condition<'_>,
+        joint: &JointKind,
         ends: &Ends<'a>,
-    ) -> Result<Hold, Error> {
-        let global = |of: SceneVector| Self::global(ends, of.full());
-        Ok(match condition {
-            Condition::Position => Hold::Position,
-            Condition::Line(Some(direction)) if self.scene.dimension == 3 => {
-                Hold::Line(global(direction))
+    ) -> Result<Vec<JointPrimitive>, Error> {
+        if let JointKind::Revolute(of) = joint
+            && of.is_sprung()
+        {
+            let units = ["N m/rad", "N m s/rad"];
+            spring_damper(path, of.stiffness, of.damping, units)?;
+        }
+        let mut primitives = joint.primitives();
+        if primitives.contains(&JointPrimitive::Distance(None)) && ends.distance() <= 0.0 {
+            let wanted = "a length, since the markers are at the same place at the start";
+            return Err(expected(&format!("{path}.length"), wanted, "nothing"));
+        }
+        if self.scene.dimension == 3 {
+            for primitive in &mut primitives {
+                *primitive = primitive.directed(|of| Self::global(ends, of));
             }
-            Condition::Line(direction) => {
-                // By default the direction of the first end itself.
-                Hold::Line(direction.map_or([1.0, 0.0, 0.0], |of| of.full()))
-            }
-            Condition::Axis(direction) => Hold::Axis(global(direction)),
-            Condition::Plane(normal) => Hold::Plane(global(normal)),
-            Condition::Across(first, second) => Hold::Across(global(first), global(second)),
-            Condition::Direction(angle) => Hold::Direction(angle),
-            Condition::Distance(None) if ends.distance() <= 0.0 => {
-                let wanted = "a length, since the markers are at the same place at the start";
-                return Err(expected(&format!("{path}.length"), wanted, "nothing"));
-            }
-            Condition::Screw(pitch) => Hold::Screw(pitch),
-            // Several, by `rest`.
-            Condition::Rest(_) => Hold::Position,
-            Condition::Distance(length) => Hold::Distance(length),
-            Condition::Curve => {
-                let first = format!("{path}.markers[0]");
-                let (_, chain) = self.require_flexible(&first, ends.first_name())?;
-                let slides = self.joints.iter().filter_map(|joint| joint.slide());
-                Hold::Curve(chain, SlideId(slides.count()))
-            }
-            Condition::Spring(of) => {
-                let units = ["N m/rad", "N m s/rad"];
-                let [stiffness, damping] = spring_damper(path, of.stiffness, of.damping, units)?;
-                Hold::Spring {
-                    rest: of.angle,
-                    stiffness,
-                    damping,
-                }
-            }
-        })
+        }
+        Ok(primitives)
+    }
+
+    /// Resolves the cable and the number of a slide.
+    fn resolve_slide(
+        &self,
+        path: &str,
+        joint: &JointKind,
+        ends: &Ends<'a>,
+    ) -> Result<Option<(usize, SlideId)>, Error> {
+        let JointKind::PointOnCable(_) = joint else {
+            return Ok(None);
+        };
+        let first = format!("{path}.markers[0]");
+        let (_, chain) = self.require_flexible(&first, ends.first_name())?;
+        let before = self.joints.iter().filter(|joint| joint.slide.is_some());
+        Ok(Some((chain, SlideId(before.count()))))
     }
 }

@@ -255,8 +255,9 @@ impl<'a> Resolved<'a> {
 
     fn travel(&self, path: &str, name: &str) -> Result<OutputTarget<'a>, Error> {
         let joint = self.require_joint(path, name)?;
-        let slide = joint.slide();
-        let slide = slide.ok_or_else(|| expected(path, "a joint of kind along", quoted(name)))?;
+        let slide = joint.slide.map(|(_, slide)| slide);
+        let slide =
+            slide.ok_or_else(|| expected(path, "a joint of kind point_on_cable", quoted(name)))?;
         Ok(OutputTarget::Slide(joint.name, slide))
     }
 

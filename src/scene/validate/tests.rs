@@ -379,7 +379,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "orientation", "marker": "crank.a"} | outputs[0].marker: expected nothing in the plane, where "angle" says how a body stands
         /outputs/0 | {"kind": "angle", "joint": "clamp"} | outputs[0].joint: expected a revolute joint
         /outputs/0 | {"kind": "angle", "joint": "pin", "marker": "rod.tip"} | outputs[0]: expected one name of what is read, found two
-        /outputs/0 | {"kind": "travel", "joint": "rail"} | outputs[0].joint: expected a joint of kind along
+        /outputs/0 | {"kind": "travel", "joint": "rail"} | outputs[0].joint: expected a joint of kind point_on_cable
         /outputs/0 | {"kind": "reaction", "joint": "guide"} | outputs[0].joint: expected a joint that transmits a force
         /outputs/0 | {"kind": "reaction_moment", "joint": "pin"} | outputs[0].joint: expected a joint that transmits a moment
         /outputs/0 | {"kind": "reaction", "motion": "drive"} | outputs[0].motion: expected a motion driven by a force

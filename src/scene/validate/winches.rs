@@ -1,10 +1,9 @@
 //! Checks of cables that winches pay out.
 
 use super::checks::{expected, quoted};
+use crate::scene::description::JointPrimitive;
 use crate::scene::description::{InitialState, LineModel, Shape, Strain};
-use crate::scene::resolved::{
-    Cable, First, Hold, LoadKind, MotionKind, Place, Resolved, ResolvedMarker,
-};
+use crate::scene::resolved::{Cable, First, LoadKind, MotionKind, Place, Resolved, ResolvedMarker};
 use crate::scene::{Error, Model};
 
 impl<'a> Resolved<'a> {
@@ -116,9 +115,9 @@ impl<'a> Resolved<'a> {
         }
         for joint in &self.joints {
             let slides = joint
-                .holds
+                .primitives
                 .iter()
-                .any(|hold| matches!(hold, Hold::Curve(..)));
+                .any(|hold| matches!(hold, JointPrimitive::PointOnCurve));
             if slides && matches!(joint.ends.first, First::Cable(of) if of.id == cable.id) {
                 return Some(joint.name);
             }

@@ -5,9 +5,10 @@ use crate::bodies::{ConnectivityRow, Links, Winch, no_node, tied_with};
 use crate::math::space::Vector;
 use crate::system::end::Attachment;
 use crate::system::joints::{
-    Constraint, ConstraintKind, Linear, LinearConstraint, Release, Target, UnitLength,
+    Constraint, ConstraintKind, Equation as _, Linear, LinearConstraint, Release, Target,
+    UnitLength,
 };
-use crate::system::loads::{AppliedLoad, ConvectiveInertia};
+use crate::system::loads::{AppliedLoad, ConvectiveInertia, ForceElement as _};
 
 /// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
 const TIED: usize = 8;
@@ -190,8 +191,8 @@ pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>
     }
     let mut joint = None;
     for constraint in nonlinear {
-        let nodes = owners(constraint.nodes(&parts.bodies.chains));
-        if constraint.is_stiff() {
+        let nodes = owners(constraint.kind.nodes(&parts.bodies));
+        if constraint.kind.is_stiff() {
             tie(&nodes);
         }
         match links.held.last_mut() {

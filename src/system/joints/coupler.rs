@@ -4,7 +4,8 @@
 //! Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems (1989), sections 3.4 (gears), 9.4 (screws)
 //! and 3.5 (drivers).
 
-use super::{Gradient, View};
+use super::{Equation, Gradient, View};
+use crate::bodies::Bodies;
 use crate::math::jet::Number;
 use crate::system::coordinate::Coordinate;
 use crate::system::end::{Add, Attachment};
@@ -36,10 +37,6 @@ impl<const D: usize> Coupler<D> {
         })
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        self.sum(|of| of.value(view.x, view.angles)) - self.driven(view, 0) - N::of(self.offset)
-    }
-
     /// One pair of ends for every coordinate.
     pub(super) fn gradients<N: Number>(
         &self,
@@ -48,28 +45,42 @@ impl<const D: usize> Coupler<D> {
         let terms = self.terms.iter();
         terms.map(|(factor, of)| of.gradient(view.x).scaled(N::of(*factor)))
     }
+}
 
-    pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
+impl<const D: usize> Equation<D> for Coupler<D> {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        self.sum(|of| of.value(view.x, view.angles)) - self.driven(view, 0) - N::of(self.offset)
+    }
+
+    fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         -self.driven(view, 1)
     }
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         self.sum(|of| of.bend(view.x, view.v)) - self.driven(view, 2)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
+    fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         for (factor, of) in &self.terms {
             of.add_hessian(lambda * factor, view.x, &mut *add);
         }
     }
 
     /// The ends that it joins.
-    pub fn ends(&self) -> Vec<Attachment<D>> {
+    fn ends(&self) -> Vec<Attachment<D>> {
         self.terms.iter().flat_map(|(_, of)| of.ends()).collect()
     }
 
     /// Whether it is one of angles.
-    pub fn is_angle(&self) -> bool {
+    fn is_angle(&self) -> bool {
         self.terms.iter().all(|(_, of)| of.is_angle())
+    }
+
+    fn size(&self, _bodies: &Bodies<D>) -> f64 {
+        self.size
+    }
+
+    fn is_stiff(&self) -> bool {
+        true
     }
 }

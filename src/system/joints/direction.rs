@@ -6,7 +6,7 @@
 
 use nalgebra::SMatrix;
 
-use super::{ConstraintKind, Gradient, Rows, Target, View};
+use super::{ConstraintKind, Equation, Gradient, Rows, Target, View};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, normals, perpendicular, turned};
 use crate::system::end::{Add, Attachment, bilinear};
@@ -93,11 +93,6 @@ impl<const D: usize> AngleBetween<D> {
         [w, moved + perpendicular(w) * rate, bias]
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let w = self.turned(view, self.turn(view));
-        cross(&w, &self.ends[1].lift().direction(view.x))
-    }
-
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let none = Vector::zeros();
         let (sin, cos) = self.turn(view);
@@ -111,8 +106,15 @@ impl<const D: usize> AngleBetween<D> {
             ],
         }
     }
+}
 
-    pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
+impl<const D: usize> Equation<D> for AngleBetween<D> {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let w = self.turned(view, self.turn(view));
+        cross(&w, &self.ends[1].lift().direction(view.x))
+    }
+
+    fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let rate = self.drive.map_or(N::of(0.0), |i| view.drives[i][1]);
         let w = self.turned(view, self.turn(view));
         cross(
@@ -121,14 +123,14 @@ impl<const D: usize> AngleBetween<D> {
         )
     }
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [_, w_rate, w_bias] = self.turned_with_rates(view);
         let second = self.ends[1].lift();
         let (u, rate) = (second.direction(view.x), second.direction_rate(view.v));
         cross(&w_bias, &u) + N::of(2.0) * cross(&w_rate, &rate)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
+    fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         let [Attachment::Body(first), Attachment::Body(second)] = &self.ends else {
             return;
         };
@@ -138,5 +140,17 @@ impl<const D: usize> AngleBetween<D> {
         let cross =
             SMatrix::from_fn(|r, c| -turned(perpendicular(axis::<D, f64>(c)), back)[r]) * lambda;
         bilinear([(first, 1), (second, 1)], cross, add);
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ends.to_vec()
+    }
+
+    fn is_angle(&self) -> bool {
+        true
+    }
+
+    fn is_stiff(&self) -> bool {
+        true
     }
 }

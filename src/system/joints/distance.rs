@@ -1,6 +1,7 @@
 //! Distance link: a massless rigid rod, `(d.d - L^2) / (2 L) = 0`.
 
-use super::{ConstraintKind, Gradient, Rows, View};
+use super::{ConstraintKind, Equation, Gradient, Rows, View};
+use crate::bodies::Bodies;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::{Add, Attachment, isotropic};
@@ -21,12 +22,6 @@ pub(super) fn hold<const D: usize>(rows: &Rows<'_, D>, length: f64) -> Option<Co
 }
 
 impl<const D: usize> Distance<D> {
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let [a, b] = self.ends.map(|end| end.lift().position(view.x));
-        let length = N::of(self.length);
-        ((b - a).norm_squared() - length * length) / (length + length)
-    }
-
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let (none, [a, b]) = (Vector::zeros(), self.ends.map(|end| end.lift()));
         let unit = (b.position(view.x) - a.position(view.x)) / N::of(self.length);
@@ -34,13 +29,33 @@ impl<const D: usize> Distance<D> {
             ends: [(a, [-unit, none]), (b, [unit, none])],
         }
     }
+}
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+impl<const D: usize> Equation<D> for Distance<D> {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().position(view.x));
+        let length = N::of(self.length);
+        ((b - a).norm_squared() - length * length) / (length + length)
+    }
+
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [a, b] = self.ends.map(|end| end.lift().velocity(view.v));
         (b - a).norm_squared() / N::of(self.length)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, add: Add<'_, D>) {
+    fn stiffness(&self, lambda: f64, _view: &View<'_, D>, add: Add<'_, D>) {
         isotropic(&self.ends, lambda / self.length, add);
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ends.to_vec()
+    }
+
+    fn size(&self, _bodies: &Bodies<D>) -> f64 {
+        self.length
+    }
+
+    fn is_stiff(&self) -> bool {
+        true
     }
 }

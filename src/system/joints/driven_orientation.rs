@@ -8,7 +8,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Gradient, View};
+use super::{Equation, Gradient, View};
 use crate::bodies::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::rotation::{
@@ -90,10 +90,6 @@ impl DrivenOrientation {
         terms.fold(N::of(0.0), |sum, term| sum + term)
     }
 
-    pub(super) fn value<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
-        self.along(view, 0, view.x)
-    }
-
     /// One pair of ends an axis of the body; the second is on it.
     pub(super) fn gradients<const D: usize, N: Number>(
         &self,
@@ -108,20 +104,30 @@ impl DrivenOrientation {
             ],
         })
     }
+}
 
-    pub(super) fn rate<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
+impl<const D: usize> Equation<D> for DrivenOrientation {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        self.along(view, 0, view.x)
+    }
+
+    fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         self.along(view, 1, view.x)
     }
 
-    pub(super) fn bias<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         self.along(view, 2, view.x) + self.along(view, 1, view.v) * N::of(2.0)
     }
 
     /// Returns the two ends: the ground and the body.
-    pub fn ends<const D: usize>(&self) -> Vec<Attachment<D>> {
+    fn ends(&self) -> Vec<Attachment<D>> {
         vec![
             Attachment::Ground(Vector::zeros()),
             Attachment::Body(self.axes[0]),
         ]
+    }
+
+    fn is_angle(&self) -> bool {
+        true
     }
 }

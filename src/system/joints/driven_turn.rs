@@ -3,7 +3,7 @@
 
 use nalgebra::SMatrix;
 
-use super::{Gradient, View};
+use super::{Equation, Gradient, View};
 use crate::math::jet::Number;
 use crate::system::direction::{AxisTurn, Direction};
 use crate::system::end::{Add, Attachment, bilinear};
@@ -25,24 +25,26 @@ impl<const D: usize> DrivenTurn<D> {
         (drive, [sin, cos])
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
+        let (_, turned) = self.drive(view);
+        self.turn.gradient_at(turned, view.x)
+    }
+}
+
+impl<const D: usize> Equation<D> for DrivenTurn<D> {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let (_, [sin, cos]) = self.drive(view);
         let [p, q] = self.turn.products(view.x);
         cos * q - sin * p
     }
 
-    pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
-        let (_, turned) = self.drive(view);
-        self.turn.gradient_at(turned, view.x)
-    }
-
-    pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let ([_, rate, _], [sin, cos]) = self.drive(view);
         let [p, q] = self.turn.products(view.x);
         -rate * (sin * q + cos * p)
     }
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let ([_, rate, second], [sin, cos]) = self.drive(view);
         let [p, q] = self.turn.products(view.x);
         let [p_rate, q_rate] = self.turn.rates(view.x, view.v);
@@ -53,7 +55,7 @@ impl<const D: usize> DrivenTurn<D> {
             - second * (cos * p + sin * q)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
+    fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         let (_, turned) = self.drive(view);
         if let (Attachment::Body(first), Direction::Of(second)) =
             (self.turn.turned(turned), &self.turn.of)
@@ -67,7 +69,15 @@ impl<const D: usize> DrivenTurn<D> {
     }
 
     /// Returns the two ends of the constraint.
-    pub fn ends(&self) -> Vec<Attachment<D>> {
+    fn ends(&self) -> Vec<Attachment<D>> {
         vec![self.turn.across[0].end(), self.turn.of.end()]
+    }
+
+    fn is_angle(&self) -> bool {
+        true
+    }
+
+    fn is_stiff(&self) -> bool {
+        true
     }
 }

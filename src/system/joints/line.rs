@@ -3,7 +3,8 @@
 
 use nalgebra::SMatrix;
 
-use super::{ConstraintKind, Gradient, Rows, Target, View};
+use super::{ConstraintKind, Equation, Gradient, Rows, Target, View};
+use crate::bodies::Bodies;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, normals, perpendicular};
 use crate::system::end::{Add, Attachment, bilinear};
@@ -53,11 +54,6 @@ impl<const D: usize> PointOnLine<D> {
         [self.turned(first.direction(view.x)), way]
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let [line, way] = self.line(view);
-        cross(&line, &way)
-    }
-
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let [first, second] = self.ends.map(|end| end.lift());
         let [line, way] = self.line(view);
@@ -71,15 +67,22 @@ impl<const D: usize> PointOnLine<D> {
             ],
         }
     }
+}
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+impl<const D: usize> Equation<D> for PointOnLine<D> {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let [line, way] = self.line(view);
+        cross(&line, &way)
+    }
+
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [first, second] = self.ends.map(|end| end.lift());
         let speed = second.velocity(view.v) - first.velocity(view.v);
         let turning = self.turned(first.direction_rate(view.v));
         N::of(2.0) * cross(&turning, &speed)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, add: Add<'_, D>) {
+    fn stiffness(&self, lambda: f64, _view: &View<'_, D>, add: Add<'_, D>) {
         let [Attachment::Body(first), Attachment::Body(second)] = &self.ends else {
             return;
         };
@@ -88,5 +91,17 @@ impl<const D: usize> PointOnLine<D> {
         let cross = SMatrix::from_fn(|r, c| by(axis(r))[c]) * lambda;
         bilinear([(first, 1), (second, 0)], cross, add);
         bilinear([(first, 1), (first, 0)], -cross, add);
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ends.to_vec()
+    }
+
+    fn size(&self, _bodies: &Bodies<D>) -> f64 {
+        self.size
+    }
+
+    fn is_stiff(&self) -> bool {
+        true
     }
 }

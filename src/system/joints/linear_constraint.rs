@@ -1,7 +1,8 @@
 //! Rows that are linear in what joints see and yet keep multipliers: those of rigid bodies in space, whose axes are no
 //! coordinates, and pins of so many rigid bodies that eliminating them would tie all of them together.
 
-use super::{ConstraintKind, Gradient, Linear, Rows, Target, View};
+use super::{ConstraintKind, Equation, Gradient, Linear, Rows, Target, View};
+use crate::bodies::Bodies;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis};
 use crate::system::end::{Attachment, reach};
@@ -52,7 +53,19 @@ impl<const D: usize> LinearConstraint<D> {
         (self.on_ends.iter()).all(|[position, _]| position.norm() == 0.0)
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    pub(super) fn gradient<N: Number>(&self, _: &View<'_, D, N>) -> Gradient<D, N> {
+        let of = |i: usize| {
+            let on = self.on_ends[i].map(|on| on.map(N::of));
+            (self.ends[i].lift(), on)
+        };
+        Gradient {
+            ends: [of(0), of(1)],
+        }
+    }
+}
+
+impl<const D: usize> Equation<D> for LinearConstraint<D> {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let of = |(end, [position, direction]): (&Attachment<D>, &[Vector<D>; 2])| {
             let Attachment::Body(marker) = end.lift() else {
                 return N::of(0.0);
@@ -65,21 +78,23 @@ impl<const D: usize> LinearConstraint<D> {
         a + b - self.target.derivatives(view.drives)[0]
     }
 
-    pub(super) fn gradient<N: Number>(&self, _: &View<'_, D, N>) -> Gradient<D, N> {
-        let of = |i: usize| {
-            let on = self.on_ends[i].map(|on| on.map(N::of));
-            (self.ends[i].lift(), on)
-        };
-        Gradient {
-            ends: [of(0), of(1)],
-        }
-    }
-
-    pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         -self.target.derivatives(view.drives)[1]
     }
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         -self.target.derivatives(view.drives)[2]
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ends.to_vec()
+    }
+
+    fn size(&self, _bodies: &Bodies<D>) -> f64 {
+        self.size
+    }
+
+    fn is_angle(&self) -> bool {
+        self.holds_direction()
     }
 }

@@ -36,7 +36,7 @@ use super::coordinate::Translation;
 use super::direction::AxisTurn;
 use super::end::{Add, Attachment};
 use super::gradient::Gradient;
-use crate::bodies::{Bodies, ConnectivityRow, LineChain, Marker, Node, RotationMaps};
+use crate::bodies::{Bodies, ConnectivityRow, Marker, Node, RotationMaps};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -137,46 +137,172 @@ pub struct Constraint<const D: usize = 2> {
     pub release: Option<usize>,
 }
 
-/// Kinds of non-linear constraints.
-#[derive(Clone, Debug)]
-pub enum ConstraintKind<const D: usize = 2> {
-    /// A rigid body's direction keeps its length.
-    UnitLength(UnitLength),
-    /// A direction at an angle from another one.
-    AngleBetween(AngleBetween<D>),
-    /// A distance.
-    Distance(Distance<D>),
-    /// A point on a line of a body.
-    PointOnLine(PointOnLine<D>),
-    /// A point on a chain.
-    PointOnCurve(PointOnCurve<D>),
-    /// A row that is linear in what joints see.
-    LinearConstraint(LinearConstraint<D>),
-    /// A right angle.
-    Perpendicular(Perpendicular<D>),
-    /// A driven turn.
-    DrivenTurn(DrivenTurn<D>),
-    /// One condition of a driven orientation.
-    DrivenOrientation(DrivenOrientation),
-    /// A relation between coordinates of joints.
-    Coupler(Coupler<D>),
+/// A scalar equation of a joint or a motion, `g(x, t) = 0`.
+///
+/// A new kind is one file with its `Equation` and one line among the [`ConstraintKind`]s. Beside these items it has a `gradient` where it
+/// joins two ends, or `gradients` where it joins more.
+pub trait Equation<const D: usize> {
+    /// `g`.
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N;
+
+    /// Returns the derivative of `g` by time alone, 1/s.
+    fn rate<N: Number>(&self, _view: &View<'_, D, N>) -> N {
+        N::of(0.0)
+    }
+
+    /// Returns `d^2 g / dt^2` without the part of accelerations, 1/s^2.
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N;
+
+    /// Adds the second derivatives times the multiplier, block by block of nodes.
+    fn stiffness(&self, _lambda: f64, _view: &View<'_, D>, _add: Add<'_, D>) {}
+
+    /// Whether `stiffness` adds something. What is small beside inertia may stay out.
+    fn is_stiff(&self) -> bool {
+        false
+    }
+
+    /// Returns the size of `g` to measure its residual by: 1 for directions, m for lengths.
+    fn size(&self, _bodies: &Bodies<D>) -> f64 {
+        1.0
+    }
+
+    /// Whether `g` is of directions alone.
+    fn is_angle(&self) -> bool {
+        false
+    }
+
+    /// Returns the ends that are joined.
+    fn ends(&self) -> Vec<Attachment<D>>;
+
+    /// Returns the nodes that are tied together.
+    fn nodes(&self, _bodies: &Bodies<D>) -> Vec<usize> {
+        self.ends().iter().flat_map(Attachment::nodes).collect()
+    }
 }
 
-macro_rules! each {
-    ($self:ident, $c:ident => $call:expr) => {
-        match &$self.kind {
-            ConstraintKind::UnitLength($c) => $call,
-            ConstraintKind::AngleBetween($c) => $call,
-            ConstraintKind::Distance($c) => $call,
-            ConstraintKind::PointOnLine($c) => $call,
-            ConstraintKind::PointOnCurve($c) => $call,
-            ConstraintKind::LinearConstraint($c) => $call,
-            ConstraintKind::Perpendicular($c) => $call,
-            ConstraintKind::DrivenTurn($c) => $call,
-            ConstraintKind::DrivenOrientation($c) => $call,
-            ConstraintKind::Coupler($c) => $call,
+/// Declares the kinds of constraint: those that join two ends, then those that join more.
+macro_rules! constraints {
+    (
+        two: {$($(#[$doc:meta])* $kind:ident($of:ty),)*}
+        many: {$($(#[$more_doc:meta])* $more:ident($all:ty),)*}
+    ) => {
+        /// Kinds of non-linear constraints.
+        #[derive(Clone, Debug)]
+        pub enum ConstraintKind<const D: usize = 2> {
+            $($(#[$doc])* $kind($of),)*
+            $($(#[$more_doc])* $more($all),)*
+        }
+
+        impl<const D: usize> ConstraintKind<D> {
+            /// Calls with the forces that a unit multiplier takes from position and direction of two ends, or of two pairs of ends.
+            #[inline(always)]
+            fn for_each_pair<N: Number>(
+                &self,
+                view: &View<'_, D, N>,
+                mut call: impl FnMut(&Gradient<D, N>),
+            ) {
+                // Called in one place for what joins two ends, so that it can be compiled into its caller.
+                let many: &mut dyn FnMut(&Gradient<D, N>) = &mut call;
+                let gradient = match self {
+                    $(Self::$kind(of) => of.gradient(view),)*
+                    $(Self::$more(of) => return of.gradients(view).for_each(|pair| many(&pair)),)*
+                };
+                call(&gradient);
+            }
+        }
+
+        impl<const D: usize> Equation<D> for ConstraintKind<D> {
+            fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+                match self {
+                    $(Self::$kind(of) => of.value(view),)*
+                    $(Self::$more(of) => of.value(view),)*
+                }
+            }
+
+            fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
+                match self {
+                    $(Self::$kind(of) => of.rate(view),)*
+                    $(Self::$more(of) => of.rate(view),)*
+                }
+            }
+
+            fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+                match self {
+                    $(Self::$kind(of) => of.bias(view),)*
+                    $(Self::$more(of) => of.bias(view),)*
+                }
+            }
+
+            fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
+                match self {
+                    $(Self::$kind(of) => of.stiffness(lambda, view, add),)*
+                    $(Self::$more(of) => of.stiffness(lambda, view, add),)*
+                }
+            }
+
+            fn is_stiff(&self) -> bool {
+                match self {
+                    $(Self::$kind(of) => <$of as Equation<D>>::is_stiff(of),)*
+                    $(Self::$more(of) => <$all as Equation<D>>::is_stiff(of),)*
+                }
+            }
+
+            fn size(&self, bodies: &Bodies<D>) -> f64 {
+                match self {
+                    $(Self::$kind(of) => of.size(bodies),)*
+                    $(Self::$more(of) => of.size(bodies),)*
+                }
+            }
+
+            fn is_angle(&self) -> bool {
+                match self {
+                    $(Self::$kind(of) => <$of as Equation<D>>::is_angle(of),)*
+                    $(Self::$more(of) => <$all as Equation<D>>::is_angle(of),)*
+                }
+            }
+
+            fn ends(&self) -> Vec<Attachment<D>> {
+                match self {
+                    $(Self::$kind(of) => of.ends(),)*
+                    $(Self::$more(of) => of.ends(),)*
+                }
+            }
+
+            fn nodes(&self, bodies: &Bodies<D>) -> Vec<usize> {
+                match self {
+                    $(Self::$kind(of) => of.nodes(bodies),)*
+                    $(Self::$more(of) => of.nodes(bodies),)*
+                }
+            }
         }
     };
+}
+
+constraints! {
+    two: {
+        /// A rigid body's direction keeps its length.
+        UnitLength(UnitLength),
+        /// A direction at an angle from another one.
+        AngleBetween(AngleBetween<D>),
+        /// A distance.
+        Distance(Distance<D>),
+        /// A point on a line of a body.
+        PointOnLine(PointOnLine<D>),
+        /// A point on a chain.
+        PointOnCurve(PointOnCurve<D>),
+        /// A row that is linear in what joints see.
+        LinearConstraint(LinearConstraint<D>),
+        /// A right angle.
+        Perpendicular(Perpendicular<D>),
+        /// A driven turn.
+        DrivenTurn(DrivenTurn<D>),
+    }
+    many: {
+        /// One condition of a driven orientation.
+        DrivenOrientation(DrivenOrientation),
+        /// A relation between coordinates of joints.
+        Coupler(Coupler<D>),
+    }
 }
 
 impl<const D: usize> Constraint<D> {
@@ -195,36 +321,18 @@ impl<const D: usize> Constraint<D> {
         if self.is_released(view.released) {
             return N::of(0.0);
         }
-        let value = each!(self, c => c.value(view));
-        value - N::of(self.offset)
+        self.kind.value(view) - N::of(self.offset)
     }
 
     /// Calls with the forces that a unit multiplier takes from position and direction of two ends, or of two pairs of ends.
     pub fn for_each_pair<N: Number>(
         &self,
         view: &View<'_, D, N>,
-        mut call: impl FnMut(&Gradient<D, N>),
+        call: impl FnMut(&Gradient<D, N>),
     ) {
-        if self.is_released(view.released) {
-            return;
+        if !self.is_released(view.released) {
+            self.kind.for_each_pair(view, call);
         }
-        // Called in one place for what joins two ends, so that it can be compiled into its caller.
-        let many: &mut dyn FnMut(&Gradient<D, N>) = &mut call;
-        let gradient = match &self.kind {
-            ConstraintKind::UnitLength(c) => c.gradient(view),
-            ConstraintKind::AngleBetween(c) => c.gradient(view),
-            ConstraintKind::Distance(c) => c.gradient(view),
-            ConstraintKind::PointOnLine(c) => c.gradient(view),
-            ConstraintKind::PointOnCurve(c) => c.gradient(view),
-            ConstraintKind::LinearConstraint(c) => c.gradient(view),
-            ConstraintKind::Perpendicular(c) => c.gradient(view),
-            ConstraintKind::DrivenTurn(c) => c.gradient(view),
-            ConstraintKind::DrivenOrientation(c) => {
-                return c.gradients(view).for_each(|pair| many(&pair));
-            }
-            ConstraintKind::Coupler(c) => return c.gradients(view).for_each(|pair| many(&pair)),
-        };
-        call(&gradient);
     }
 
     /// Passes the gradient to `term` as terms over the nodes.
@@ -253,85 +361,28 @@ impl<const D: usize> Constraint<D> {
         sum
     }
 
-    /// Derivative of `g` by time alone, 1/s.
+    /// Returns the derivative of `g` by time alone, 1/s.
     pub fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        match &self.kind {
-            _ if self.is_released(view.released) => N::of(0.0),
-            ConstraintKind::AngleBetween(c) => c.rate(view),
-            ConstraintKind::LinearConstraint(c) => c.rate(view),
-            ConstraintKind::DrivenTurn(c) => c.rate(view),
-            ConstraintKind::DrivenOrientation(c) => c.rate(view),
-            ConstraintKind::Coupler(c) => c.rate(view),
-            _ => N::of(0.0),
+        if self.is_released(view.released) {
+            N::of(0.0)
+        } else {
+            self.kind.rate(view)
         }
     }
 
-    /// `d^2 g / dt^2` without the part of accelerations, 1/s^2.
+    /// Returns `d^2 g / dt^2` without the part of accelerations, 1/s^2.
     pub fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         if self.is_released(view.released) {
             N::of(0.0)
         } else {
-            each!(self, c => c.bias(view))
+            self.kind.bias(view)
         }
     }
 
-    /// Second derivatives times the multiplier, block by block of nodes.
+    /// Adds the second derivatives times the multiplier, block by block of nodes.
     pub fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
-        match &self.kind {
-            _ if self.is_released(view.released) => {}
-            ConstraintKind::UnitLength(c) => c.stiffness(lambda, add),
-            ConstraintKind::AngleBetween(c) => c.stiffness(lambda, view, add),
-            ConstraintKind::Distance(c) => c.stiffness(lambda, add),
-            ConstraintKind::PointOnLine(c) => c.stiffness(lambda, add),
-            // Small beside inertia, and the blocks move with the point.
-            ConstraintKind::PointOnCurve(_) => {}
-            ConstraintKind::LinearConstraint(_) | ConstraintKind::DrivenOrientation(_) => {}
-            ConstraintKind::Perpendicular(c) => c.stiffness(lambda, add),
-            ConstraintKind::DrivenTurn(c) => c.stiffness(lambda, view, add),
-            ConstraintKind::Coupler(c) => c.stiffness(lambda, view, add),
-        }
-    }
-
-    /// Size of `g` to measure its residual by: 1 for directions, m for lengths.
-    pub fn size(&self, chains: &[LineChain<D>]) -> f64 {
-        match &self.kind {
-            ConstraintKind::UnitLength(_)
-            | ConstraintKind::AngleBetween(_)
-            | ConstraintKind::DrivenTurn(_)
-            | ConstraintKind::DrivenOrientation(_) => 1.0,
-            ConstraintKind::Distance(c) => c.length,
-            ConstraintKind::PointOnLine(c) => c.size,
-            ConstraintKind::LinearConstraint(c) => c.size,
-            ConstraintKind::Perpendicular(c) => c.size(),
-            ConstraintKind::Coupler(c) => c.size,
-            ConstraintKind::PointOnCurve(c) => chains[c.chain].length(),
-        }
-    }
-
-    /// The ends that it joins; of a slide along a chain the one that slides.
-    pub(super) fn ends(&self) -> Vec<Attachment<D>> {
-        match &self.kind {
-            ConstraintKind::UnitLength(_) => Vec::new(),
-            ConstraintKind::PointOnCurve(c) => vec![c.end],
-            ConstraintKind::AngleBetween(c) => c.ends.to_vec(),
-            ConstraintKind::Distance(c) => c.ends.to_vec(),
-            ConstraintKind::PointOnLine(c) => c.ends.to_vec(),
-            ConstraintKind::LinearConstraint(c) => c.ends.to_vec(),
-            ConstraintKind::Perpendicular(c) => c.ends(),
-            ConstraintKind::DrivenTurn(c) => c.ends(),
-            ConstraintKind::DrivenOrientation(c) => c.ends(),
-            ConstraintKind::Coupler(c) => c.ends(),
-        }
-    }
-
-    /// Nodes that it ties together.
-    pub fn nodes(&self, chains: &[LineChain<D>]) -> Vec<usize> {
-        match &self.kind {
-            ConstraintKind::UnitLength(c) => vec![c.node],
-            ConstraintKind::PointOnCurve(c) => {
-                c.end.nodes().chain(chains[c.chain].range()).collect()
-            }
-            _ => self.ends().iter().flat_map(Attachment::nodes).collect(),
+        if !self.is_released(view.released) {
+            self.kind.stiffness(lambda, view, add);
         }
     }
 
@@ -342,16 +393,6 @@ impl<const D: usize> Constraint<D> {
         is_constant && self.release.is_none()
     }
 
-    /// Whether its force has a stiffness that is told block by block of these nodes.
-    pub fn is_stiff(&self) -> bool {
-        !matches!(
-            self.kind,
-            ConstraintKind::PointOnCurve(_)
-                | ConstraintKind::LinearConstraint(_)
-                | ConstraintKind::DrivenOrientation(_)
-        )
-    }
-
     /// Whether it is the first one of a slide along a chain.
     pub fn is_slide(&self) -> bool {
         matches!(&self.kind, ConstraintKind::PointOnCurve(along) if along.normal == 0)
@@ -359,7 +400,7 @@ impl<const D: usize> Constraint<D> {
 
     /// Whether it ties to the ground.
     pub fn is_grounded(&self) -> bool {
-        self.ends().iter().any(|end| end.marker().is_none())
+        self.kind.ends().iter().any(|end| end.marker().is_none())
     }
 }
 

@@ -7,7 +7,8 @@
 
 use nalgebra::SMatrix;
 
-use super::{Gradient, View};
+use super::{Equation, Gradient, View};
+use crate::bodies::Bodies;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::direction::Direction;
@@ -32,37 +33,6 @@ pub struct Perpendicular<const D: usize> {
 }
 
 impl<const D: usize> Perpendicular<D> {
-    /// The ends that it joins.
-    pub fn ends(&self) -> Vec<Attachment<D>> {
-        let mut ends = vec![self.direction.end()];
-        match &self.across {
-            Across::Direction(second) => ends.push(second.end()),
-            Across::Translation(points, _) => ends.extend(points),
-        }
-        ends
-    }
-
-    /// Whether it is between two directions.
-    pub fn is_angle(&self) -> bool {
-        matches!(self.across, Across::Direction(_))
-    }
-
-    /// Returns the reference size of residuals: 1 for directions, m for displacements.
-    pub fn size(&self) -> f64 {
-        match self.across {
-            Across::Direction(_) => 1.0,
-            Across::Translation(_, size) => size,
-        }
-    }
-
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let first = self.direction.value(view.x);
-        match &self.across {
-            Across::Direction(second) => first.dot(&second.value(view.x)),
-            Across::Translation(points, _) => first.dot(&way(points, view)),
-        }
-    }
-
     /// The second entry is on the second body.
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let none = Vector::zeros();
@@ -88,8 +58,33 @@ impl<const D: usize> Perpendicular<D> {
             }
         }
     }
+}
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+impl<const D: usize> Equation<D> for Perpendicular<D> {
+    /// The ends that it joins.
+    fn ends(&self) -> Vec<Attachment<D>> {
+        let mut ends = vec![self.direction.end()];
+        match &self.across {
+            Across::Direction(second) => ends.push(second.end()),
+            Across::Translation(points, _) => ends.extend(points),
+        }
+        ends
+    }
+
+    /// Whether it is between two directions.
+    fn is_angle(&self) -> bool {
+        matches!(self.across, Across::Direction(_))
+    }
+
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let first = self.direction.value(view.x);
+        match &self.across {
+            Across::Direction(second) => first.dot(&second.value(view.x)),
+            Across::Translation(points, _) => first.dot(&way(points, view)),
+        }
+    }
+
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let first = self.direction.rate(view.v);
         let second = match &self.across {
             Across::Direction(second) => second.rate(view.v),
@@ -101,7 +96,7 @@ impl<const D: usize> Perpendicular<D> {
         N::of(2.0) * first.dot(&second)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, add: Add<'_, D>) {
+    fn stiffness(&self, lambda: f64, _view: &View<'_, D>, add: Add<'_, D>) {
         let Direction::Of(first) = &self.direction else {
             return;
         };
@@ -118,6 +113,17 @@ impl<const D: usize> Perpendicular<D> {
                 bilinear([(first, 1), (first, 0)], -product, add);
             }
         }
+    }
+
+    fn size(&self, _bodies: &Bodies<D>) -> f64 {
+        match self.across {
+            Across::Direction(_) => 1.0,
+            Across::Translation(_, size) => size,
+        }
+    }
+
+    fn is_stiff(&self) -> bool {
+        true
     }
 }
 

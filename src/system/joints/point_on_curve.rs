@@ -1,8 +1,8 @@
 //! Slider along a flexible body: the end is on the curve of a cable, `(p - r(s)) . n(s) = 0` with `s` the
 //! foot of `p` on the curve, for every normal `n`. It transmits a force across the curve only.
 
-use super::{ConstraintKind, Gradient, Rows, View};
-use crate::bodies::{LineChain, Marker, Node};
+use super::{ConstraintKind, Equation, Gradient, Rows, View};
+use crate::bodies::{Bodies, LineChain, Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, normal};
 use crate::system::end::Attachment;
@@ -99,12 +99,6 @@ impl<const D: usize> PointOnCurve<D> {
         (at, slope / stretch, stretch)
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let (at, tangent, _) = self.foot(view);
-        let away = self.end.lift().position(view.x) - at.marker.position(view.x);
-        normal(&tangent, self.normal).dot(&away)
-    }
-
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let none = Vector::zeros();
         let (at, tangent, _) = self.foot(view);
@@ -116,14 +110,38 @@ impl<const D: usize> PointOnCurve<D> {
             ],
         }
     }
+}
+
+impl<const D: usize> Equation<D> for PointOnCurve<D> {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let (at, tangent, _) = self.foot(view);
+        let away = self.end.lift().position(view.x) - at.marker.position(view.x);
+        normal(&tangent, self.normal).dot(&away)
+    }
 
     /// With the point on the curve: `n . (p'' - r'' - 2 s' dr'/dt - s'^2 d^2r/ds^2)`.
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let (at, tangent, stretch) = self.foot(view);
         let relative = self.end.lift().velocity(view.v) - at.marker.position(view.v);
         let speed = tangent.dot(&relative) / stretch;
         let slope_rate = at.marker.direction(view.v);
         -normal(&tangent, self.normal)
             .dot(&(slope_rate * (N::of(2.0) * speed) + at.bend * (speed * speed)))
+    }
+
+    /// The one that slides.
+    fn ends(&self) -> Vec<Attachment<D>> {
+        vec![self.end]
+    }
+
+    fn nodes(&self, bodies: &Bodies<D>) -> Vec<usize> {
+        self.end
+            .nodes()
+            .chain(bodies.chains[self.chain].range())
+            .collect()
+    }
+
+    fn size(&self, bodies: &Bodies<D>) -> f64 {
+        bodies.chains[self.chain].length()
     }
 }

@@ -1,8 +1,8 @@
 //! The direction of a rigid body keeps its length: `(u.u - 1) / 2 = 0`. Natural coordinates: J. Garcia
 //! de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems (1994), section 2.2.
 
-use super::{Gradient, View};
-use crate::bodies::{Marker, no_block};
+use super::{Equation, Gradient, View};
+use crate::bodies::{Bodies, Marker, no_block};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::{Add, Attachment};
@@ -15,11 +15,6 @@ pub struct UnitLength {
 }
 
 impl UnitLength {
-    pub(super) fn value<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let [_, direction] = view.x[self.node].map(Vector::from);
-        N::of(0.5) * (direction.norm_squared() - N::of(1.0))
-    }
-
     pub(super) fn gradient<const D: usize, N: Number>(
         &self,
         view: &View<'_, D, N>,
@@ -34,17 +29,40 @@ impl UnitLength {
             ],
         }
     }
+}
 
-    pub(super) fn bias<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
+impl<const D: usize> Equation<D> for UnitLength {
+    fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let [_, direction] = view.x[self.node].map(Vector::from);
+        N::of(0.5) * (direction.norm_squared() - N::of(1.0))
+    }
+
+    fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [_, rate] = view.v[self.node].map(Vector::from);
         rate.norm_squared()
     }
 
-    pub(super) fn stiffness<const D: usize>(&self, lambda: f64, add: Add<'_, D>) {
+    fn stiffness(&self, lambda: f64, _view: &View<'_, D>, add: Add<'_, D>) {
         let mut block = no_block();
         for k in 0..D {
             block[1][k][1][k] = lambda;
         }
         add(self.node, self.node, &block);
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        Vec::new()
+    }
+
+    fn nodes(&self, _bodies: &Bodies<D>) -> Vec<usize> {
+        vec![self.node]
+    }
+
+    fn is_angle(&self) -> bool {
+        true
+    }
+
+    fn is_stiff(&self) -> bool {
+        true
     }
 }

@@ -9,9 +9,9 @@
 
 use nalgebra::SMatrix;
 
-use super::{Add, Instant};
+use super::{Add, ForceElement, Instant};
 use crate::bodies::winch::{PaidOut, longer_by};
-use crate::bodies::{Marker, Node};
+use crate::bodies::{Bodies, Marker, Node};
 use crate::elements::shape::Values;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
@@ -195,7 +195,7 @@ impl<const D: usize> Contact<D> {
     }
 
     /// Force per reference length at the Gauss points of a segment of a body, N/m.
-    pub(in crate::system) fn changing<N: Number>(
+    pub(in crate::system) fn values<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         segment: usize,
@@ -206,27 +206,6 @@ impl<const D: usize> Contact<D> {
         std::array::from_fn(|k| {
             self.force(&places[k].marker.lift(), at, paid_out.as_ref()) * longer
         })
-    }
-
-    /// Nodes of the segments of a body, or of the marker.
-    pub(super) fn parts(&self) -> Vec<Vec<usize>> {
-        let segments = self.places.chunks(GAUSS_5.len());
-        let nodes = segments.map(|places| places[0].marker.nodes.to_vec());
-        nodes.collect()
-    }
-
-    /// Adds the forces of one of these.
-    pub(super) fn add_part<N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        part: usize,
-        f: &mut [Node<D, N>],
-    ) {
-        let first = part * GAUSS_5.len();
-        let last = self.places.len().min(first + GAUSS_5.len());
-        self.each_force(at, first..last, |end, [position, direction]| {
-            end.add_force(position, direction, f);
-        });
     }
 
     /// The whole force, N.
@@ -267,14 +246,56 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+    /// The sum over all points of what touching takes or holds there, by their weights.
+    fn sum<N: Number>(&self, at: Instant<'_, D, N>, of: impl Fn(&Touch<D, N>) -> N) -> N {
+        let (mut sum, paid_out) = (N::of(0.0), self.paid_out(at));
+        for place in &self.places {
+            if let Some(touch) = self.touch(&place.marker.lift(), at, paid_out.as_ref()) {
+                sum += of(&touch) * N::of(place.weight);
+            }
+        }
+        sum * longer_by(paid_out.as_ref())
+    }
+
+    /// Where it no longer pushes, what it has stored is lost.
+    fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.sum(at, |touch| {
+            let beyond = touch.damped - N::of(1.0);
+            let pushed = N::of(self.stiffness) * touch.depth * beyond * touch.rate;
+            if self.friction == 0.0 {
+                return pushed;
+            }
+            let rubbed = N::of(self.friction) * self.push(touch) / touch.speed;
+            pushed + rubbed * touch.slip.norm_squared()
+        })
+    }
+}
+
+impl<const D: usize> ForceElement<D> for Contact<D> {
+    /// Nodes of the segments of a body, or of the marker.
+    fn parts(&self, _bodies: &Bodies<D>) -> Vec<Vec<usize>> {
+        let segments = self.places.chunks(GAUSS_5.len());
+        let nodes = segments.map(|places| places[0].marker.nodes.to_vec());
+        nodes.collect()
+    }
+
+    /// Adds the forces of one of these.
+    fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
+        let first = part * GAUSS_5.len();
+        let last = self.places.len().min(first + GAUSS_5.len());
+        self.each_force(at, first..last, |end, [position, direction]| {
+            end.add_force(position, direction, f);
+        });
+    }
+
+    fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         self.each_force(at, 0..self.places.len(), |end, [position, direction]| {
             end.add_force(position, direction, f);
         });
     }
 
     /// Calls with the marker and its force; not along a body.
-    pub(super) fn act<N: Number>(
+    fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
@@ -286,12 +307,7 @@ impl<const D: usize> Contact<D> {
 
     /// Without how friction follows from the depth: that part is not symmetric, and acts one way, from the normal to
     /// the way along, so that iterations find it.
-    pub(super) fn add_tangent(
-        &self,
-        at: Instant<'_, D>,
-        stiffness: Add<'_, D>,
-        damping: Add<'_, D>,
-    ) {
+    fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let paid_out = self.paid_out(at);
         let longer = longer_by(paid_out.as_ref());
         for place in &self.places {
@@ -323,19 +339,8 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// The sum over all points of what touching takes or holds there, by their weights.
-    fn sum<N: Number>(&self, at: Instant<'_, D, N>, of: impl Fn(&Touch<D, N>) -> N) -> N {
-        let (mut sum, paid_out) = (N::of(0.0), self.paid_out(at));
-        for place in &self.places {
-            if let Some(touch) = self.touch(&place.marker.lift(), at, paid_out.as_ref()) {
-                sum += of(&touch) * N::of(place.weight);
-            }
-        }
-        sum * longer_by(paid_out.as_ref())
-    }
-
     /// Returns the power of touching material that a winch pays out, and the dissipated power, W.
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let mut comes_in = N::of(0.0);
         if let Some(paid_out) = self.paid_out(at) {
             let end = Vector::from(at.x[paid_out.winch.end()][0]);
@@ -349,22 +354,44 @@ impl<const D: usize> Contact<D> {
         [comes_in, self.dissipation(at)]
     }
 
-    /// Where it no longer pushes, what it has stored is lost.
-    fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.sum(at, |touch| {
-            let beyond = touch.damped - N::of(1.0);
-            let pushed = N::of(self.stiffness) * touch.depth * beyond * touch.rate;
-            if self.friction == 0.0 {
-                return pushed;
-            }
-            let rubbed = N::of(self.friction) * self.push(touch) / touch.speed;
-            pushed + rubbed * touch.slip.norm_squared()
-        })
-    }
-
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.sum(at, |touch| {
             N::of(0.5 * self.stiffness) * touch.depth * touch.depth
         })
+    }
+
+    fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        first: usize,
+        segment: usize,
+    ) -> Option<Values<D, N>> {
+        let is_on = self.is_distributed() && self.first_node() == first;
+        is_on.then(|| self.values(at, segment))
+    }
+
+    /// Friction is absent at rest.
+    fn hold(&mut self, _at: Instant<'_, D>, _fraction: f64) {
+        self.friction = 0.0;
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.friction == 0.0
+    }
+
+    fn has_contact(&self) -> bool {
+        true
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0 || self.friction > 0.0
+    }
+
+    /// Elements of a body couple their nodes already.
+    fn ends(&self) -> Vec<Attachment<D>> {
+        if self.is_distributed() {
+            return Vec::new();
+        }
+        vec![Attachment::Body(self.places[0].marker)]
     }
 }

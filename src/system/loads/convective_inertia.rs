@@ -1,9 +1,9 @@
 //! Inertia forces of the material of a cable that a winch pays out, which passes through its mesh ([`Winch`]): those that
 //! accelerations of the nodes do not tell.
 
-use super::Instant;
+use super::{ForceElement, Instant};
 use crate::bodies::winch::PaidOut;
-use crate::bodies::{LineChain, Node};
+use crate::bodies::{Bodies, LineChain, Node};
 use crate::elements::shape::{Values, on_coordinates};
 use crate::math::jet::Number;
 
@@ -31,13 +31,6 @@ impl ConvectiveInertia {
         }
     }
 
-    /// Nodes of its elements.
-    pub(super) fn parts<const D: usize>(&self, chains: &[LineChain<D>]) -> Vec<Vec<usize>> {
-        let chain = &chains[self.chain];
-        let elements = 0..chain.elements().len();
-        elements.map(|j| chain.nodes(j).to_vec()).collect()
-    }
-
     /// Forces at the Gauss points of an element, N/m.
     pub(super) fn values<const D: usize, N: Number>(
         &self,
@@ -47,12 +40,17 @@ impl ConvectiveInertia {
         let of = self.cable(at);
         of.winch.transport(of.chain, element, (at.x, at.v), &of.now)
     }
+}
 
-    pub(super) fn add_force<const D: usize, N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        f: &mut [Node<D, N>],
-    ) {
+impl<const D: usize> ForceElement<D> for ConvectiveInertia {
+    /// Nodes of its elements.
+    fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
+        let chain = &bodies.chains[self.chain];
+        let elements = 0..chain.elements().len();
+        elements.map(|j| chain.nodes(j).to_vec()).collect()
+    }
+
+    fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         let [_, rate, second] = at.drives[at.bodies.winches[self.winch].coordinate];
         // Derivatives may not vanish where values do.
         if rate.largest() == 0.0 && second.largest() == 0.0 {
@@ -64,12 +62,7 @@ impl ConvectiveInertia {
     }
 
     /// Adds the forces on an element.
-    pub(super) fn add_part<const D: usize, N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        element: usize,
-        f: &mut [Node<D, N>],
-    ) {
+    fn add_part<N: Number>(&self, at: Instant<'_, D, N>, element: usize, f: &mut [Node<D, N>]) {
         let chain = &at.bodies.chains[self.chain];
         let values = self.values(at, element);
         let forces = on_coordinates(&values, chain.element_length(element));
@@ -77,8 +70,22 @@ impl ConvectiveInertia {
     }
 
     /// Power that comes in, W.
-    pub(super) fn power<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let of = self.cable(at);
-        of.winch.power(of.chain, (at.x, at.v), &of.now)
+        [of.winch.power(of.chain, (at.x, at.v), &of.now), N::of(0.0)]
+    }
+
+    fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        first: usize,
+        segment: usize,
+    ) -> Option<Values<D, N>> {
+        (self.first_node(&at.bodies.chains) == first).then(|| self.values(at, segment))
+    }
+
+    /// Winches stand where equilibria are sought.
+    fn work(&self, _before: Instant<'_, D>, _after: Instant<'_, D>) -> f64 {
+        0.0
     }
 }

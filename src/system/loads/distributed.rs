@@ -1,7 +1,7 @@
 //! A dead force per reference length of a cable or a rod.
 
 use super::line_load::LineLoad;
-use super::{Instant, PANELS};
+use super::{ForceElement, Instant, PANELS};
 use crate::bodies::winch::{PaidOut, longer_by};
 use crate::bodies::{LineChain, Node, RigidRod};
 use crate::elements::Element;
@@ -9,6 +9,7 @@ use crate::elements::shape::{self, Values, weights};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
+use crate::system::signal::Signal;
 
 /// Line that a load is distributed along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +48,7 @@ impl<const D: usize> DistributedForce<D> {
     }
 
     /// Returns the varying part of the load at the Gauss points of a segment, N/m.
-    pub(in crate::system) fn changing<N: Number>(
+    pub(in crate::system) fn values<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         segment: usize,
@@ -92,7 +93,7 @@ impl<const D: usize> DistributedForce<D> {
             LoadedLine::Chain(chain) => &at.bodies.chains[chain],
             LoadedLine::Rod(rod) => {
                 for panel in 0..PANELS {
-                    let values = self.changing(at, panel);
+                    let values = self.values(at, panel);
                     for (point, load) in GAUSS_5.iter().zip(&values) {
                         let part = rod.length / PANELS as f64;
                         let arm = (panel as f64 + point.at) * part - 0.5 * rod.length;
@@ -105,25 +106,12 @@ impl<const D: usize> DistributedForce<D> {
         };
         for (j, element) in chain.elements().iter().enumerate() {
             let [a, b] = chain.nodes(j);
-            let values = self.changing(at, j);
+            let values = self.values(at, j);
             for (weights, load) in weights(element.length()).iter().zip(&values) {
                 add(a, [weights[0], weights[1]], load);
                 add(b, [weights[2], weights[3]], load);
             }
         }
-    }
-
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        let load = self.uniform(at);
-        let mut add = |node: usize, weights: [f64; 2], load: &Vector<D, N>| {
-            for (k, weight) in weights.into_iter().enumerate() {
-                for d in 0..D {
-                    f[node][k][d] += load[d] * N::of(weight);
-                }
-            }
-        };
-        self.each(&at.bodies.chains, |node, weights| add(node, weights, &load));
-        self.each_changing(at, add);
     }
 
     /// The integral of the load times a nodal field.
@@ -140,10 +128,6 @@ impl<const D: usize> DistributedForce<D> {
         sum
     }
 
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.along(at, at.v) + self.on_passing(at)
-    }
-
     /// Power on the material that passes through the mesh of a cable that is paid out, W.
     fn on_passing<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let (mut sum, uniform) = (N::of(0.0), self.uniform(at));
@@ -153,7 +137,7 @@ impl<const D: usize> DistributedForce<D> {
         let chain = paid_out.chain;
         for j in 0..chain.elements().len() {
             let (e, l) = (chain.element(j, at.x), chain.element_length(j));
-            for (point, load) in GAUSS_5.iter().zip(self.changing(at, j)) {
+            for (point, load) in GAUSS_5.iter().zip(self.values(at, j)) {
                 let slope = e * shape::slopes(N::of(point.at), l);
                 let passing = paid_out.passing((j, point.at), slope);
                 sum += (uniform + load).dot(&passing) * N::of(point.weight * l);
@@ -161,8 +145,45 @@ impl<const D: usize> DistributedForce<D> {
         }
         sum
     }
+}
 
-    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+impl<const D: usize> ForceElement<D> for DistributedForce<D> {
+    fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+        let load = self.uniform(at);
+        let mut add = |node: usize, weights: [f64; 2], load: &Vector<D, N>| {
+            for (k, weight) in weights.into_iter().enumerate() {
+                for d in 0..D {
+                    f[node][k][d] += load[d] * N::of(weight);
+                }
+            }
+        };
+        self.each(&at.bodies.chains, |node, weights| add(node, weights, &load));
+        self.each_changing(at, add);
+    }
+
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        [self.along(at, at.v) + self.on_passing(at), N::of(0.0)]
+    }
+
+    fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         self.along(before, after.x) - self.along(before, before.x)
+    }
+
+    fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        first: usize,
+        segment: usize,
+    ) -> Option<Values<D, N>> {
+        let is_on = self.density.changes() && self.first_node(&at.bodies.chains) == first;
+        is_on.then(|| self.values(at, segment))
+    }
+
+    fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
+        self.density.hold(at, fraction);
+    }
+
+    fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
+        self.density.signals().for_each(call);
     }
 }

@@ -5,11 +5,13 @@
 //! Source: S. S. Antman, Nonlinear Problems of Elasticity, 2nd ed. (2005), section 8.2 (balance of moments of a rod); H. Ziegler, Principles
 //! of Structural Stability, 2nd ed. (1977), section 5.2 (moments without a potential).
 
-use super::Instant;
 use super::line_load::LineLoad;
-use crate::bodies::{Marker, Node, RodChain};
+use super::{ForceElement, Instant};
+use crate::bodies::{Bodies, Marker, Node, RodChain};
 use crate::elements::section::Vectors;
 use crate::math::jet::Number;
+use crate::system::end::Attachment;
+use crate::system::signal::Signal;
 
 /// A distributed moment.
 #[derive(Clone, Debug)]
@@ -50,46 +52,35 @@ impl DistributedMoment {
     fn rod<'a, const D: usize, N>(&self, at: Instant<'a, D, N>) -> &'a RodChain {
         &at.bodies.rod_chains[self.on]
     }
+}
 
+impl<const D: usize> ForceElement<D> for DistributedMoment {
     /// Adds its forces on an element.
-    pub(super) fn add_force_on<const D: usize, N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        element: usize,
-        f: &mut [Node<D, N>],
-    ) {
+    fn add_part<N: Number>(&self, at: Instant<'_, D, N>, element: usize, f: &mut [Node<D, N>]) {
         let force = self
             .rod(at)
             .loaded(element, at.x, &self.moments(at, element));
         self.rod(at).add_load(element, &force, at.x, f);
     }
 
-    pub(super) fn add_force<const D: usize, N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        f: &mut [Node<D, N>],
-    ) {
+    fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         for element in 0..self.rod(at).count() {
-            self.add_force_on(at, element, f);
+            self.add_part(at, element, f);
         }
     }
 
-    pub(super) fn power<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let rod = self.rod(at);
         let mut sum = N::of(0.0);
         for element in 0..rod.count() {
             let force = rod.loaded(element, at.x, &self.moments(at, element));
             sum += rod.power_of((element, &force), (at.x, at.v), &at.bodies.frames);
         }
-        sum
+        [sum, N::of(0.0)]
     }
 
     /// Exact for small turns.
-    pub(super) fn work<const D: usize>(
-        &self,
-        before: Instant<'_, D>,
-        after: Instant<'_, D>,
-    ) -> f64 {
+    fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let rod = self.rod(before);
         let work = (0..rod.count()).map(|element| {
             let moments = self.moments(before, element);
@@ -97,5 +88,31 @@ impl DistributedMoment {
             rod.work_of((element, &force), [before.x, after.x])
         });
         work.sum()
+    }
+
+    fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
+        self.density.hold(at, fraction);
+    }
+
+    fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
+        self.density.signals().for_each(call);
+    }
+
+    fn is_conservative(&self) -> bool {
+        false
+    }
+
+    fn is_moment(&self) -> bool {
+        true
+    }
+
+    fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
+        let rod = &bodies.rod_chains[self.on];
+        let elements = 0..rod.count();
+        elements.map(|j| rod.all_nodes(j).to_vec()).collect()
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        vec![Attachment::Body(self.end)]
     }
 }

@@ -15,9 +15,9 @@ use nalgebra::SMatrix;
 
 use super::distributed::LoadedLine;
 use super::line_load::LineLoad;
-use super::{Add, Instant, PANELS};
+use super::{Add, ForceElement, Instant, PANELS};
 use crate::bodies::winch::{PaidOut, longer_by};
-use crate::bodies::{LineChain, Node, no_block};
+use crate::bodies::{Bodies, LineChain, Node, no_block};
 use crate::elements::{Element, shape};
 use crate::math::function::Function;
 use crate::math::jet::Number;
@@ -137,17 +137,6 @@ impl<const D: usize> Fluid<D> {
         }
     }
 
-    /// Nodes of its segments.
-    pub(super) fn parts(&self, chains: &[LineChain<D>]) -> Vec<Vec<usize>> {
-        match self.on {
-            LoadedLine::Chain(chain) => {
-                let segments = 0..self.segments();
-                segments.map(|j| chains[chain].nodes(j).to_vec()).collect()
-            }
-            LoadedLine::Rod(rod) => vec![vec![rod.node]; self.segments()],
-        }
-    }
-
     fn place(&self, chains: &[LineChain<D>], segment: usize, point: usize) -> FluidPoint {
         let point = GAUSS_5[point];
         match self.on {
@@ -252,13 +241,31 @@ impl<const D: usize> Fluid<D> {
         values
     }
 
+    /// Whether it can do without a potential: buoyancy alone acts on what rests in a fluid at rest.
+    pub(super) fn streams(&self) -> bool {
+        let rests = |signal: &Signal| matches!(signal, Signal::Function(Function::Constant(0.0)));
+        let (velocity, rate) = self.carried;
+        let is_carried = velocity != Vector::<D>::zeros() || rate != [0.0; 3];
+        self.is_damped() && (is_carried || !self.current.signals().all(rests))
+    }
+}
+
+impl<const D: usize> ForceElement<D> for Fluid<D> {
+    /// Nodes of its segments.
+    fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
+        match self.on {
+            LoadedLine::Chain(chain) => {
+                let segments = 0..self.segments();
+                segments
+                    .map(|j| bodies.chains[chain].nodes(j).to_vec())
+                    .collect()
+            }
+            LoadedLine::Rod(rod) => vec![vec![rod.node]; self.segments()],
+        }
+    }
+
     /// Adds its forces on a segment.
-    pub(super) fn add_force_on<N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        segment: usize,
-        f: &mut [Node<D, N>],
-    ) {
+    fn add_part<N: Number>(&self, at: Instant<'_, D, N>, segment: usize, f: &mut [Node<D, N>]) {
         self.each(at, segment, |place, _, _, force| {
             for (k, part) in place.position.into_iter().enumerate() {
                 let on = force * N::of(part * place.weight);
@@ -268,15 +275,15 @@ impl<const D: usize> Fluid<D> {
         });
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+    fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         for segment in 0..self.segments() {
-            self.add_force_on(at, segment, f);
+            self.add_part(at, segment, f);
         }
     }
 
     /// Adds the damping matrix of drag. Its derivatives with respect to the rotation of the line are left out: they are
     /// not symmetric, and steps converge without them.
-    pub(super) fn add_damping(&self, at: Instant<'_, D>, damping: Add<'_, D>) {
+    fn add_tangent(&self, at: Instant<'_, D>, _stiffness: Add<'_, D>, damping: Add<'_, D>) {
         if !self.is_damped() {
             return;
         }
@@ -309,7 +316,7 @@ impl<const D: usize> Fluid<D> {
     }
 
     /// Returns the power that the fluid supplies by its motion and by buoyancy, and the power that drag dissipates, W.
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let (mut on_line, mut lost) = (N::of(0.0), N::of(0.0));
         for segment in 0..self.segments() {
             self.each(at, segment, |place, flow, strip, force| {
@@ -324,7 +331,7 @@ impl<const D: usize> Fluid<D> {
     }
 
     /// Returns the work from one instant to another of forces that stay as they were at the first, J.
-    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+    fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let mut sum = 0.0;
         for segment in 0..self.segments() {
             self.each(before, segment, |place, _, _, force| {
@@ -336,21 +343,30 @@ impl<const D: usize> Fluid<D> {
     }
 
     /// Becomes a fraction of what it is, from then on, the current as it is at an instant.
-    pub(super) fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
+    fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
         self.current.hold(at, 1.0);
         self.fraction *= fraction;
     }
 
     /// Whether its velocity takes something out.
-    pub(super) fn is_damped(&self) -> bool {
+    fn is_damped(&self) -> bool {
         self.strips.iter().any(|strip| strip.drag != [0.0; 2])
     }
 
-    /// Whether it can do without a potential: buoyancy alone acts on what rests in a fluid at rest.
-    pub(super) fn streams(&self) -> bool {
-        let rests = |signal: &Signal| matches!(signal, Signal::Function(Function::Constant(0.0)));
-        let (velocity, rate) = self.carried;
-        let is_carried = velocity != Vector::<D>::zeros() || rate != [0.0; 3];
-        self.is_damped() && (is_carried || !self.current.signals().all(rests))
+    fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        first: usize,
+        segment: usize,
+    ) -> Option<Values<D, N>> {
+        (self.first_node(&at.bodies.chains) == first).then(|| self.values(at, segment))
+    }
+
+    fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
+        self.current.signals().for_each(call);
+    }
+
+    fn is_conservative(&self) -> bool {
+        !self.streams()
     }
 }

@@ -3,7 +3,7 @@
 
 use nalgebra::SMatrix;
 
-use super::{Add, Instant};
+use super::{Add, ForceElement, Instant, hold};
 use crate::bodies::{Marker, no_block};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
@@ -40,8 +40,10 @@ impl<const D: usize> Force<D> {
         let u = self.marker.lift().direction(at.x).normalize();
         u * components[0] + perpendicular(u) * components[1]
     }
+}
 
-    pub(super) fn act<N: Number>(
+impl<const D: usize> ForceElement<D> for Force<D> {
+    fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
@@ -51,7 +53,7 @@ impl<const D: usize> Force<D> {
     }
 
     /// The force follows the direction: `d force = perpendicular(force) (u x du) / u.u`; the symmetric part.
-    pub(super) fn add_stiffness(&self, at: Instant<'_, D>, add: Add<'_, D>) {
+    fn add_tangent(&self, at: Instant<'_, D>, add: Add<'_, D>, _damping: Add<'_, D>) {
         // In space what it adds is small beside inertia.
         if !self.follower || D == 3 {
             return;
@@ -82,12 +84,31 @@ impl<const D: usize> Force<D> {
         }
     }
 
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.value(at).dot(&self.marker.lift().position(at.v))
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        [
+            self.value(at).dot(&self.marker.lift().position(at.v)),
+            N::of(0.0),
+        ]
     }
 
-    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+    fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let way: Vector<D> = self.marker.position(after.x) - self.marker.position(before.x);
         self.value(before).dot(&way)
+    }
+
+    fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
+        hold(&mut self.components, at, fraction);
+    }
+
+    fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
+        self.components.iter().for_each(call);
+    }
+
+    fn is_conservative(&self) -> bool {
+        !self.follower
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        vec![Attachment::Body(self.marker)]
     }
 }

@@ -5,7 +5,7 @@
 //! Source: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied
 //! Mechanics 42 (1975) 440-445, with a force that is linear in `d`.
 
-use super::{Add, Instant};
+use super::{Add, ForceElement, Instant};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::coordinate::Coordinate;
@@ -70,7 +70,17 @@ impl<const D: usize> JointLimit<D> {
         })
     }
 
-    pub(super) fn act<N: Number>(
+    /// Where it no longer pushes, what it has stored is lost.
+    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.contact(at).map_or(N::of(0.0), |contact| {
+            let beyond = self.damped(&contact) - N::of(1.0);
+            N::of(self.stiffness) * contact.depth * beyond * contact.rate
+        })
+    }
+}
+
+impl<const D: usize> ForceElement<D> for JointLimit<D> {
+    fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
@@ -80,12 +90,7 @@ impl<const D: usize> JointLimit<D> {
         }
     }
 
-    pub(super) fn add_tangent(
-        &self,
-        at: Instant<'_, D>,
-        stiffness: Add<'_, D>,
-        damping: Add<'_, D>,
-    ) {
+    fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let Some(contact) = self.contact(at) else {
             return;
         };
@@ -97,17 +102,29 @@ impl<const D: usize> JointLimit<D> {
         }
     }
 
-    /// Where it no longer pushes, what it has stored is lost.
-    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.contact(at).map_or(N::of(0.0), |contact| {
-            let beyond = self.damped(&contact) - N::of(1.0);
-            N::of(self.stiffness) * contact.depth * beyond * contact.rate
-        })
-    }
-
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.contact(at).map_or(N::of(0.0), |contact| {
             N::of(0.5 * self.stiffness) * contact.depth * contact.depth
         })
+    }
+
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        [N::of(0.0), self.dissipation(at)]
+    }
+
+    fn is_moment(&self) -> bool {
+        self.coordinate.is_angle()
+    }
+
+    fn has_contact(&self) -> bool {
+        true
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.coordinate.ends().to_vec()
     }
 }

@@ -1,6 +1,6 @@
 //! A linear spring with a damper on a coordinate of a joint: along a line, about the axis of a revolute joint.
 
-use super::{Add, Instant};
+use super::{Add, ForceElement, Instant};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::coordinate::Coordinate;
@@ -35,7 +35,14 @@ impl<const D: usize> JointSpring<D> {
         -N::of(self.stiffness) * self.stretch(at) - N::of(self.damping) * rate
     }
 
-    pub(super) fn act<N: Number>(
+    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        let rate = self.coordinate.rate(at.x, at.v);
+        N::of(self.damping) * rate * rate
+    }
+}
+
+impl<const D: usize> ForceElement<D> for JointSpring<D> {
+    fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
@@ -43,12 +50,7 @@ impl<const D: usize> JointSpring<D> {
         self.coordinate.act(self.force(at), at.x, call);
     }
 
-    pub(super) fn add_tangent(
-        &self,
-        at: Instant<'_, D>,
-        stiffness: Add<'_, D>,
-        damping: Add<'_, D>,
-    ) {
+    fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let of = &self.coordinate;
         if self.stiffness != 0.0 {
             of.add_square(self.stiffness, at.x, &mut *stiffness);
@@ -59,13 +61,24 @@ impl<const D: usize> JointSpring<D> {
         }
     }
 
-    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        let rate = self.coordinate.rate(at.x, at.v);
-        N::of(self.damping) * rate * rate
-    }
-
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let stretch = self.stretch(at);
         N::of(0.5 * self.stiffness) * stretch * stretch
+    }
+
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        [N::of(0.0), self.dissipation(at)]
+    }
+
+    fn is_moment(&self) -> bool {
+        self.coordinate.is_angle()
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.coordinate.ends().to_vec()
     }
 }

@@ -3,7 +3,7 @@
 
 use nalgebra::SMatrix;
 
-use super::{Add, Instant};
+use super::{Add, ForceElement, Instant};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, cross};
 use crate::system::end::{Attachment, coupling};
@@ -18,8 +18,8 @@ pub struct Moment<const D: usize = 2> {
     pub size: Signal,
 }
 
-impl<const D: usize> Moment<D> {
-    pub(super) fn act<N: Number>(
+impl<const D: usize> ForceElement<D> for Moment<D> {
+    fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
@@ -30,7 +30,7 @@ impl<const D: usize> Moment<D> {
         call(&first, first.turn(-size, at.x));
     }
 
-    pub(super) fn add_stiffness(&self, at: Instant<'_, D>, add: Add<'_, D>) {
+    fn add_tangent(&self, at: Instant<'_, D>, add: Add<'_, D>, _damping: Add<'_, D>) {
         let size = self.size.value(at);
         for (end, size) in self.ends.iter().zip([-size, size]) {
             if let Attachment::Body(_) = end {
@@ -42,16 +42,32 @@ impl<const D: usize> Moment<D> {
         }
     }
 
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let [a, b] = self.ends.map(|end| end.lift().spin(at.x, at.v));
-        self.size.value(at) * (b - a)
+        [self.size.value(at) * (b - a), N::of(0.0)]
     }
 
-    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+    fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let turn = |end: &Attachment<D>| {
             let (u, v) = (end.direction(before.x), end.direction(after.x));
             cross(&u, &v).atan2(u.dot(&v))
         };
         self.size.value(before) * (turn(&self.ends[1]) - turn(&self.ends[0]))
+    }
+
+    fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
+        self.size = self.size.held(at, fraction);
+    }
+
+    fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
+        call(&self.size);
+    }
+
+    fn is_moment(&self) -> bool {
+        true
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ends.to_vec()
     }
 }

@@ -7,7 +7,7 @@
 
 use nalgebra::Vector3;
 
-use super::Instant;
+use super::{ForceElement, Instant};
 use crate::bodies::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components, vector};
@@ -80,8 +80,10 @@ impl<const D: usize> SpatialMoment<D> {
         });
         parts.fold(Vector3::zeros(), |sum, part| sum + part)
     }
+}
 
-    pub(super) fn act<N: Number>(
+impl<const D: usize> ForceElement<D> for SpatialMoment<D> {
+    fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
@@ -89,13 +91,13 @@ impl<const D: usize> SpatialMoment<D> {
         act(&self.ends, &self.moment(at), at.x, call);
     }
 
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let [first, second] = self.ends.each_ref().map(|end| spin(end, at.x, at.v));
-        self.moment(at).dot(&(second - first))
+        [self.moment(at).dot(&(second - first)), N::of(0.0)]
     }
 
     /// Exact for small turns.
-    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+    fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let [first, second] = self.ends.each_ref().map(|end| {
             let Attachment::Body(marker) = end else {
                 return Vector3::zeros();
@@ -108,5 +110,27 @@ impl<const D: usize> SpatialMoment<D> {
             (turned[0] + turned[1] + turned[2]) * 0.5
         });
         self.moment(before).dot(&(second - first))
+    }
+
+    fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
+        for (size, _) in &mut self.parts {
+            *size = size.held(at, fraction);
+        }
+    }
+
+    fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
+        self.parts.iter().for_each(|(size, _)| call(size));
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.is_torque
+    }
+
+    fn is_moment(&self) -> bool {
+        true
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ends.to_vec()
     }
 }

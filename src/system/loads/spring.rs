@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 
-use super::{Add, Instant};
+use super::{Add, ForceElement, Instant};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::{Attachment, between};
@@ -47,8 +47,10 @@ impl<const D: usize> Spring<D> {
         let (_, length, speed) = self.stretch(at);
         N::of(self.stiffness) * (length - self.rest(at)) + N::of(self.damping) * speed
     }
+}
 
-    pub(super) fn act<N: Number>(
+impl<const D: usize> ForceElement<D> for Spring<D> {
+    fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
@@ -64,12 +66,7 @@ impl<const D: usize> Spring<D> {
         call(&second, [-pull, none]);
     }
 
-    pub(super) fn add_tangent(
-        &self,
-        at: Instant<'_, D>,
-        stiffness: Add<'_, D>,
-        damping: Add<'_, D>,
-    ) {
+    fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let (unit, length, _) = self.stretch(at);
         let along: SMatrix<f64, D, D> = unit * unit.transpose();
         // A spring in compression pushes itself aside; that part stays out where it has no direction.
@@ -88,15 +85,31 @@ impl<const D: usize> Spring<D> {
     }
 
     /// A rest length that changes does work; the part of the spring itself comes from its energy.
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let speed = self.stretch(at).2;
         let stretch = self.stretch(at).1 - self.rest(at);
         let supplied = -N::of(self.stiffness) * stretch * self.length.rate(at);
         [supplied, N::of(self.damping) * speed * speed]
     }
 
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let stretch = self.stretch(at).1 - self.rest(at);
         N::of(0.5 * self.stiffness) * stretch * stretch
+    }
+
+    fn hold(&mut self, at: Instant<'_, D>, _fraction: f64) {
+        self.length = self.length.held(at, 1.0);
+    }
+
+    fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
+        call(&self.length);
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ends.to_vec()
     }
 }

@@ -11,6 +11,7 @@ use crate::bodies::{add_node, no_node};
 use crate::math::function::Function;
 use crate::math::switches::grain;
 use crate::system::joints::JointEquations;
+use crate::system::loads::ForceElement as _;
 use crate::system::signal::{Drive, Signal};
 use crate::system::{Kinematics, State, StepOutcome, System, Workspace};
 
@@ -19,30 +20,21 @@ const JUMP: f64 = 1e-9;
 /// Jump of its velocity, relative, below which it is roundoff.
 const ROUNDOFF: f64 = 1e-12;
 
-/// A function of time, by what follows it in the system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Follower {
-    /// A driven coordinate, by its index.
-    Drive(usize),
-    /// A load, by its index.
-    Load(usize),
-}
-
 impl<const D: usize> System<D> {
-    /// All functions of time, and what follows them.
-    pub fn functions(&self) -> impl Iterator<Item = (Follower, &Function)> {
-        let drives = self.drives.iter().enumerate();
-        let of_drives = drives.filter_map(|(index, drive)| match drive {
-            Drive::Function(function) => Some((Follower::Drive(index), function)),
-            Drive::Input { .. } | Drive::Turned { .. } => None,
-        });
-        let of_loads = self.loads.iter().enumerate().flat_map(|(index, load)| {
-            load.signals().filter_map(move |signal| match signal {
-                Signal::Function(function) => Some((Follower::Load(index), function)),
-                Signal::Input(_) => None,
-            })
-        });
-        of_drives.chain(of_loads)
+    /// Calls with every function of time that a driven coordinate or a load follows.
+    pub fn each_function<'a>(&'a self, mut call: impl FnMut(&'a Function)) {
+        for drive in &self.drives {
+            if let Drive::Function(function) = drive {
+                call(function);
+            }
+        }
+        for load in &self.loads {
+            load.each_signal(&mut |signal| {
+                if let Signal::Function(function) = signal {
+                    call(function);
+                }
+            });
+        }
     }
 
     /// The first joint or motion that follows a driven coordinate.
@@ -73,10 +65,14 @@ impl<const D: usize> System<D> {
         if !self.has_breaks {
             return None;
         }
-        let found = (self.functions()).filter_map(|(_, function)| function.next_break(from, until));
         let due = self.releases.iter().filter_map(|release| release.time);
         let due = due.filter(|time| from < *time && *time <= until);
-        found.chain(due).min_by(f64::total_cmp)
+        let mut first = due.min_by(f64::total_cmp);
+        self.each_function(|function| {
+            let earlier = function.next_break(from, first.unwrap_or(until));
+            first = earlier.or(first);
+        });
+        first
     }
 
     /// Driven coordinates as functions of time have them at `clock`, with one derivative.

@@ -5,6 +5,7 @@ use nalgebra::Complex;
 
 use crate::bodies::{Node, RENEWED, largest_turn};
 use crate::system::instant::Instant;
+use crate::system::loads::ForceElement as _;
 use crate::system::signal::{Trajectory, moved};
 use crate::system::{State, System, Workspace};
 

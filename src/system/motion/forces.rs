@@ -7,6 +7,7 @@ use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
+use crate::system::loads::ForceElement as _;
 use crate::system::signal::Drive;
 use crate::system::workspace::{Kinematics, NodalForces, Scratch};
 use crate::system::{System, Workspace};

@@ -14,7 +14,7 @@
 use crate::bodies::{Jacobian, Node, SparseRows, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
-use crate::system::joints::{Constraint, View};
+use crate::system::joints::{Constraint, Equation as _, View};
 use crate::system::workspace::Constraints;
 use crate::system::{Kinematics, System, Workspace};
 
@@ -101,7 +101,7 @@ impl<const D: usize> System<D> {
             visit(ConstraintRow {
                 constraint,
                 view: &view,
-                size: constraint.size(&self.bodies.chains),
+                size: constraint.kind.size(&self.bodies),
                 rows: work.constraints.jacobian.rows(),
                 row,
             });
@@ -295,7 +295,7 @@ impl<const D: usize> System<D> {
         );
         let mut largest = 0.0;
         for (right, constraint) in right.iter().zip(&self.constraints) {
-            largest = larger(largest, right.abs() / constraint.size(&self.bodies.chains));
+            largest = larger(largest, right.abs() / constraint.kind.size(&self.bodies));
         }
         largest
     }
@@ -338,14 +338,13 @@ impl<const D: usize> System<D> {
 
     /// Residual of a constraint, relative to its size.
     fn relative<N: Number>(&self, constraint: &Constraint<D>, view: &View<'_, D, N>) -> f64 {
-        constraint.value(view).plain().abs() / constraint.size(&self.bodies.chains)
+        constraint.value(view).plain().abs() / constraint.kind.size(&self.bodies)
     }
 
     /// Largest residual of velocities, relative to the size of the constraint, 1/s.
     pub(in crate::system) fn velocity_residual<N: Number>(&self, view: &View<'_, D, N>) -> f64 {
-        let residual = |c: &Constraint<D>| {
-            constraint_rate(c, view).plain().abs() / c.size(&self.bodies.chains)
-        };
+        let residual =
+            |c: &Constraint<D>| constraint_rate(c, view).plain().abs() / c.kind.size(&self.bodies);
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 }

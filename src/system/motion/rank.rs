@@ -6,7 +6,7 @@ use super::multipliers::RANK;
 use crate::bodies::{Jacobian, no_node};
 use crate::math::sparse::{graph, parts};
 use crate::math::vector::dot;
-use crate::system::joints::{Constraint, ConstraintKind, Primitive};
+use crate::system::joints::{Constraint, ConstraintKind, Equation as _, Primitive};
 use crate::system::{State, System, Workspace};
 
 /// Part of a row of the Jacobian below which others give it exactly, but for the residuals of the state.
@@ -106,7 +106,7 @@ impl<const D: usize> System<D> {
     /// the largest, of displacements or of directions, whichever differ more.
     pub(in crate::system) fn evenness(&self) -> Vec<f64> {
         let ends = |constraint: &Constraint<D>| {
-            let ends = constraint.ends().into_iter();
+            let ends = constraint.kind.ends().into_iter();
             let nodes: Vec<usize> = ends.filter_map(|end| end.nodes().next()).collect();
             nodes
         };

@@ -9,7 +9,9 @@ use nalgebra::Vector3;
 use crate::bodies::{Articulated, Link, RigidBodyFrame, no_node};
 use crate::math::space::{Vector, components, moment};
 use crate::system::end::Attachment;
-use crate::system::joints::{Constraint, ConstraintKind, LinearConstraint, Target, View};
+use crate::system::joints::{
+    Constraint, ConstraintKind, Equation as _, LinearConstraint, Target, View,
+};
 use crate::system::workspace::Constraints;
 use crate::system::{System, Workspace};
 
@@ -178,7 +180,7 @@ fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
     let mut pairs: Vec<Pair<D>> = Vec::new();
     let mut known = BTreeMap::new();
     for (row, constraint) in system.constraints.iter().enumerate() {
-        let ends = constraint.ends();
+        let ends = constraint.kind.ends();
         let bodies = [body(system, ends.first()?)?, body(system, ends.get(1)?)?];
         if bodies[0] == bodies[1] || constraint.release.is_some() {
             return None;

@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use crate::bodies::{Node, add_node, carried_node, map_node, no_node, product, turned};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::system::joints::View;
+use crate::system::loads::ForceElement as _;
 use crate::system::signal::Drive;
 use crate::system::{Evaluation, State, System, Workspace};
 

@@ -9,6 +9,7 @@ use crate::math::rotation::{NO_TURN, Quaternion};
 use crate::math::space::{Vector, axis};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
+use crate::system::loads::ForceElement as _;
 use crate::system::motion::forces::weighted;
 use crate::system::{Attachment, DrivenSystem, State, System, Workspace};
 

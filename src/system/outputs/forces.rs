@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
 use crate::math::jet::Number;
-use crate::math::space::{Vector, moment};
-use crate::system::loads::AppliedLoad;
+use crate::math::space::{Vector, moment, vector};
+use crate::system::loads::{AppliedLoad, ForceElement as _};
 use crate::system::{Attachment, System};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -57,16 +57,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Force (N) and moment (N m), in the plane its third component, of a coupling on what it couples to.
     pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
-        let (at, zero) = (self.instant(system), N::of(0.0));
         match &system.loads[load] {
-            AppliedLoad::Bushing(coupling) => (coupling.force(at), [zero; 3]),
-            AppliedLoad::RotationalBushing(coupling) => {
-                (Vector::zeros(), [zero, zero, coupling.moment(at)])
+            AppliedLoad::Bushing(coupling) => {
+                let [force, moment] = coupling.reaction(self.instant(system));
+                (vector(force.into()), moment.into())
             }
-            AppliedLoad::OrientationBushing(coupling) => {
-                (Vector::zeros(), coupling.moment(at).into())
-            }
-            _ => (Vector::zeros(), [zero; 3]),
+            _ => (Vector::zeros(), [N::of(0.0); 3]),
         }
     }
 

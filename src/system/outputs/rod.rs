@@ -13,6 +13,7 @@ use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, carried, moment};
 use crate::system::System;
 use crate::system::end::Attachment;
+use crate::system::loads::ForceElement as _;
 use crate::system::loads::PANELS;
 
 /// Part of the length of a rod within which what acts is at one place.

@@ -20,7 +20,7 @@ use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, GAUSS_5, QuadraturePoint, integrals_to};
 use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
 use crate::system::System;
-use crate::system::loads::AppliedLoad;
+use crate::system::loads::{AppliedLoad, ForceElement as _};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force that the element before a node of a cable exerts on the one after it (report Eq. 14), N:
@@ -196,7 +196,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let at = self.instant(system);
         let mut sum: Option<Values<D, N>> = None;
         for load in &system.loads {
-            let Some(values) = load.changing(at, (first, segment)) else {
+            let Some(values) = load.changing(at, first, segment) else {
                 continue;
             };
             let sum = sum.get_or_insert([Vector::zeros(); GAUSS_5.len()]);

@@ -24,7 +24,8 @@ use crate::math::jet::{Jet, Number};
 use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::{General, Matrix};
 use crate::system::instant::Instant;
-use crate::system::joints::{Constraint, ConstraintKind, View};
+use crate::system::joints::{Constraint, ConstraintKind, Equation as _, View};
+use crate::system::loads::ForceElement as _;
 use crate::system::workspace::Frozen;
 use crate::system::{System, Workspace};
 
@@ -203,11 +204,7 @@ impl<const D: usize> System<D> {
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
-            for (part, nodes) in load
-                .parts(&self.bodies.chains, &self.bodies.rod_chains)
-                .iter()
-                .enumerate()
-            {
+            for (part, nodes) in load.parts(&self.bodies).iter().enumerate() {
                 let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
                     let at = Instant {
                         time: Jet::from_re(time),
@@ -395,7 +392,7 @@ impl<const D: usize> System<D> {
         (constraint, lambda): (&Constraint<D>, f64),
         probe: &mut Probe<D>,
     ) -> NodeBlocks {
-        let mut nodes = constraint.nodes(&self.bodies.chains);
+        let mut nodes = constraint.kind.nodes(&self.bodies);
         if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
             let chain = &self.bodies.chains[along.chain];
             let (element, _) = chain.find(work.kinematics.travel[along.slide]);

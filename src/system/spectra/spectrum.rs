@@ -10,6 +10,7 @@ use super::iteration::{self, NoEigenvalues};
 use super::linearization::Linearization;
 use crate::bodies::{Node, add_node, no_node};
 use crate::math::space::{Vector, components};
+use crate::system::loads::ForceElement as _;
 use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// Free coordinates up to which all eigenvalues are computed, with dense matrices; and up to which they are
@@ -380,7 +381,7 @@ pub(super) fn at_rest<'a, const D: usize>(
     refuse_paid_out(system, work, true)?;
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
-        let parts = system.loads[load].parts(&system.bodies.chains, &system.bodies.rod_chains);
+        let parts = system.loads[load].parts(&system.bodies);
         let acted = parts.into_iter().flatten();
         let body = acted.filter_map(|node| system.bodies.body_of(node)).min();
         return Err(SpectrumError::NotConservative(

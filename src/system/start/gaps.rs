@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use super::placement::Gap;
 use crate::bodies::{Node, NodeKind, product, turn_inner};
 use crate::math::space::{Vector, moment, rotated, spins};
-use crate::system::joints::{Constraint, ConstraintKind, Linear, View};
+use crate::system::joints::{Constraint, ConstraintKind, Equation as _, Linear, View};
 use crate::system::{System, Workspace};
 
 impl<const D: usize> System<D> {
@@ -203,19 +203,9 @@ fn linear_size<const D: usize>(linear: &Linear<D>, size: f64) -> f64 {
 }
 
 fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64 {
-    match &constraint.kind {
-        ConstraintKind::UnitLength(_)
-        | ConstraintKind::AngleBetween(_)
-        | ConstraintKind::DrivenTurn(_)
-        | ConstraintKind::DrivenOrientation(_) => 1.0,
-        ConstraintKind::LinearConstraint(row) if row.holds_direction() => 1.0,
-        ConstraintKind::Perpendicular(right) if right.is_angle() => 1.0,
-        ConstraintKind::Coupler(related) if related.is_angle() => 1.0,
-        ConstraintKind::Distance(_)
-        | ConstraintKind::PointOnLine(_)
-        | ConstraintKind::PointOnCurve(_)
-        | ConstraintKind::LinearConstraint(_)
-        | ConstraintKind::Perpendicular(_)
-        | ConstraintKind::Coupler(_) => size,
+    if constraint.kind.is_angle() {
+        1.0
+    } else {
+        size
     }
 }

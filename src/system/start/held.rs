@@ -4,7 +4,7 @@
 use crate::bodies::{Node, add_node, no_node};
 use crate::math::function::Function;
 use crate::math::space::{Vector, carried};
-use crate::system::loads::AppliedLoad;
+use crate::system::loads::{AppliedLoad, ForceElement as _};
 use crate::system::signal::Drive;
 use crate::system::{Instant, System, Workspace};
 

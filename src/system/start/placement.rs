@@ -14,7 +14,7 @@ use crate::math::least::Least;
 use crate::math::space::{Vector, spins};
 use crate::system::instant::Instant;
 use crate::system::joints::{ConstraintKind, View};
-use crate::system::loads::AppliedLoad;
+use crate::system::loads::{AppliedLoad, BushingMeasure};
 use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 
 /// Most iterations.
@@ -314,7 +314,9 @@ impl<const D: usize> System<D> {
         }
         for load in &self.loads {
             // What a coupling turns along with may have turned fully before.
-            if let AppliedLoad::RotationalBushing(turning) = load {
+            if let AppliedLoad::Bushing(bushing) = load
+                && let BushingMeasure::Angle(turning) = &bushing.measure
+            {
                 let outside = turning.angle.value(Instant {
                     time: self.now(state.time),
                     inputs,

@@ -17,6 +17,7 @@
 use super::newton::{Newton, seed};
 use super::{ROUNDINGS, Rest};
 use crate::bodies::{Node, NodeKind, no_node};
+use crate::system::loads::ForceElement as _;
 use crate::system::{Dynamics, State, System, Workspace};
 
 /// Samples of roundoff.

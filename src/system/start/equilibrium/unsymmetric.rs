@@ -8,6 +8,7 @@ use crate::bodies::{Node, map_node};
 use crate::math::jet::{Jet, moving, part};
 use crate::math::vector::{dot, norm};
 use crate::system::instant::Instant;
+use crate::system::loads::ForceElement as _;
 use crate::system::workspace::Frozen;
 use crate::system::{DrivenSystem, Dynamics};
 

@@ -1,4 +1,4 @@
-//! A bushing in space: springs with dampers along the three axes of the first end and about them. Rotations are measured by
+//! Translation along the three axes of the first end and rotation of the second end against it, in space. Rotations are measured by
 //! their vector, `t` = angle along axis, which has the same components along the axes `A_i` of the first end and `B_j` of
 //! the second. With `R_ij = A_i . B_j`: `t = h(z) a`, `a` the vector of the skew part of `R`, of size `sin(angle)`,
 //! `z = (3 - tr R) / 4 = sin^2(angle / 2)`, `h = angle / sin(angle)`. The energy `sum k t^2 / 2` is a function of how the bodies
@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::{Add, Instant};
+use super::{Bushing, DeformationMeasure, SixComponents};
 use crate::bodies::Node;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
@@ -17,6 +17,7 @@ use crate::system::coordinate::Translation;
 use crate::system::direction::Direction;
 use crate::system::end::{Attachment, bilinear};
 use crate::system::gradient::Terms;
+use crate::system::loads::{Add, Instant};
 
 /// Where series take over from formulas that lose digits.
 const SERIES: f64 = 0.1;
@@ -25,19 +26,15 @@ const COUNT: u32 = 18;
 /// Least distance to half a turn.
 const HALF_TURN: f64 = 1e-12;
 
-/// Springs and dampers in parallel along and about three axes.
+/// Translation and rotation between the frames of two ends.
 #[derive(Clone, Debug)]
-pub struct SixBushing<const D: usize> {
+pub struct BetweenFrames<const D: usize> {
     /// Ways along the axes of the first end.
     pub ways: [Translation<D>; 3],
     /// Ways without force, m.
     pub rest: [f64; 3],
     /// Axes of both ends, which are the same without moment.
     pub axes: [[Direction<D>; 3]; 2],
-    /// Stiffness along (N/m) and about (N m/rad) the axes.
-    pub stiffness: [[f64; 3]; 2],
-    /// Damping along (N s/m) and about (N m s/rad) the axes.
-    pub damping: [[f64; 3]; 2],
 }
 
 /// `h` and its first three derivatives by `z`, from `2 z (1 - z) h' + (1 - 2 z) h = 1` and its derivatives.
@@ -122,7 +119,7 @@ impl<N: Number> Turned<N> {
     }
 }
 
-impl<const D: usize> SixBushing<D> {
+impl<const D: usize> BetweenFrames<D> {
     fn products<N: Number>(&self, x: &[Node<D, N>]) -> Matrix3<N> {
         let [a, b] = self.axes.map(|axes| axes.map(|axis| axis.value(x)));
         Matrix3::from_fn(|i, j| a[i].dot(&b[j]))
@@ -132,24 +129,6 @@ impl<const D: usize> SixBushing<D> {
         let [a, b] = self.axes.map(|axes| axes.map(|axis| axis.value(x)));
         let [a_rate, b_rate] = self.axes.map(|axes| axes.map(|axis| axis.rate(v)));
         Matrix3::from_fn(|i, j| a_rate[i].dot(&b[j]) + a[i].dot(&b_rate[j]))
-    }
-
-    /// Ways from rest and the rotation, and their rates.
-    fn deformed<N: Number>(&self, at: Instant<'_, D, N>) -> [[Vector3<N>; 2]; 2] {
-        let ways = Vector3::from_fn(|k, _| self.ways[k].value(at.x) - N::of(self.rest[k]));
-        let rates = Vector3::from_fn(|k, _| self.ways[k].gradient(at.x).along(at.v));
-        let turned = Turned::new(&self.products(at.x));
-        let turning = turned.rate(&self.product_rates(at.x, at.v));
-        [[ways, turned.vector()], [rates, turning]]
-    }
-
-    /// Forces along the axes, N, and moments conjugate to the rotation vector, N m, on the second end.
-    fn forces<N: Number>(&self, at: Instant<'_, D, N>) -> [Vector3<N>; 2] {
-        let [ways, rates] = self.deformed(at);
-        [0, 1].map(|of| {
-            let [k, c] = [self.stiffness[of], self.damping[of]].map(Vector3::from);
-            -ways[of].component_mul(&k.map(N::of)) - rates[of].component_mul(&c.map(N::of))
-        })
     }
 
     /// Calls with the axes of both ends and derivatives by them, of a function with these derivatives by the products.
@@ -173,13 +152,23 @@ impl<const D: usize> SixBushing<D> {
             }
         }
     }
+}
 
-    pub(super) fn act<N: Number>(
+impl<const D: usize> DeformationMeasure<D> for BetweenFrames<D> {
+    fn deformation<N: Number>(&self, at: Instant<'_, D, N>) -> [SixComponents<N>; 2] {
+        let ways = Vector3::from_fn(|k, _| self.ways[k].value(at.x) - N::of(self.rest[k]));
+        let rates = Vector3::from_fn(|k, _| self.ways[k].gradient(at.x).along(at.v));
+        let turned = Turned::new(&self.products(at.x));
+        let turning = turned.rate(&self.product_rates(at.x, at.v));
+        [[ways, turned.vector()], [rates, turning]]
+    }
+
+    fn act<N: Number>(
         &self,
+        [force, moment]: SixComponents<N>,
         at: Instant<'_, D, N>,
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let [force, moment] = self.forces(at);
         for (way, force) in self.ways.iter().zip(force.iter()) {
             for (end, on) in &way.gradient(at.x).scaled(*force).ends {
                 call(end, *on);
@@ -189,13 +178,14 @@ impl<const D: usize> SixBushing<D> {
         self.for_each_axis(&by, at.x, call);
     }
 
-    pub(super) fn add_tangent(
+    fn add_tangent(
         &self,
+        of: &Bushing<D>,
+        [force, moment]: SixComponents,
         at: Instant<'_, D>,
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
     ) {
-        let [force, moment] = self.forces(at);
         let products = self.products(at.x);
         let turned = Turned::new(&products);
         let terms = |by: &Matrix3<f64>| {
@@ -205,12 +195,12 @@ impl<const D: usize> SixBushing<D> {
         };
         for (k, way) in self.ways.iter().enumerate() {
             let gradient = way.gradient(at.x);
-            gradient.add_square(self.stiffness[0][k], &mut *stiffness);
-            gradient.add_square(self.damping[0][k], &mut *damping);
+            gradient.add_square(of.stiffness[0][k], &mut *stiffness);
+            gradient.add_square(of.damping[0][k], &mut *damping);
             way.add_hessian(-force[k], &mut *stiffness);
             let of_turn = terms(&turned.by_products(&Vector3::ith(k, 1.0)));
-            of_turn.add_square(self.stiffness[1][k], &mut *stiffness);
-            of_turn.add_square(self.damping[1][k], &mut *damping);
+            of_turn.add_square(of.stiffness[1][k], &mut *stiffness);
+            of_turn.add_square(of.damping[1][k], &mut *damping);
         }
         // Second derivatives of h a: of the products, then h' (dz da + da dz) + h'' a dz dz.
         let by = turned.by_products(&-moment);
@@ -230,36 +220,10 @@ impl<const D: usize> SixBushing<D> {
         terms(&by_z).add_square(bent, stiffness);
     }
 
-    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        let [_, rates] = self.deformed(at);
-        square(&self.damping, &rates)
+    /// The axes belong to the same bodies.
+    fn ends(&self) -> Vec<Attachment<D>> {
+        self.ways[0].ends.to_vec()
     }
-
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        let [ways, _] = self.deformed(at);
-        square(&self.stiffness, &ways) * N::of(0.5)
-    }
-
-    /// Whether it dissipates.
-    pub fn is_damped(&self) -> bool {
-        self.damping.as_flattened().iter().any(|c| *c > 0.0)
-    }
-
-    /// Returns the two ends of the bushing. The axes belong to the same bodies.
-    pub fn ends(&self) -> [Attachment<D>; 2] {
-        self.ways[0].ends
-    }
-}
-
-/// Sum of squares with weights.
-fn square<N: Number>(weights: &[[f64; 3]; 2], of: &[Vector3<N>; 2]) -> N {
-    let pairs = weights
-        .iter()
-        .zip(of)
-        .flat_map(|(weights, of)| weights.iter().zip(of.iter()));
-    pairs.fold(N::of(0.0), |sum, (weight, part)| {
-        sum + *part * *part * N::of(*weight)
-    })
 }
 
 #[cfg(test)]
