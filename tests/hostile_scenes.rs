@@ -91,6 +91,7 @@ fn joints(dimension: usize, way: f64) -> Vec<Value> {
                 "universal",
                 json!({"direction": [0, 1, 0], "second_direction": [1, 0, 0]}),
             ),
+            joint("constant_velocity", json!({"direction": [0, 1, 0]})),
             joint("weld", json!({})),
             joint("point_on_line", json!({"direction": [1, 0, 0]})),
             joint("cylindrical", json!({"direction": [1, 0, 0]})),

@@ -176,6 +176,10 @@ fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &JointPrimit
             let [a, b] = [*a, *b].map(|of| vector(dimension, of));
             format!("a right angle between the axes that are along {a} and {b} at the start")
         }
+        JointPrimitive::Homokinetic(a, b) => {
+            let [a, b] = [*a, *b].map(|of| vector(dimension, of));
+            format!("equal rotation about the axes that are along {a} and {b} at the start")
+        }
         JointPrimitive::Inplane(across) => format!(
             "the position in the plane across {} at the start{point}",
             vector(dimension, *across)

@@ -532,3 +532,34 @@ fn a_motion_that_begins_at_rest_may_have_a_kink_later() {
     let [smooth, kinked] = ["0.3+0.05*t^2", "0.3+0.05*min(t,2)^2"].map(steps);
     assert!(kinked <= smooth + 2, "{smooth} and {kinked}");
 }
+
+/// A constant-velocity joint between shafts at an angle: the driven one has the rate of the driving one all the time, about its own axis.
+/// A cross between them makes it swing by some percent.
+#[test]
+fn a_constant_velocity_joint_transmits_the_rate_unchanged() {
+    let text = include_str!("../../docs/book/examples/joints/constant_velocity.json");
+    let most = |cross: bool| {
+        let mut scene: Value = serde_json::from_str(text).expect("JSON");
+        scene["accuracy"] = json!({"relative_tolerance": 1e-8});
+        if cross {
+            scene["joints"][1]["kind"] = json!("universal");
+            scene["joints"][1]["direction"] = json!([0, 0, 1]);
+            scene["joints"][1]["second_direction"] = json!([-0.5, 0.75_f64.sqrt(), 0]);
+        }
+        let mut simulation = started(&scene);
+        let differs = |step: i32| {
+            simulation.step(0.05 * f64::from(step)).expect("a step");
+            let wanted = 10.0 * f64::tanh(f64::from(step)).powi(2);
+            let spins = [1, 2, 3].map(|k| {
+                read(
+                    &mut simulation,
+                    &format!("driven.end.angular_velocity_body[{k}]"),
+                )
+            });
+            (spins[0] - wanted).abs() + spins[1].abs() + spins[2].abs()
+        };
+        (1..=20).map(differs).fold(0.0, f64::max)
+    };
+    assert!(most(false) < 1e-5, "{}", most(false));
+    assert!(most(true) > 1.0, "{}", most(true));
+}

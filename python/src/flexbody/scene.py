@@ -1856,6 +1856,40 @@ class Universal(Part):
     """
 
 
+class ConstantVelocity(Part):
+    """
+    Holds the position and turns both bodies alike about an axis of each, in space: the homokinetic joint of drive shafts.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["constant_velocity"] = "constant_velocity"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    """
+    direction: Vector
+    """
+    Axis of the first shaft. It is given in the axes of the first marker's body at the start:
+    of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
+    """
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
+    """
+    second_direction: Vector | None = None
+    """
+    Axis of the second shaft in the same axes and sense, less than a right angle from `direction`; by default `direction`.
+    """
+
+
 class Weld(Part):
     """
     Holds the position and the direction, in space how bodies stand to each other.
@@ -2110,6 +2144,7 @@ Joint = TypeAliasType(
         Revolute
         | Spherical
         | Universal
+        | ConstantVelocity
         | Weld
         | PointOnLine
         | Cylindrical

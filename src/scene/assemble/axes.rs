@@ -7,7 +7,7 @@ use crate::bodies::{Marker, axes_at};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
 use crate::scene::description::JointPrimitive;
 use crate::scene::resolved::{self, Action, DirectionSource, Pivot, Place};
-use crate::system::joints::{Across, Clamp, Perpendicular, Primitive};
+use crate::system::joints::{Across, Clamp, Homokinetic, Perpendicular, Primitive};
 use crate::system::loads::{AppliedLoad, SpatialMoment};
 use crate::system::{Attachment, AxisTurn, Direction, reach};
 
@@ -108,6 +108,24 @@ impl<const D: usize> Builder<'_, D> {
             direction: self.fixed(&ends[0], first),
             across: Across::Direction(self.fixed(&ends[1], second)),
         })
+    }
+
+    /// Equal rotation about an axis of the first body and one of the second.
+    pub(super) fn equal_rotation(
+        &self,
+        ends: [Attachment<D>; 2],
+        axes: [Vector<D>; 2],
+    ) -> Primitive<D> {
+        let [first, second] = axes.map(|axis| axis.normalize());
+        let n = normal(&first, 0);
+        // The smallest rotation that takes the first axis to the second.
+        let halved = first + second;
+        let carried = n - halved * (n.dot(&second) / first.dot(&halved));
+        let across =
+            [(first, n), (second, carried)].map(|(axis, n)| [n, vector(moment(&axis, &n))]);
+        let [first, second] =
+            [0, 1].map(|end| across[end].map(|direction| self.fixed(&ends[end], direction)));
+        Primitive::Homokinetic(Homokinetic { first, second })
     }
 
     /// The way between both ends across a direction of the first body.

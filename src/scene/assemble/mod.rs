@@ -383,6 +383,9 @@ impl<const D: usize> Builder<'_, D> {
             JointPrimitive::Perpendicular(first, second) => {
                 vec![self.right_angle(ends, [first, second].map(vector))]
             }
+            JointPrimitive::Homokinetic(first, second) => {
+                vec![self.equal_rotation(ends, [first, second].map(vector))]
+            }
             JointPrimitive::Inplane(across) => vec![self.across_way(ends, unit(across))],
             JointPrimitive::Orientation(_) if D == 3 && is_framed => self.standing(ends),
             _ => self.primitive(hold, joint, ends).into_iter().collect(),
@@ -412,6 +415,7 @@ impl<const D: usize> Builder<'_, D> {
             JointPrimitive::Spring { .. }
             | JointPrimitive::ParallelAxes(_)
             | JointPrimitive::Perpendicular(..)
+            | JointPrimitive::Homokinetic(..)
             | JointPrimitive::Inplane(_)
             | JointPrimitive::Screw(_) => return None,
         })

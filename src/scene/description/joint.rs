@@ -31,6 +31,8 @@ kinds! {
         Spherical(Spherical),
         /// Holds the position and a right angle between an axis of each body, in space: a cross between two forks.
         Universal(Universal),
+        /// Holds the position and turns both bodies alike about an axis of each, in space: the homokinetic joint of drive shafts.
+        ConstantVelocity(ConstantVelocity),
         /// Holds the position and the direction, in space how bodies stand to each other.
         Weld(Weld),
         /// Holds the marker on a line of the first one, which may move. The marker rotates freely.
@@ -102,6 +104,22 @@ pub struct Universal {
     pub direction: SceneVector,
     /// Axis of the cross that is fixed in the second body, perpendicular to `direction` and in the same axes.
     pub second_direction: SceneVector,
+}
+
+/// A constant-velocity joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ConstantVelocity {
+    /// Markers that the joint connects: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: position of the joint on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<SceneVector>,
+    /// Axis of the first shaft. It is given in the axes of the first marker's body at the start:
+    /// of `ground` the global axes, of a rod or beam the tangent and both axes of its section.
+    pub direction: SceneVector,
+    /// Axis of the second shaft in the same axes and sense, less than a right angle from `direction`; by default `direction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_direction: Option<SceneVector>,
 }
 
 /// A weld.
@@ -288,6 +306,8 @@ pub enum JointPrimitive {
     ParallelAxes([f64; 3]),
     /// A right angle between an axis of the first body and one of the second, in space.
     Perpendicular([f64; 3], [f64; 3]),
+    /// Equal rotation about an axis of the first body and one of the second, in space.
+    Homokinetic([f64; 3], [f64; 3]),
     /// Displacement along a line in proportion to the angle about it, in space: that of one full rotation, m.
     Screw(f64),
     /// The distance, m.
@@ -308,7 +328,10 @@ impl JointPrimitive {
     pub fn is_directional(&self) -> bool {
         matches!(
             self,
-            Self::Orientation(_) | Self::ParallelAxes(_) | Self::Perpendicular(..)
+            Self::Orientation(_)
+                | Self::ParallelAxes(_)
+                | Self::Perpendicular(..)
+                | Self::Homokinetic(..)
         )
     }
 
@@ -316,7 +339,10 @@ impl JointPrimitive {
     pub fn needs_axes(&self) -> bool {
         matches!(
             self,
-            Self::ParallelAxes(_) | Self::Perpendicular(..) | Self::Inplane(_)
+            Self::ParallelAxes(_)
+                | Self::Perpendicular(..)
+                | Self::Homokinetic(..)
+                | Self::Inplane(_)
         )
     }
 
@@ -326,7 +352,8 @@ impl JointPrimitive {
             Self::Inline(of)
             | Self::Inplane(of)
             | Self::ParallelAxes(of)
-            | Self::Perpendicular(of, _) => Some(*of),
+            | Self::Perpendicular(of, _)
+            | Self::Homokinetic(of, _) => Some(*of),
             Self::AtPoint
             | Self::PointOnCurve
             | Self::Orientation(_)
@@ -343,6 +370,7 @@ impl JointPrimitive {
             Self::Inplane(across) => Self::Inplane(by(across)),
             Self::ParallelAxes(axis) => Self::ParallelAxes(by(axis)),
             Self::Perpendicular(first, second) => Self::Perpendicular(by(first), by(second)),
+            Self::Homokinetic(first, second) => Self::Homokinetic(by(first), by(second)),
             Self::AtPoint
             | Self::PointOnCurve
             | Self::Orientation(_)
@@ -381,6 +409,7 @@ impl JointKind {
             self,
             Self::Spherical(_)
                 | Self::Universal(_)
+                | Self::ConstantVelocity(_)
                 | Self::Cylindrical(_)
                 | Self::Planar(_)
                 | Self::Screw(_)
@@ -406,6 +435,11 @@ impl JointKind {
             Self::Universal(of) => {
                 let axes = Perpendicular(of.direction.full(), of.second_direction.full());
                 vec![AtPoint, axes]
+            }
+            Self::ConstantVelocity(of) => {
+                let first = of.direction.full();
+                let second = of.second_direction.as_ref().map_or(first, full);
+                vec![AtPoint, JointPrimitive::Homokinetic(first, second)]
             }
             Self::Weld(of) => vec![AtPoint, Orientation(of.angle)],
             Self::PointOnLine(of) => vec![Inline(of.direction.full())],
@@ -437,7 +471,10 @@ impl JointKind {
     pub fn symbol(&self) -> Symbol {
         match self {
             Self::Revolute(of) if of.is_sprung() => Symbol::Spiral,
-            Self::Revolute(_) | Self::Spherical(_) | Self::Universal(_) => Symbol::Pin,
+            Self::Revolute(_)
+            | Self::Spherical(_)
+            | Self::Universal(_)
+            | Self::ConstantVelocity(_) => Symbol::Pin,
             Self::Weld(_) => Symbol::Weld,
             Self::PointOnLine(_) | Self::Planar(_) => Symbol::Slider,
             Self::Cylindrical(_) | Self::Screw(_) | Self::Prismatic(_) => Symbol::Prismatic,
@@ -453,6 +490,7 @@ impl JointKind {
             Self::Revolute(of) => &of.markers,
             Self::Spherical(of) => &of.markers,
             Self::Universal(of) => &of.markers,
+            Self::ConstantVelocity(of) => &of.markers,
             Self::Weld(of) => &of.markers,
             Self::PointOnLine(of) => &of.markers,
             Self::Cylindrical(of) => &of.markers,
@@ -472,6 +510,7 @@ impl JointKind {
             Self::Revolute(of) => of.point,
             Self::Spherical(of) => of.point,
             Self::Universal(of) => of.point,
+            Self::ConstantVelocity(of) => of.point,
             Self::Weld(of) => of.point,
             Self::PointOnLine(of) => of.point,
             Self::Cylindrical(of) => of.point,
@@ -489,6 +528,7 @@ impl JointKind {
         match self {
             Self::Revolute(of) => [of.direction, None],
             Self::Universal(of) => [Some(of.direction), Some(of.second_direction)],
+            Self::ConstantVelocity(of) => [Some(of.direction), of.second_direction],
             Self::PointOnLine(of) => [Some(of.direction), None],
             Self::Cylindrical(of) => [Some(of.direction), None],
             Self::Screw(of) => [Some(of.direction), None],

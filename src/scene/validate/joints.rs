@@ -76,6 +76,16 @@ impl JointKind {
                 let found = format!("one at {} rad from it", a.dot(&b).acos());
                 Err(expected(&at("second_direction"), wanted, found))
             }
+            Self::ConstantVelocity(of) => {
+                let second = of.second_direction.unwrap_or(of.direction);
+                let [a, b] = [of.direction, second].map(|of| Vector3::from(of.full()).normalize());
+                if a.dot(&b) > RIGHT {
+                    return Ok(());
+                }
+                let wanted = "a direction less than a right angle from `direction`";
+                let found = format!("one at {} rad from it", a.dot(&b).acos());
+                Err(expected(&at("second_direction"), wanted, found))
+            }
             Self::Distance(of) => (of.length).map_or(Ok(()), |of| positive(&at("length"), "m", of)),
             Self::Screw(of) => not_zero(&at("pitch"), "m", of.pitch),
             Self::Generic(of) => of.validate_free(&at("free")),
@@ -253,7 +263,7 @@ impl<'a> Resolved<'a> {
                 JointPrimitive::Inline(_) => side == 1 || is_along,
                 JointPrimitive::Orientation(_) => on_ground,
                 JointPrimitive::Spring { .. } => is_pivot,
-                JointPrimitive::Screw(_) => false,
+                JointPrimitive::Homokinetic(..) | JointPrimitive::Screw(_) => false,
                 JointPrimitive::AtPoint
                 | JointPrimitive::Distance(_)
                 | JointPrimitive::PointOnCurve => true,

@@ -280,6 +280,7 @@ fn joints_take_what_is_theirs_and_no_more() {
         /joints/2/kind | "cylindrical" | joints[2].kind: expected revolute, weld
         /joints/2/kind | "planar" | joints[2].kind: expected revolute, weld
         /joints/0 | {"name": "cross", "kind": "universal", "markers": ["ground", "rod.root"], "direction": [1, 0], "second_direction": [0, 1]} | joints[0].kind: expected revolute, weld
+        /joints/0 | {"name": "cross", "kind": "constant_velocity", "markers": ["ground", "rod.root"], "direction": [1, 0]} | joints[0].kind: expected revolute, weld
         /joints/0 | {"name": "cross", "kind": "universal", "markers": ["ground", "rod.root"], "direction": [1, 0]} | joints[0].second_direction: expected a direction [x, y, z], found nothing
     "#,
     );

@@ -7,6 +7,7 @@ mod direction;
 mod distance;
 mod driven_orientation;
 mod driven_turn;
+mod homokinetic;
 mod line;
 mod linear_constraint;
 mod motion;
@@ -23,6 +24,7 @@ pub use direction::AngleBetween;
 pub use distance::Distance;
 pub use driven_orientation::DrivenOrientation;
 pub use driven_turn::DrivenTurn;
+pub use homokinetic::Homokinetic;
 pub use line::PointOnLine;
 pub use linear_constraint::LinearConstraint;
 pub use perpendicular::{Across, Perpendicular};
@@ -57,6 +59,8 @@ pub enum Primitive<const D: usize = 2> {
     Distance(f64),
     /// A right angle: in space.
     Perpendicular(Perpendicular<D>),
+    /// Equal rotation of two shafts: in space.
+    Homokinetic(Homokinetic<D>),
     /// The second end is on this chain.
     Curve(usize),
     /// The direction is at a driven angle from that of the first end.
@@ -302,6 +306,8 @@ constraints! {
         DrivenOrientation(DrivenOrientation),
         /// A relation between coordinates of joints.
         Coupler(Coupler<D>),
+        /// Equal rotation of two shafts.
+        Homokinetic(Homokinetic<D>),
     }
 }
 
@@ -473,6 +479,7 @@ impl<const D: usize> JointEquations<D> {
                 Primitive::Perpendicular(right) => {
                     Some(ConstraintKind::Perpendicular(right.clone()))
                 }
+                Primitive::Homokinetic(shafts) => Some(ConstraintKind::Homokinetic(shafts.clone())),
                 Primitive::Curve(chain) => {
                     let slide = nonlinear.iter().filter(|c| c.is_slide()).count();
                     let held = point_on_curve::hold(&rows, *chain, slide);

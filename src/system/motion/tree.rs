@@ -1,5 +1,5 @@
 //! Mechanisms of rigid bodies in space without loops whose joints hold points and turns: revolute and ball joints, hinges,
-//! universal joints, welds, driven turns. Their constraints are satisfied by an elimination from the leaves to the roots
+//! universal and constant-velocity joints, welds, driven turns. Their constraints are satisfied by an elimination from the leaves to the roots
 //! ([`Articulated`]) instead of one of the multipliers; both solve the same equations.
 
 use std::collections::BTreeMap;
@@ -207,7 +207,7 @@ fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
                 pair.pins.push(row);
             }
             ConstraintKind::Perpendicular(right) if right.is_angle() => pair.turns.push(row),
-            ConstraintKind::DrivenTurn(_) => pair.turns.push(row),
+            ConstraintKind::DrivenTurn(_) | ConstraintKind::Homokinetic(_) => pair.turns.push(row),
             _ => return None,
         }
     }

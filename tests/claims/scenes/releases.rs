@@ -195,6 +195,7 @@ fn all_go_in_space() -> Specimen {
             "universal",
             json!({"direction": [1.0, 0.0, 0.0], "second_direction": [0.0, 1.0, 0.0]}),
         ),
+        ("constant_velocity", json!({"direction": [1.0, 0.0, 0.0]})),
         ("cylindrical", json!({"direction": [1.0, 0.0, 0.0]})),
         ("screw", json!({"direction": [1.0, 0.0, 0.0], "pitch": 0.2})),
         ("planar", json!({"direction": [0.0, 0.0, 1.0]})),

@@ -51,8 +51,9 @@ fn axes() -> Matrix3<f64> {
 /// Kind of a joint, its keys, and velocity and angular velocity that it lets a body at the end have.
 type Motion = (&'static str, Value, Vector3<f64>, Vector3<f64>);
 
-fn motions() -> [Motion; 5] {
+fn motions() -> [Motion; 6] {
     let (given, second) = (Vector3::new(0.4, -0.7, 0.6), Vector3::new(0.7, 0.4, 0.0));
+    let bent = Vector3::new(0.5, -0.6, 0.9);
     let axes = axes();
     let (along, beside) = ((axes * given).normalize(), (axes * second).normalize());
     let none = Vector3::zeros();
@@ -74,6 +75,12 @@ fn motions() -> [Motion; 5] {
             json!({"direction": array(given), "second_direction": array(second)}),
             none,
             along * 1.1 - beside * 0.8,
+        ),
+        (
+            "constant_velocity",
+            json!({"direction": array(given), "second_direction": array(bent)}),
+            none,
+            (along + (axes * bent).normalize()).cross(&beside) * 0.9,
         ),
         (
             "planar",

@@ -23,6 +23,8 @@ pub fn all() -> Vec<Specimen> {
         twisting(),
         cross(),
         forks(),
+        shaft_in_the_ground(),
+        shafts(),
         guided_by_another(),
     ]
 }
@@ -392,6 +394,92 @@ fn forks() -> Specimen {
         ),
     ] {
         specimen = vector(specimen, of, unit, value);
+    }
+    specimen
+}
+
+/// A shaft that a homokinetic joint holds against the ground, where the axis is `a` and its own `b`. The joint holds the rotation about
+/// `n = a + b`, which halves the angle between both: `n . w = 0` and, since `w` is in the plane across `n`, `n . w' = 0`.
+fn shaft_in_the_ground() -> Specimen {
+    let (a, b) = (Vector3::new(0.8, 0.6, 0.0), Vector3::new(0.48, 0.64, 0.6));
+    let n = a + b;
+    let mut body = body("shaft");
+    let spin = Vector3::new(0.9, -0.7, 0.4);
+    body.spin = spin - n * (n.dot(&spin) / n.norm_squared());
+    let point = body.place + Vector3::new(0.02, 0.05, -0.03);
+    let scene = json!({"name": "shaft", "dimension": 3, "bodies": [body.described(Value::Null)],
+        "joints": [{"name": "ball", "kind": "constant_velocity", "markers": ["ground", "shaft.c"], "point": array(point),
+                    "direction": array(a * 2.0), "second_direction": array(b)}],
+        "loads": pushed("shaft"),
+        "outputs": joined([outputs(&["reaction", "reaction_moment"], "joint", "ball"),
+                    outputs(&["angular_acceleration", "position"], "marker", "shaft.c")])});
+    let inverse = body.tensor().try_inverse().expect("inertia");
+    let free = body.turning(MOMENT);
+    let held = -n.dot(&free) / n.dot(&(inverse * n));
+    let mut specimen = Specimen::new("shaft in the ground", scene);
+    for (of, unit, value) in [
+        ("ball.reaction", "N", -FORCE),
+        ("ball.reaction_moment", "N.m", n * held),
+        (
+            "shaft.c.angular_acceleration",
+            "rad/s2",
+            free + inverse * n * held,
+        ),
+        ("shaft.c.position", "m", point),
+    ] {
+        specimen = vector(specimen, of, unit, value);
+    }
+    specimen
+}
+
+/// Two shafts at rest, whose axes are given in the frame of the first, the one at an angle, the other straight on: `n . w'` is the same
+/// of both.
+fn shafts() -> Specimen {
+    let direction = [0.6, 0.0, 0.8];
+    let (mut bodies, mut joints, mut loads, mut read) = (vec![], vec![], vec![], vec![]);
+    let mut claims = Vec::new();
+    for (names, joint, second, place) in [
+        (["u", "v"], "bent", Some([0.8, 0.36, 0.48]), 0.0),
+        (["w", "x"], "straight", None, 3.0),
+    ] {
+        let (mut first, mut other) = (body(names[0]), Body::new(names[1], [0.7, 0.6, 0.9]));
+        other.axes = rotation(Vector3::new(-0.2, 0.9, 0.5));
+        (first.place.x, other.place.x) = (place, place);
+        bodies.extend([&first, &other].map(|of| of.described(Value::Null)));
+        let markers = names.map(|name| format!("{name}.c"));
+        let mut held = json!({"name": joint, "kind": "constant_velocity", "markers": markers, "direction": direction});
+        if let Some(second) = second {
+            held["second_direction"] = json!(second);
+        }
+        joints.push(held);
+        loads.push(pushed(names[1])[1].clone());
+        read.extend(outputs(&["reaction_moment"], "joint", joint));
+        for marker in &markers {
+            read.extend(outputs(&["angular_acceleration"], "marker", marker));
+        }
+        let axes = [direction, second.unwrap_or(direction)];
+        let [a, b] = axes.map(|of| first.axes * Vector3::from(of));
+        let n = a + b;
+        let [mine, its] = [&first, &other].map(|of| of.tensor().try_inverse().expect("inertia"));
+        let moment = -n.dot(&(its * MOMENT)) / n.dot(&((mine + its) * n));
+        claims.extend([
+            (format!("{joint}.reaction_moment"), "N.m", n * moment),
+            (
+                format!("{}.angular_acceleration", markers[0]),
+                "rad/s2",
+                mine * n * -moment,
+            ),
+            (
+                format!("{}.angular_acceleration", markers[1]),
+                "rad/s2",
+                its * (MOMENT + n * moment),
+            ),
+        ]);
+    }
+    let scene = json!({"name": "shafts", "dimension": 3, "bodies": bodies, "joints": joints, "loads": loads, "outputs": read});
+    let mut specimen = Specimen::new("shafts", scene);
+    for (of, unit, value) in claims {
+        specimen = vector(specimen, &of, unit, value);
     }
     specimen
 }
