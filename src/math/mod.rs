@@ -1,6 +1,7 @@
 //! Floor 0. Numerics that know nothing of mechanics: quadrature, structured solves, eigenvalues.
 //! The only user of pulp.
 
+pub mod curve;
 pub mod eigen;
 pub mod expression;
 pub mod function;

@@ -269,6 +269,15 @@ fn load_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String, 
                 size,
             )
         }
+        LoadKind::TableSpring(spring) => {
+            let point = at_point(dimension, &spring.ends);
+            let damper = spring.damper.as_ref().map(|_| ", and over its rate");
+            (
+                "spring and damper by tables".into(),
+                format!("{}{point}", ends_in_words(&spring.ends)),
+                format!("force over length{}", damper.unwrap_or_default()),
+            )
+        }
         LoadKind::Fluid(fluid) => (
             "fluid".into(),
             code(&fluid.on.body.name),
@@ -348,7 +357,10 @@ fn spring_in_words(dimension: usize, load: &ResolvedLoad<'_>) -> (String, String
             )
         }
         LoadKind::Contact(contact) => contact_in_words(dimension, contact),
-        LoadKind::Action { .. } | LoadKind::Spring(_) | LoadKind::Fluid(_) => Default::default(),
+        LoadKind::Action { .. }
+        | LoadKind::Spring(_)
+        | LoadKind::TableSpring(_)
+        | LoadKind::Fluid(_) => Default::default(),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Scene;
 use super::description::{
     BushingLoad, ContactLoad, DistributedForceLoad, DistributedMomentLoad, FluidLoad, ForceLoad,
-    JointLimitLoad, JointSpringLoad, LoadKind, MomentLoad, SpringDamper, Torque,
+    JointLimitLoad, JointSpringLoad, LoadKind, MomentLoad, SpringDamper, TableSpringLoad, Torque,
 };
 
 impl Scene {
@@ -33,6 +33,7 @@ impl Scene {
                     names.push(owner(marker));
                 }
                 LoadKind::SpringDamper(SpringDamper { markers, .. })
+                | LoadKind::TableSpring(TableSpringLoad { markers, .. })
                 | LoadKind::Bushing(BushingLoad { markers, .. }) => {
                     names.extend(markers.iter().map(|marker| owner(marker)));
                 }

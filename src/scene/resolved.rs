@@ -12,7 +12,7 @@ use super::description::{
 use crate::system::{Drive, Release};
 pub use loads::{
     Action, ContactBody, LoadKind, LoadTarget, ResolvedBushing, ResolvedContact, ResolvedFluid,
-    ResolvedLoad, ResolvedSpring,
+    ResolvedLoad, ResolvedSpring, ResolvedTableSpring,
 };
 pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
 

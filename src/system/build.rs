@@ -384,7 +384,9 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
         .collect();
     for load in &parts.loads {
         let is_grounded = match load {
-            AppliedLoad::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),
+            AppliedLoad::Spring(_) | AppliedLoad::TableSpring(_) => {
+                load.ends().iter().any(|end| end.marker().is_none())
+            }
             AppliedLoad::Bushing(of) => matches!(of.measure, BushingMeasure::Point(_)),
             _ => false,
         };

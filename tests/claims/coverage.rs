@@ -19,7 +19,7 @@ const SINGLE: [&str; 4] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 12] = [
+const REFUSED: [&str; 13] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -27,6 +27,7 @@ const REFUSED: [&str; 12] = [
     "bodies{beam}.model=rigid",
     "initial.state=undeformed",
     "initial.loads{spring_damper}",
+    "initial.loads{table_spring}",
     "initial.loads{joint_spring}",
     "initial.loads{joint_limit}",
     "initial.loads{bushing}",

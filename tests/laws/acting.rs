@@ -3,11 +3,12 @@
 
 use flexbody::bodies::{Marker, Node, NodeBlock};
 use flexbody::elements::Element;
+use flexbody::math::curve::Curve;
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
     AppliedLoad, Bushing, BushingMeasure, Contact, ContactPoint, ContactSurface, ForceElement as _,
-    FromAngle, FromPoint, JointLimit, JointSpring,
+    FromAngle, FromPoint, JointLimit, JointSpring, TableSpring,
 };
 use flexbody::system::{Angle, Attachment, Coordinate, Direction, Signal, Translation};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -241,7 +242,10 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
     };
     let actions = actions.iter().map(acted);
     let contacts = contacts(frame, 0.0, 0.01);
-    let actions = actions.chain(couplings(frame)).chain(contacts);
+    let actions = actions
+        .chain(couplings(frame))
+        .chain(by_tables(frame))
+        .chain(contacts);
     actions.chain(rotational).collect()
 }
 
@@ -309,6 +313,35 @@ fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
     couplings
 }
 
+/// Springs by tables between the ends, with and without a damper.
+fn by_tables(frame: &Frame) -> Vec<Acted<'_>> {
+    let made = &frame.made;
+    let mut springs = Vec::new();
+    for both in ends(made) {
+        let ends = both.map(|end| made.product_end(end));
+        let [a, b] = ends.map(|end| end.position(&frame.x));
+        let length = (b - a).norm();
+        if length < 0.1 {
+            continue;
+        }
+        let spring = [-0.7, -0.2, 0.3, 1.1, 1.3].map(|x: f64| [length + x, 4.0 * (x + 0.1).sinh()]);
+        let damper = [-1.0, 0.0, 1.0].map(|v| [v, v * (1.0 + made.noise[35])]);
+        for damper in [None, Some(damper)] {
+            let damper = damper.map(|points| Curve::new(&points).expect("a curve"));
+            springs.push(Acted {
+                frame,
+                load: AppliedLoad::TableSpring(TableSpring {
+                    ends,
+                    spring: Curve::new(&spring).expect("a curve"),
+                    damper,
+                }),
+                angles: Vec::new(),
+            });
+        }
+    }
+    springs
+}
+
 fn law(acted: &Acted<'_>) -> Outcome {
     let (frame, t) = (acted.frame, 0.3);
     let (x, v) = (&frame.x, &frame.v);
@@ -328,6 +361,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
         }
         let conservative = match &acted.load {
             AppliedLoad::Spring(_)
+            | AppliedLoad::TableSpring(_)
             | AppliedLoad::JointSpring(_)
             | AppliedLoad::JointLimit(_)
             | AppliedLoad::Contact(_) => true,

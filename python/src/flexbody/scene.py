@@ -431,6 +431,12 @@ class PointOnCable(Part):
     """
 
 
+SpringItem = TypeAliasType("SpringItem", Annotated[list[StrictFloat], Field(max_length=2, min_length=2)])
+
+
+DamperItem = TypeAliasType("DamperItem", Annotated[list[StrictFloat], Field(max_length=2, min_length=2)])
+
+
 class JointSpringLoad(Part):
     """
     Spring and damper side by side on a coordinate of a joint.
@@ -1135,7 +1141,7 @@ class GearTorqueOutput(Part):
 
 class LoadForceOutput(Part):
     """
-    Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
+    Force of a load on its second marker, N: of a `spring_damper`, a `table_spring`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
     `contact` on its marker or on the whole body.
     """
 
@@ -2195,6 +2201,36 @@ class SpringDamperLoad(Part):
     """
 
 
+class TableSpringLoad(Part):
+    """
+    Spring and damper side by side between two points, whose forces are tables over length and over its rate.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["table_spring"] = "table_spring"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    Ends of the spring: `ground` or `body.marker`, then `body.marker`.
+    """
+    spring: Annotated[list[SpringItem], Field(min_length=2)]
+    """
+    Force with which the spring pulls, by its length: two points `[length in m, force in N]` or more, by increasing length. The curve
+    through them is cubic and monotone where they are, and straight outside.
+    """
+    damper: Annotated[list[DamperItem] | None, Field(min_length=2)] = None
+    """
+    Force with which the damper pulls, by the rate of the length: points `[rate in m/s, force in N]` as of `spring`, one of them
+    `[0, 0]`; by default there is no damper.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: end of the spring on the ground, m; by default the position of the second marker at the start.
+    """
+
+
 class FluidLoad(Part):
     """
     A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
@@ -2943,6 +2979,7 @@ Load = TypeAliasType(
         | DistributedForceLoad
         | DistributedMomentLoad
         | SpringDamperLoad
+        | TableSpringLoad
         | JointSpringLoad
         | BushingLoad
         | JointLimitLoad

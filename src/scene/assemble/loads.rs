@@ -21,6 +21,11 @@ impl<const D: usize> Builder<'_, D> {
                     self.action_along(action, &format!("loads[{index}]"))?
                 }
                 LoadKind::Spring(spring) => self.spring(spring),
+                LoadKind::TableSpring(of) => AppliedLoad::TableSpring(loads::TableSpring {
+                    ends: self.ends(of.ends),
+                    spring: of.spring.clone(),
+                    damper: of.damper.clone(),
+                }),
                 LoadKind::JointSpring { on, sizes, rest } => {
                     let coordinate = self.coordinate(on);
                     self.joint_spring(coordinate, *sizes, *rest)

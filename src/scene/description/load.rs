@@ -35,6 +35,8 @@ kinds! {
         DistributedMoment(DistributedMomentLoad),
         /// Spring and damper side by side between two points.
         SpringDamper(SpringDamper),
+        /// Spring and damper side by side between two points, whose forces are tables over length and over its rate.
+        TableSpring(TableSpringLoad),
         /// Spring and damper side by side on a coordinate of a joint.
         JointSpring(JointSpringLoad),
         /// Springs and dampers between two bodies in space, three along and three about the axes of the first one's body (of ground: the
@@ -128,6 +130,25 @@ pub struct SpringDamper {
     /// Length at rest, m; by default the distance of the ends at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<Value>,
+}
+
+/// A spring and a damper by tables between two points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TableSpringLoad {
+    /// Ends of the spring: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: end of the spring on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<SceneVector>,
+    /// Force with which the spring pulls, by its length: two points `[length in m, force in N]` or more, by increasing length. The curve
+    /// through them is cubic and monotone where they are, and straight outside.
+    #[schemars(length(min = 2))]
+    pub spring: Vec<[f64; 2]>,
+    /// Force with which the damper pulls, by the rate of the length: points `[rate in m/s, force in N]` as of `spring`, one of them
+    /// `[0, 0]`; by default there is no damper.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2))]
+    pub damper: Option<Vec<[f64; 2]>>,
 }
 
 /// A spring and a damper on a coordinate of a joint.
@@ -279,6 +300,7 @@ impl LoadKind {
                 &of.value,
             ),
             Self::SpringDamper(_)
+            | Self::TableSpring(_)
             | Self::JointSpring(_)
             | Self::Bushing(_)
             | Self::JointLimit(_)

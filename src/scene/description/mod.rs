@@ -44,7 +44,8 @@ pub use joint::{Generic, Joint, JointKind, JointPrimitive, Revolute, Symbol};
 pub use kinds::{tell_apart, tell_by_tag};
 pub use load::{
     BushingLoad, ContactLoad, DistributedForceLoad, DistributedMomentLoad, FluidLoad, ForceLoad,
-    JointLimitLoad, JointSpringLoad, Load, LoadKind, MomentLoad, SpringDamper, Torque,
+    JointLimitLoad, JointSpringLoad, Load, LoadKind, MomentLoad, SpringDamper, TableSpringLoad,
+    Torque,
 };
 pub use motion::{Motion, MotionKind};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};

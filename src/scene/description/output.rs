@@ -78,7 +78,7 @@ kinds! {
         GearForce(OfGear),
         /// Torque of a gear on the angle of its second joint, N m; on the coordinate of the first acts minus the ratio times that.
         GearTorque(OfGear),
-        /// Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
+        /// Force of a load on its second marker, N: of a `spring_damper`, a `table_spring`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
         /// `contact` on its marker or on the whole body.
         LoadForce(OfLoad),
         /// Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `joint_limit` on an angle.

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Cable, Ends, JointCoordinate, LoadId, Pivot, Resolved, ResolvedMarker};
+use crate::math::curve::Curve;
 use crate::scene::description::{ActionKind, SectionNumbers, Surface, Value};
 use crate::system::Signal;
 
@@ -27,6 +28,8 @@ pub enum LoadKind<'a> {
     },
     /// A spring and a damper side by side.
     Spring(ResolvedSpring<'a>),
+    /// A spring and a damper side by side, by tables.
+    TableSpring(ResolvedTableSpring<'a>),
     /// A spring and a damper on a coordinate of a joint.
     JointSpring {
         /// Coordinate that spring and damper act on.
@@ -146,6 +149,7 @@ impl<'a> LoadKind<'a> {
     pub fn between(&self) -> Option<Ends<'a>> {
         match self {
             Self::Spring(spring) => Some(spring.ends),
+            Self::TableSpring(spring) => Some(spring.ends),
             Self::Bushing(bushing) => Some(bushing.ends),
             Self::Action { .. }
             | Self::JointSpring { .. }
@@ -159,7 +163,7 @@ impl<'a> LoadKind<'a> {
     pub fn exerts(&self) -> [bool; 2] {
         match self {
             Self::Action { .. } | Self::Fluid(_) => [false; 2],
-            Self::Spring(_) | Self::Contact(_) => [true, false],
+            Self::Spring(_) | Self::TableSpring(_) | Self::Contact(_) => [true, false],
             Self::Bushing(_) => [true; 2],
             Self::JointSpring { on, .. } | Self::JointLimit { on, .. } => {
                 [!on.is_angle(), on.is_angle()]
@@ -171,7 +175,9 @@ impl<'a> LoadKind<'a> {
     pub fn exerts_on(&self) -> Option<ResolvedMarker<'a>> {
         match self {
             Self::Action { .. } | Self::Fluid(_) => None,
-            Self::Spring(_) | Self::Bushing(_) => self.between().map(|ends| ends.second),
+            Self::Spring(_) | Self::TableSpring(_) | Self::Bushing(_) => {
+                self.between().map(|ends| ends.second)
+            }
             Self::Contact(contact) => contact.by.marker(),
             Self::JointSpring { on, .. } | Self::JointLimit { on, .. } => Some(match on {
                 JointCoordinate::Displacement(slider) => slider.ends.second,
@@ -186,6 +192,7 @@ impl<'a> LoadKind<'a> {
         match self {
             Self::Action { .. } | Self::Fluid(_) => [0.0; 2],
             Self::Spring(spring) => [spring.stiffness, 0.0],
+            Self::TableSpring(spring) => [spring.spring.steepest(), 0.0],
             Self::Contact(contact) => [contact.sizes[0], 0.0],
             Self::Bushing(bushing) => bushing
                 .stiffness
@@ -199,6 +206,17 @@ impl<'a> LoadKind<'a> {
             }
         }
     }
+}
+
+/// A spring and a damper between two ends, by tables.
+#[derive(Clone, Debug)]
+pub struct ResolvedTableSpring<'a> {
+    /// Ends of the spring.
+    pub ends: Ends<'a>,
+    /// Force with which the spring pulls, N, over its length, m.
+    pub spring: Curve,
+    /// Force with which the damper pulls, N, over the rate of the length, m/s.
+    pub damper: Option<Curve>,
 }
 
 /// A spring and a damper between two ends.

@@ -288,9 +288,9 @@ impl<'a> Resolved<'a> {
             return Ok(OutputTarget::Load(load.name, id, load.kind.exerts_on()));
         }
         let wanted = if is_moment {
-            "a bushing, or a joint_spring or stop on an angle"
+            "a bushing, or a joint_spring or joint_limit on an angle"
         } else {
-            "a spring_damper, bushing or contact, or a joint_spring or stop on a displacement"
+            "a spring_damper, table_spring, bushing or contact, or a joint_spring or joint_limit on a displacement"
         };
         Err(expected(path, wanted, quoted(name)))
     }

@@ -1,11 +1,14 @@
 //! Checks of springs, dampers and stops.
 
 use super::checks::{expected, finite, not_negative, positive, spring_damper};
+use crate::math::curve::Curve;
 use crate::scene::Error;
 use crate::scene::description::{
-    self, CoordinateKind, JointLimitLoad, JointSpringLoad, LoadKind as Given,
+    self, CoordinateKind, JointLimitLoad, JointSpringLoad, LoadKind as Given, TableSpringLoad,
 };
-use crate::scene::resolved::{First, JointCoordinate, LoadKind, Resolved, ResolvedBushing};
+use crate::scene::resolved::{
+    First, JointCoordinate, LoadKind, Resolved, ResolvedBushing, ResolvedTableSpring,
+};
 
 impl<'a> Resolved<'a> {
     /// Resolves a load other than a force or a moment.
@@ -24,6 +27,7 @@ impl<'a> Resolved<'a> {
             Given::Contact(load) => self.contact(path, load).map(LoadKind::Contact),
             Given::Bushing(load) => self.bushing(path, load).map(LoadKind::Bushing),
             Given::SpringDamper(load) => self.spring(path, load).map(LoadKind::Spring),
+            Given::TableSpring(load) => self.table_spring(path, load).map(LoadKind::TableSpring),
             Given::Force(_)
             | Given::Moment(_)
             | Given::Torque(_)
@@ -40,6 +44,33 @@ impl<'a> Resolved<'a> {
     ) -> Result<JointCoordinate<'a>, Error> {
         let default = CoordinateKind::Displacement;
         self.require_coordinate(&format!("{path}.joint"), joint, asked, default)
+    }
+
+    fn table_spring(
+        &self,
+        path: &str,
+        load: &'a TableSpringLoad,
+    ) -> Result<ResolvedTableSpring<'a>, Error> {
+        let curve = |key: &str, points: &[[f64; 2]]| {
+            Curve::new(points).map_err(|message| Error {
+                path: format!("{path}.{key}"),
+                message,
+            })
+        };
+        let ends = self.require_pair(path, &load.markers, load.point)?;
+        let spring = curve("spring", &load.spring)?;
+        let damper = load.damper.as_ref();
+        let damper = damper.map(|points| curve("damper", points)).transpose()?;
+        let rests = |points: &Vec<[f64; 2]>| points.contains(&[0.0; 2]);
+        if !load.damper.as_ref().is_none_or(rests) {
+            let wanted = "a point [0, 0], since a damper at rest has no force";
+            return Err(expected(&format!("{path}.damper"), wanted, "none"));
+        }
+        Ok(ResolvedTableSpring {
+            ends,
+            spring,
+            damper,
+        })
     }
 
     fn joint_spring(&self, path: &str, load: &'a JointSpringLoad) -> Result<LoadKind<'a>, Error> {

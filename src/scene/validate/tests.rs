@@ -155,6 +155,9 @@ fn types_and_keys_keep_their_places() {
         /loads/0/value | [1] | loads[0].value
         /loads/0/value | {"input": 1} | loads[0].value.input: expected one of the keys table, interpolation, slopes, found "input"
         /loads/1/value | {"table": [[0, 1], [1]]} | loads[1].value.table[1]: expected a list of 2, found
+        /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "spring": [[0, 1]]} | loads[4].spring: expected two points or more, found 1
+        /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "spring": [[0, 1], [0, 2]]} | loads[4].spring: expected points in increasing order, found 0 after 0
+        /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "spring": [[0, 1], [1, 2]], "damper": [[-1, -1], [1, 1]]} | loads[4].damper: expected a point [0, 0], since a damper at rest has no force
         /loads/4/length | [1, 2] | loads[4].length: expected a number
         /motions/0/value | {"table": 1} | motions[0].value.table: expected a list, found 1
         /motions/0/value | {"table": [[0, 1]], "input": 1} | motions[0].value: expected a number

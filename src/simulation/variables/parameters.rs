@@ -286,6 +286,7 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
                 add_contact(list, i, load.name, contact);
                 continue;
             }
+            LoadKind::TableSpring(_) => continue,
             LoadKind::Spring(spring) => {
                 let starts = [spring.stiffness, spring.damping];
                 (starts, along, [SpringStiffness(i), SpringDamping(i)])

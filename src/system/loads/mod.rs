@@ -14,6 +14,7 @@ mod line_load;
 mod moment;
 mod spatial_moment;
 mod spring;
+mod table_spring;
 
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
 pub use contact::{Contact, ContactPoint, ContactSurface};
@@ -28,6 +29,7 @@ pub use line_load::LineLoad;
 pub use moment::Moment;
 pub use spatial_moment::SpatialMoment;
 pub use spring::Spring;
+pub use table_spring::TableSpring;
 
 use super::end::{Add, Attachment};
 use super::instant::Instant;
@@ -271,6 +273,8 @@ loads! {
     Fluid(Box<Fluid<D>>): Fluid<D>,
     /// A spring with a damper between two ends.
     Spring(Spring<D>): Spring<D>,
+    /// A spring with a damper between two ends, by tables.
+    TableSpring(TableSpring<D>): TableSpring<D>,
     /// A spring with a damper on a coordinate of a joint.
     JointSpring(JointSpring<D>): JointSpring<D>,
     /// Stops of a coordinate of a joint.

@@ -21,21 +21,37 @@ pub struct Spring<const D: usize = 2> {
     pub length: Signal,
 }
 
-impl<const D: usize> Spring<D> {
-    /// UnitLength vector from the first end to the second, length, speed of stretching. At length zero no
-    /// direction is better than another, and none is taken.
-    fn stretch<N: Number>(&self, at: Instant<'_, D, N>) -> (Vector<D, N>, N, N) {
-        let [a, b] = self.ends.map(|end| end.lift());
+/// Straight line between the ends of a spring.
+pub(super) struct Span<const D: usize, N> {
+    /// Unit vector from the first end to the second. At length zero no direction is better than another, and none is taken.
+    pub unit: Vector<D, N>,
+    /// Length, m.
+    pub length: N,
+    /// Rate of the length, m/s.
+    pub speed: N,
+}
+
+impl<const D: usize, N: Number> Span<D, N> {
+    /// Reads the span between two ends.
+    pub fn new(ends: &[Attachment<D>; 2], at: Instant<'_, D, N>) -> Self {
+        let [a, b] = ends.map(|end| end.lift());
         let d = b.position(at.x) - a.position(at.x);
         let square = d.norm_squared();
         let is_open = square > N::of(0.0);
         let length = if is_open { square.sqrt() } else { square };
         let unit = if is_open { d / length } else { Vector::zeros() };
-        (
+        let speed = unit.dot(&(b.velocity(at.v) - a.velocity(at.v)));
+        Self {
             unit,
             length,
-            unit.dot(&(b.velocity(at.v) - a.velocity(at.v))),
-        )
+            speed,
+        }
+    }
+}
+
+impl<const D: usize> Spring<D> {
+    fn span<N: Number>(&self, at: Instant<'_, D, N>) -> Span<D, N> {
+        Span::new(&self.ends, at)
     }
 
     fn rest<N: Number>(&self, at: Instant<'_, D, N>) -> N {
@@ -44,8 +60,8 @@ impl<const D: usize> Spring<D> {
 
     /// Force with which it pulls, N.
     pub fn tension<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        let (_, length, speed) = self.stretch(at);
-        N::of(self.stiffness) * (length - self.rest(at)) + N::of(self.damping) * speed
+        let span = self.span(at);
+        N::of(self.stiffness) * (span.length - self.rest(at)) + N::of(self.damping) * span.speed
     }
 }
 
@@ -55,7 +71,7 @@ impl<const D: usize> ForceElement<D> for Spring<D> {
         at: Instant<'_, D, N>,
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let ((unit, _, speed), none) = (self.stretch(at), Vector::zeros());
+        let (Span { unit, speed, .. }, none) = (self.span(at), Vector::zeros());
         // Without a rest length it pulls to the other end however near that is: the part has no kink there.
         let [first, second] = self.ends.map(|end| end.lift());
         let [a, b] = [&first, &second].map(|end| end.position(at.x));
@@ -67,7 +83,7 @@ impl<const D: usize> ForceElement<D> for Spring<D> {
     }
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let (unit, length, _) = self.stretch(at);
+        let Span { unit, length, .. } = self.span(at);
         let along: SMatrix<f64, D, D> = unit * unit.transpose();
         // A spring in compression pushes itself aside; that part stays out where it has no direction.
         let turn = if length > 0.0 {
@@ -86,14 +102,14 @@ impl<const D: usize> ForceElement<D> for Spring<D> {
 
     /// A rest length that changes does work; the part of the spring itself comes from its energy.
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
-        let speed = self.stretch(at).2;
-        let stretch = self.stretch(at).1 - self.rest(at);
+        let Span { length, speed, .. } = self.span(at);
+        let stretch = length - self.rest(at);
         let supplied = -N::of(self.stiffness) * stretch * self.length.rate(at);
         [supplied, N::of(self.damping) * speed * speed]
     }
 
     fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        let stretch = self.stretch(at).1 - self.rest(at);
+        let stretch = self.span(at).length - self.rest(at);
         N::of(0.5 * self.stiffness) * stretch * stretch
     }
 

@@ -14,6 +14,8 @@ pub fn all() -> Vec<Specimen> {
         moments(),
         distributed(),
         springs(),
+        table_springs(),
+        straight_tables(),
         spring_forms(),
         kinks(),
         works(),
@@ -150,6 +152,9 @@ fn distributed() -> Specimen {
         .vector("c.p.acceleration", "m/s2", per([1.6, 0.5]))
 }
 
+/// Energy of a spring of `table_springs`, J.
+const STORED: f64 = 0.34169079704495664;
+
 fn bead(name: &str, place: [f64; 2], speed: [f64; 2]) -> Value {
     json!({"element": "rigid", "name": name, "mass": 1.6, "inertia": 0.0, "position": place,
            "motion": {"velocity": speed}, "markers": {"c": [0.0, 0.0]}})
@@ -196,6 +201,58 @@ fn springs() -> Specimen {
         .vector("full.force", "N", times(1.6 * (pull + brake), unit))
         .vector("pair.force", "N", times(1.6 * (pull + brake), unit))
         .claim("energy.spring", "J", 0.5 * k * (3.0 * 0.04 + rest * rest))
+}
+
+/// Springs and dampers by tables, at points of these. The energy is that of `scipy.interpolate.PchipInterpolator.integrate`.
+fn table_springs() -> Specimen {
+    let speed = [0.7, -0.4];
+    let force = json!([[0.4, -9.0], [0.8, 0.0], [1.0, 3.5], [1.5, 20.0]]);
+    let damper = json!([[-0.5, -4.0], [0.0, 0.0], [0.1, 2.0], [0.4, 2.5]]);
+    // All beads are (0.6, 0.8) from where the ground is held.
+    let scene = json!({
+        "name": "table_springs", "dimension": 2,
+        "bodies": [bead("a", [0.6, 0.8], speed), bead("b", [1.6, 0.8], speed), bead("c", [2.0, 0.0], [0.0, 0.0]),
+                   bead("d", [2.6, 0.8], speed), extra()],
+        "loads": [{"name": "full", "kind": "table_spring", "markers": ["ground", "a.c"], "point": [0.0, 0.0], "spring": force,
+                   "damper": damper},
+                  {"name": "alone", "kind": "table_spring", "markers": ["ground", "b.c"], "point": [1.0, 0.0], "spring": force},
+                  {"name": "pair", "kind": "table_spring", "markers": ["c.c", "d.c"], "spring": force, "damper": damper}],
+        "outputs": [{"kind": "acceleration", "marker": "a.c"}, {"kind": "acceleration", "marker": "b.c"},
+                    {"kind": "acceleration", "marker": "c.c"}, {"kind": "acceleration", "marker": "d.c"}, {"kind": "energy"},
+                    {"kind": "load_force", "load": "full"}, {"kind": "load_force", "load": "pair"}]});
+    let (unit, pull, brake) = ([0.6, 0.8], -3.5 / 1.6, -2.0 / 1.6);
+    Specimen::new("table_springs", scene)
+        .vector("a.c.acceleration", "m/s2", times(pull + brake, unit))
+        .vector("b.c.acceleration", "m/s2", times(pull, unit))
+        .vector("c.c.acceleration", "m/s2", times(-pull - brake, unit))
+        .vector("d.c.acceleration", "m/s2", times(pull + brake, unit))
+        .vector("full.force", "N", times(1.6 * (pull + brake), unit))
+        .vector("pair.force", "N", times(1.6 * (pull + brake), unit))
+        .claim("energy.spring", "J", 3.0 * STORED)
+}
+
+/// Tables that are straight lines, also beyond their ends: a damped oscillator.
+fn straight_tables() -> Specimen {
+    let (k, c, rest, start, t): (f64, f64, f64, f64, f64) = (40.0, 2.0, 0.5, 0.4, 0.7);
+    let line = |slope: f64, at: f64, ends: [f64; 2]| ends.map(|x| [x, slope * (x - at)]);
+    let damper = [[-0.1, -0.1 * c], [0.0, 0.0], [0.2, 0.2 * c]];
+    let scene = json!({
+        "name": "straight_tables", "dimension": 2, "accuracy": {"relative_tolerance": 1e-9},
+        "bodies": [bead("a", [rest + start, 0.0], [0.0, 0.0])],
+        "loads": [{"name": "line", "kind": "table_spring", "markers": ["ground", "a.c"], "point": [0.0, 0.0],
+                   "spring": line(k, rest, [0.45, 0.6]), "damper": damper}],
+        "outputs": [{"kind": "position", "marker": "a.c"}, {"kind": "work"}]});
+    // Of 1.6 kg.
+    let decay = c / 3.2;
+    let rate = (k / 1.6 - decay * decay).sqrt();
+    let (sin, cos) = (rate * t).sin_cos();
+    let way = start * (-decay * t).exp() * (cos + decay / rate * sin);
+    let speed = -start * (-decay * t).exp() * (decay * decay / rate + rate) * sin;
+    let lost = 0.5 * k * (start * start - way * way) - 0.8 * speed * speed;
+    Specimen::new("straight_tables", scene)
+        .at(t)
+        .claim_within("a.c.position[1]", "m", rest + way, 1e-8)
+        .claim_within("energy.dissipated", "J", lost, 1e-7)
 }
 
 /// Lengths at rest that change in time.
