@@ -126,3 +126,21 @@ fn a_mesh_without_a_start_does_not_end_a_plan() {
         "{told:?}"
     );
 }
+
+/// A body that nothing holds falls, so there is no equilibrium: that is told before any run, with the meshes that were tried.
+#[test]
+fn a_start_without_equilibrium_is_told_before_any_run() {
+    let scene = json!({
+        "name": "free", "dimension": 2, "gravity": [0.0, -9.81], "initial": "static_equilibrium",
+        "bodies": [{"name": "cable", "element": "cable", "material": {"youngs_modulus": 1e10, "density": 5000.0},
+                    "section": {"area": 1e-4, "second_moment": 1e-9},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}}, "markers": {"b": 1.0}}],
+        "outputs": [{"kind": "position", "marker": "cable.b"}],
+        "experiment": {"stop_time": 1.0, "step": 0.1}});
+    let scene = Scene::from_json(&scene.to_string()).unwrap_or_else(|error| panic!("{error}"));
+    let mut runs = 0;
+    let found = plan(&scene, &Budget::default(), &mut |_, _, _| runs += 1);
+    let error = found.expect_err("no start").to_string();
+    assert_eq!(runs, 0);
+    assert!(error.starts_with("initial: "), "{error}");
+}

@@ -11,6 +11,7 @@
 use nalgebra::DMatrix;
 
 use crate::math::householder::{reflect, reflector};
+use crate::math::jet::Number;
 use crate::math::space::{Vector, carried, moment};
 use crate::math::vector::{dot, norm};
 
@@ -37,7 +38,11 @@ pub fn add_node<const D: usize>(to: &mut Node<D>, factor: f64, node: &Node<D>) {
 }
 
 /// [`carried`] of both vectors of a node.
-pub fn carried_node<const D: usize>(rate: [f64; 3], x: &Node<D>, v: &Node<D>) -> Node<D> {
+pub fn carried_node<const D: usize, N: Number>(
+    rate: [f64; 3],
+    x: &Node<D, N>,
+    v: &Node<D, N>,
+) -> Node<D, N> {
     [0, 1].map(|part| carried(rate, x[part].into(), v[part].into()).into())
 }
 

@@ -115,10 +115,15 @@ impl RigidBodyFrame {
     }
 
     /// `f += s M a` over its nodes, with the axes as coordinates.
-    pub fn add_inertia<const D: usize>(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
+    pub fn add_inertia<const D: usize, N: Number>(
+        &self,
+        s: f64,
+        a: &[Node<D, N>],
+        f: &mut [Node<D, N>],
+    ) {
         for (node, part, mass) in self.masses() {
             for (f, a) in f[node][part].iter_mut().zip(&a[node][part]) {
-                *f += s * mass * a;
+                *f += N::of(s * mass) * *a;
             }
         }
     }

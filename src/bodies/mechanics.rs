@@ -3,7 +3,7 @@
 use nalgebra::SMatrix;
 
 use super::assembly::{Assembly, NodeBlock, no_block};
-use super::connectivity::{Node, no_node};
+use super::connectivity::{Node, carried_node, no_node};
 use super::frame::RigidBodyFrame;
 use super::{Bodies, LineChain, LumpedMass};
 use crate::math::jet::Number;
@@ -20,9 +20,9 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// `f += s M a` over the nodes.
-    pub fn add_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
+    pub fn add_inertia<N: Number>(&self, s: f64, a: &[Node<D, N>], f: &mut [Node<D, N>]) {
         for chain in &self.chains {
-            chain.add_inertia(s, a, f);
+            chain.add_inertia(N::of(s), a, f);
         }
         self.add_rigid_inertia(s, a, f);
     }
@@ -36,11 +36,12 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// `f += s M a` of all but cables.
-    fn add_rigid_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
+    fn add_rigid_inertia<N: Number>(&self, s: f64, a: &[Node<D, N>], f: &mut [Node<D, N>]) {
         for lump in &self.lumped_masses {
-            let at: Vector<D> = lump.marker.position(a) * (s * lump.moved());
-            let on = lump.marker.direction(a) * (s * lump.inertia);
-            lump.marker.add_force(at, on, f);
+            let marker = lump.marker.lift();
+            let at: Vector<D, N> = marker.position(a) * N::of(s * lump.moved());
+            let on = marker.direction(a) * N::of(s * lump.inertia);
+            marker.add_force(at, on, f);
         }
         for frame in self.frames.list() {
             frame.add_inertia(s, a, f);
@@ -125,13 +126,19 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
-    /// Adds what the rotation of the scene's frame, rad/s, asks of the spins of sections to forces on nodes.
-    pub fn add_turning<N: Number>(
+    /// Adds the inertial forces of a scene's frame that rotates at a rate, rad/s, to forces on nodes: centrifugal and Coriolis forces, and
+    /// moments on sections that spin. `other` is scratch.
+    pub fn add_frame_inertia<N: Number>(
         &self,
         rotation: [f64; 3],
-        motion: (&[Node<D, N>], &[Node<D, N>]),
+        motion @ (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        other: &mut [Node<D, N>],
         f: &mut [Node<D, N>],
     ) {
+        for (carried, (x, v)) in other.iter_mut().zip(x.iter().zip(v)) {
+            *carried = carried_node(rotation, x, v);
+        }
+        self.add_inertia(-1.0, other, f);
         for chain in &self.rod_chains {
             chain.add_turning(motion, rotation, &self.frames, f);
         }

@@ -146,21 +146,6 @@ mod tests {
         assert!(error.contains("joint `o"), "{error}");
     }
 
-    /// A body that nothing holds falls, so there is no equilibrium.
-    #[test]
-    fn a_start_without_equilibrium_is_told_before_any_run() {
-        let scene = cable(1.0, "");
-        let free = Scene {
-            joints: scene.joints[1..].to_vec(),
-            ..scene
-        };
-        let mut runs = 0;
-        let found = plan(&free, &Budget::default(), &mut |_, _, _| runs += 1);
-        let error = found.expect_err("a start").to_string();
-        assert_eq!(runs, 0);
-        assert!(error.starts_with("initial: "), "{error}");
-    }
-
     #[test]
     fn ready_scenes_have_a_start() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");

@@ -1,8 +1,6 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use crate::bodies::{
-    Node, NodeBlock, RotationMaps, Rotations, add_node, carried_node, map_node, turning_block,
-};
+use crate::bodies::{Node, NodeBlock, RotationMaps, Rotations, add_node, map_node, turning_block};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::instant::Instant;
@@ -128,7 +126,7 @@ impl<const D: usize> System<D> {
             scratch,
             ..
         } = work;
-        let motion @ (x, v) = (&kinematics.x[..], &kinematics.v[..]);
+        let motion = (&kinematics.x[..], &kinematics.v[..]);
         let NodalForces {
             f,
             torques,
@@ -143,11 +141,7 @@ impl<const D: usize> System<D> {
             load.add_force(at, f);
         }
         if self.is_turning() {
-            for (carried, (x, v)) in scratch.other.iter_mut().zip(x.iter().zip(v)) {
-                *carried = carried_node(self.rotation, x, v);
-            }
-            self.bodies.add_inertia(-1.0, &scratch.other, f);
-            self.bodies.add_turning(self.rotation, motion, f);
+            (self.bodies).add_frame_inertia(self.rotation, motion, &mut scratch.other, f);
         }
     }
 

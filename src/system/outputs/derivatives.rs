@@ -11,7 +11,7 @@
 
 use nalgebra::Vector3;
 
-use crate::bodies::{Node, add_node, carried_node, map_node, no_node, product, turned};
+use crate::bodies::{Node, add_node, map_node, no_node, product, turned};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::system::joints::View;
 use crate::system::loads::ForceElement as _;
@@ -216,18 +216,8 @@ impl<const D: usize> Derivatives<D> {
             load.add_force(at, &mut self.f);
         }
         if system.is_turning() {
-            for order in 0..3 {
-                take(&values.x, order, &mut self.one);
-                take(&values.v, order, &mut self.other);
-                for (x, v) in self.one.iter_mut().zip(&self.other) {
-                    *x = carried_node(system.rotation, x, v);
-                }
-                self.other.fill(no_node());
-                system.bodies.add_inertia(-1.0, &self.one, &mut self.other);
-                add_order(&self.other, order, &mut self.f);
-            }
-            let motion = (&values.x[..], &values.v[..]);
-            (system.bodies).add_turning(system.rotation, motion, &mut self.f);
+            let (motion, other) = ((&values.x[..], &values.v[..]), &mut self.pulled);
+            (system.bodies).add_frame_inertia(system.rotation, motion, other, &mut self.f);
         }
     }
 
