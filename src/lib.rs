@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | 0 | [`math`] | quadrature, structured solves, factorizations |
 //! | 1 | [`elements`] | mass, force and tangent of a finite element |
-//! | 2 | [`body`] | connectivity, elimination of constraints, markers |
+//! | 2 | [`bodies`] | bodies behind one interface, elimination of constraints, markers |
 //! | 3 | [`system`] | the constant system, its state, joints and loads |
 //! | 4 | [`integrators`] | time stepping with error control |
 //! | 5 | [`scene`] | JSON to a validated scene to a system |

@@ -25,20 +25,21 @@ use crate::system::{DenseStep, Dynamics, State, StepOutcome};
 use controller::{Controller, Pitch, Trial};
 use selection::AlternativeMethod;
 
-/// Error that a step may make, in the mass norm.
+/// Error that a step may make, and the norm in which every method measures it (decision 38). Newton's iteration measures what is left of
+/// its own in `radau.rs`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Relative tolerance.
     pub relative: f64,
-    /// Size of positions, m sqrt(kg): length of the body times the root of its mass.
+    /// Size of positions, m sqrt(kg): size of the system times the root of its mass.
     pub position: f64,
     /// Time in which an error of velocity grows into one of position, s.
     pub time: f64,
 }
 
 impl Tolerance {
-    /// Size of an error; 1 is just tolerated. With identity inertia the Euclidean norm of `q` is the
-    /// mass norm of the displacement field.
+    /// Size of an error: `max(|e_q|, |e_v| time) / (position relative)`, where 1 is just tolerated. With identity inertia the Euclidean
+    /// norm of `q` is the mass norm of the displacement field.
     pub fn norm(&self, position: &[f64], velocity: &[f64]) -> f64 {
         let p = size(position);
         let v = size(velocity) * self.time;

@@ -1,6 +1,7 @@
-//! Stops of a joint coordinate: beyond a limit by `d`, the force `k d (1 + a d')` pushes back. It is continuous, damping with
-//! it, since a damper beside the spring would push all at once where contact begins; its derivatives have a kink there, which the
-//! control of errors steps up to. Where the coordinate leaves so fast that the bracket is negative, it pushes no more: nothing sticks.
+//! Limits (stops) of a joint coordinate, without friction: the only coordinate known here is that along which they push. Beyond a limit by
+//! `d`, the force `k d (1 + a d')` pushes back. It is continuous, damping with it, since a damper beside the spring would push all at once
+//! where contact begins; its derivatives have a kink there, which the control of errors steps up to. Where the coordinate leaves so fast
+//! that the bracket is negative, it pushes no more: nothing sticks.
 //!
 //! Source: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied
 //! Mechanics 42 (1975) 440-445, with a force that is linear in `d`.

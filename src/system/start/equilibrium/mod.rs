@@ -23,7 +23,6 @@ use super::steady::Steady;
 use crate::bodies::Node;
 use crate::math::space::Vector;
 use crate::math::vector::norm;
-use crate::system::loads::AppliedLoad;
 use crate::system::{DrivenSystem, Dynamics, State, System, Workspace};
 use newton::{AcceptanceTest, EDGE, Newton, stiffest};
 
@@ -227,14 +226,7 @@ impl<const D: usize> System<D> {
     fn held_at(&self, inputs: &[f64], work: &mut Workspace<D>, state: &State) -> Self {
         let model = DrivenSystem::new(self, inputs, work, state);
         self.forward_kinematics(state.time, &state.coordinates, None, model.work);
-        let mut held = self.held(state.time, model.work, true);
-        for load in &mut held.loads {
-            if let AppliedLoad::Contact(contact) = load {
-                // There is none at rest, and without it the loads have a potential.
-                contact.friction = 0.0;
-            }
-        }
-        held
+        self.held(state.time, model.work, true)
     }
 }
 
