@@ -8,6 +8,7 @@ mod claims;
 mod dense;
 mod derivatives;
 mod driven_inputs;
+mod eigen;
 mod elements;
 mod equilibria;
 mod examples;
