@@ -4,6 +4,7 @@
 //! Statistical Computing 5 (1984) 300-304; slopes at the ends by three points as in C. Moler, Numerical Computing with MATLAB (2004),
 //! section 3.6.
 
+use super::function::SplineTable;
 use super::jet::Number;
 
 /// Bisections towards a zero of the curve.
@@ -12,12 +13,8 @@ const BISECTIONS: usize = 60;
 /// A curve through points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Arguments, increasing, `[points]`.
-    arguments: Vec<f64>,
-    /// Values, `[points]`.
-    values: Vec<f64>,
-    /// Slopes, `[points]`.
-    slopes: Vec<f64>,
+    /// Points with their slopes.
+    table: SplineTable,
     /// Integrals from the zero of the curve to the points, `[points]`.
     integrals: Vec<f64>,
 }
@@ -34,109 +31,86 @@ impl Curve {
                 points.len()
             ));
         }
-        if let Some(number) = points.iter().flatten().find(|number| !number.is_finite()) {
-            return Err(format!("expected finite numbers, found {number}"));
-        }
-        if let Some(pair) = points.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-            let [before, after] = [pair[0][0], pair[1][0]];
-            return Err(format!(
-                "expected points in increasing order, found {after} after {before}"
-            ));
-        }
-        let [arguments, values]: [Vec<f64>; 2] =
-            [0, 1].map(|k| points.iter().map(|point| point[k]).collect());
+        let mut table = SplineTable::increasing(points, "points in increasing order")?;
+        table.slopes = slopes(&table.times, &table.values);
         let mut curve = Self {
-            slopes: slopes(&arguments, &values),
-            integrals: vec![0.0; values.len()],
-            arguments,
-            values,
+            table,
+            integrals: vec![0.0],
         };
-        for i in 1..curve.values.len() {
-            curve.integrals[i] = curve.integrals[i - 1] + curve.piece_integral(i - 1, 1.0);
+        for i in 1..points.len() {
+            let whole = curve.integrals[i - 1] + curve.piece_integral(i - 1, 1.0);
+            curve.integrals.push(whole);
         }
-        let start = curve.zero().map_or(0.0, |zero| curve.at(zero)[0]);
+        let start = curve.zero().map_or(0.0, |zero| curve.integral_at(zero));
         curve.integrals.iter_mut().for_each(|of| *of -= start);
         Ok(curve)
     }
 
     /// Value at `x`.
     pub fn value<N: Number>(&self, x: N) -> N {
-        x.map(
-            |x| self.at(x)[1],
-            |x| {
-                let [_, value, first, second] = self.at(x);
-                [value, first, second]
-            },
-        )
+        x.map(|x| self.table.spline(x)[0], |x| self.table.spline(x))
     }
 
     /// Integral up to `x`, from the first zero of the curve between its points, or else from the first point.
     pub fn integral<N: Number>(&self, x: N) -> N {
         x.map(
-            |x| self.at(x)[0],
+            |x| self.integral_at(x),
             |x| {
-                let [integral, value, first, _] = self.at(x);
-                [integral, value, first]
+                let [value, slope, _] = self.table.spline(x);
+                [self.integral_at(x), value, slope]
             },
         )
     }
 
     /// Slope at `x`.
     pub fn slope(&self, x: f64) -> f64 {
-        self.at(x)[2]
+        self.table.spline(x)[1]
     }
 
     /// Returns the largest slope by size at the points.
     pub fn steepest(&self) -> f64 {
-        self.slopes.iter().fold(0.0, |most, of| most.max(of.abs()))
-    }
-
-    /// Step, and `a`, `b`, `c` of `y = y_i + a s + b s^2 + c s^3` with `s` from 0 to 1 on piece `i`.
-    fn cubic(&self, i: usize) -> (f64, [f64; 3]) {
-        let step = self.arguments[i + 1] - self.arguments[i];
-        let rise = self.values[i + 1] - self.values[i];
-        let (a, b) = (step * self.slopes[i], step * self.slopes[i + 1]);
-        (step, [a, 3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise])
+        self.table
+            .slopes
+            .iter()
+            .fold(0.0, |most, of| most.max(of.abs()))
     }
 
     /// Integral from the start of piece `i` to the place `s` in it.
     fn piece_integral(&self, i: usize, s: f64) -> f64 {
-        let (step, [a, b, c]) = self.cubic(i);
-        step * s * (self.values[i] + s * (a / 2.0 + s * (b / 3.0 + s * c / 4.0)))
+        let (step, [a, b, c]) = self.table.cubic(i);
+        step * s * (self.table.values[i] + s * (a / 2.0 + s * (b / 3.0 + s * c / 4.0)))
     }
 
-    /// Integral, value, first and second derivative at `x`.
-    fn at(&self, x: f64) -> [f64; 4] {
-        let last = self.arguments.len() - 1;
-        let after = self.arguments.partition_point(|at| *at <= x);
-        if after == 0 || x >= self.arguments[last] {
-            let end = if after == 0 { 0 } else { last };
-            let (way, value, slope) = (x - self.arguments[end], self.values[end], self.slopes[end]);
-            let integral = self.integrals[end] + way * (value + 0.5 * slope * way);
-            return [integral, value + slope * way, slope, 0.0];
+    fn integral_at(&self, x: f64) -> f64 {
+        let SplineTable {
+            times,
+            values,
+            slopes,
+        } = &self.table;
+        match self.table.piece(x) {
+            Ok(i) => {
+                let s = (x - times[i]) / (times[i + 1] - times[i]);
+                self.integrals[i] + self.piece_integral(i, s)
+            }
+            Err(end) => {
+                let way = x - times[end];
+                self.integrals[end] + way * (values[end] + 0.5 * slopes[end] * way)
+            }
         }
-        let i = after - 1;
-        let (step, [a, b, c]) = self.cubic(i);
-        let s = (x - self.arguments[i]) / step;
-        [
-            self.integrals[i] + self.piece_integral(i, s),
-            self.values[i] + s * (a + s * (b + s * c)),
-            (a + s * (2.0 * b + 3.0 * s * c)) / step,
-            (2.0 * b + 6.0 * s * c) / (step * step),
-        ]
     }
 
     /// Returns the first zero between the points.
     fn zero(&self) -> Option<f64> {
-        let mut pieces = self.values.windows(2);
-        let i = pieces.position(|pair| pair[0] == 0.0 || pair[0] * pair[1] <= 0.0)?;
-        let (mut below, mut above) = (self.arguments[i], self.arguments[i + 1]);
-        if self.values[i] == 0.0 {
-            return Some(below);
+        let SplineTable { times, values, .. } = &self.table;
+        let mut pieces = values.windows(2);
+        let i = pieces.position(|pair| pair[0] * pair[1] <= 0.0)?;
+        if values[i] == 0.0 {
+            return Some(times[i]);
         }
+        let (mut below, mut above) = (times[i], times[i + 1]);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (below + above);
-            if self.at(middle)[1] * self.values[i] > 0.0 {
+            if self.value(middle) * values[i] > 0.0 {
                 below = middle;
             } else {
                 above = middle;

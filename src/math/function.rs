@@ -16,13 +16,13 @@ pub enum Function {
 }
 
 /// Points of a function of time and its slopes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SplineTable {
     /// Times, s, increasing.
-    times: Vec<f64>,
-    values: Vec<f64>,
+    pub(super) times: Vec<f64>,
+    pub(super) values: Vec<f64>,
     /// Rates at the points; of splines only.
-    slopes: Vec<f64>,
+    pub(super) slopes: Vec<f64>,
 }
 
 impl Function {
@@ -162,14 +162,20 @@ impl SplineTable {
         if points.is_empty() {
             return Err("expected at least one point [t, y], found none".into());
         }
+        Self::increasing(points, "increasing times")
+    }
+
+    /// Points without slopes, whose order is `wanted`.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, or arguments that do not increase.
+    pub(super) fn increasing(points: &[[f64; 2]], wanted: &str) -> Result<Self, String> {
         if let Some(number) = points.iter().flatten().find(|number| !number.is_finite()) {
             return Err(format!("expected finite numbers, found {number}"));
         }
         if let Some(pair) = points.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
             let (before, after) = (pair[0][0], pair[1][0]);
-            return Err(format!(
-                "expected increasing times, found {after} after {before}"
-            ));
+            return Err(format!("expected {wanted}, found {after} after {before}"));
         }
         Ok(Self {
             times: points.iter().map(|point| point[0]).collect(),
@@ -178,8 +184,11 @@ impl SplineTable {
         })
     }
 
-    /// Index of the piece that holds a time; outside, the point next to it is an error.
-    fn piece(&self, t: f64) -> Result<usize, usize> {
+    /// Returns the index of the piece that holds a time.
+    ///
+    /// # Errors
+    /// Outside, the index of the point next to it.
+    pub(super) fn piece(&self, t: f64) -> Result<usize, usize> {
         let after = self.times.partition_point(|time| *time <= t);
         if after == 0 {
             Err(0)
@@ -202,7 +211,7 @@ impl SplineTable {
     }
 
     /// Step, and `a`, `b`, `c` of `y = y_i + a s + b s^2 + c s^3` with `s` from 0 to 1 on piece `i`.
-    fn cubic(&self, i: usize) -> (f64, [f64; 3]) {
+    pub(super) fn cubic(&self, i: usize) -> (f64, [f64; 3]) {
         let step = self.times[i + 1] - self.times[i];
         let rise = self.values[i + 1] - self.values[i];
         let (a, b) = (step * self.slopes[i], step * self.slopes[i + 1]);
@@ -218,7 +227,7 @@ impl SplineTable {
     }
 
     /// Hermite's cubic on the piece.
-    fn spline(&self, t: f64) -> [f64; 3] {
+    pub(super) fn spline(&self, t: f64) -> [f64; 3] {
         let i = match self.piece(t) {
             Err(end) => {
                 let (slope, way) = (self.slopes[end], t - self.times[end]);

@@ -23,15 +23,13 @@ pub struct TableSpring<const D: usize = 2> {
 impl<const D: usize> TableSpring<D> {
     /// Force of the damper, N.
     fn damping<N: Number>(&self, span: &Span<D, N>) -> N {
-        self.damper
-            .as_ref()
-            .map_or(N::of(0.0), |damper| damper.value(span.speed))
+        let damper = self.damper.as_ref();
+        damper.map_or(N::of(0.0), |damper| damper.value(span.speed))
     }
 
     /// Force with which it pulls, N.
-    pub fn tension<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        let span = Span::new(&self.ends, at);
-        self.spring.value(span.length) + self.damping(&span)
+    fn tension<N: Number>(&self, span: &Span<D, N>) -> N {
+        self.spring.value(span.length) + self.damping(span)
     }
 }
 
@@ -42,7 +40,7 @@ impl<const D: usize> ForceElement<D> for TableSpring<D> {
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let (span, none) = (Span::new(&self.ends, at), Vector::zeros());
-        let pull = span.unit * (self.spring.value(span.length) + self.damping(&span));
+        let pull = span.unit * self.tension(&span);
         let [first, second] = self.ends.map(|end| end.lift());
         call(&first, [pull, none]);
         call(&second, [-pull, none]);
@@ -53,7 +51,7 @@ impl<const D: usize> ForceElement<D> for TableSpring<D> {
         let along: SMatrix<f64, D, D> = span.unit * span.unit.transpose();
         // The part that turns stays out where it has no direction.
         let turn = if span.length > 0.0 {
-            self.tension(at) / span.length
+            self.tension(&span) / span.length
         } else {
             0.0
         };

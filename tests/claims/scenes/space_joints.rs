@@ -333,6 +333,32 @@ fn twisting() -> Specimen {
     vector(specimen, "plate.p.position", "m", point + body.axes * ARM)
 }
 
+/// Adds the claims of a body at `shaft.c` that a joint holds at a point, and about a direction `n` so that `n . w'` is `rate`.
+fn held_about(
+    mut specimen: Specimen,
+    joint: &str,
+    (body, point): (&Body, Vector3<f64>),
+    n: Vector3<f64>,
+    rate: f64,
+) -> Specimen {
+    let inverse = body.tensor().try_inverse().expect("inertia");
+    let free = body.turning(MOMENT);
+    let held = (rate - n.dot(&free)) / n.dot(&(inverse * n));
+    for (of, unit, value) in [
+        (format!("{joint}.reaction"), "N", -FORCE),
+        (format!("{joint}.reaction_moment"), "N.m", n * held),
+        (
+            "shaft.c.angular_acceleration".into(),
+            "rad/s2",
+            free + inverse * n * held,
+        ),
+        ("shaft.c.position".into(), "m", point),
+    ] {
+        specimen = vector(specimen, &of, unit, value);
+    }
+    specimen
+}
+
 /// A fork that turns in the ground about `a`, and a body that turns in it about its `b`: across both, `n = a x b`, the
 /// joint holds a moment. From the second derivative of `a.b = 0`: `n . w' = (a.w) (b.w)`.
 fn cross() -> Specimen {
@@ -347,23 +373,13 @@ fn cross() -> Specimen {
         "loads": pushed("shaft"),
         "outputs": joined([outputs(&["reaction", "reaction_moment"], "joint", "cross"),
                     outputs(&["angular_acceleration", "position"], "marker", "shaft.c")])});
-    let inverse = body.tensor().try_inverse().expect("inertia");
-    let free = body.turning(MOMENT);
-    let held = (a.dot(&body.spin) * b.dot(&body.spin) - n.dot(&free)) / n.dot(&(inverse * n));
-    let mut specimen = Specimen::new("cross", scene);
-    for (of, unit, value) in [
-        ("cross.reaction", "N", -FORCE),
-        ("cross.reaction_moment", "N.m", n * held),
-        (
-            "shaft.c.angular_acceleration",
-            "rad/s2",
-            free + inverse * n * held,
-        ),
-        ("shaft.c.position", "m", point),
-    ] {
-        specimen = vector(specimen, of, unit, value);
-    }
-    specimen
+    held_about(
+        Specimen::new("cross", scene),
+        "cross",
+        (&body, point),
+        n,
+        a.dot(&body.spin) * b.dot(&body.spin),
+    )
 }
 
 /// Two bodies at rest between forks, whose axes are given in the frame of the first: `n . w'` is the same of both.
@@ -413,23 +429,13 @@ fn shaft_in_the_ground() -> Specimen {
         "loads": pushed("shaft"),
         "outputs": joined([outputs(&["reaction", "reaction_moment"], "joint", "ball"),
                     outputs(&["angular_acceleration", "position"], "marker", "shaft.c")])});
-    let inverse = body.tensor().try_inverse().expect("inertia");
-    let free = body.turning(MOMENT);
-    let held = -n.dot(&free) / n.dot(&(inverse * n));
-    let mut specimen = Specimen::new("shaft in the ground", scene);
-    for (of, unit, value) in [
-        ("ball.reaction", "N", -FORCE),
-        ("ball.reaction_moment", "N.m", n * held),
-        (
-            "shaft.c.angular_acceleration",
-            "rad/s2",
-            free + inverse * n * held,
-        ),
-        ("shaft.c.position", "m", point),
-    ] {
-        specimen = vector(specimen, of, unit, value);
-    }
-    specimen
+    held_about(
+        Specimen::new("shaft in the ground", scene),
+        "ball",
+        (&body, point),
+        n,
+        0.0,
+    )
 }
 
 /// Two shafts at rest, whose axes are given in the frame of the first, the one at an angle, the other straight on: `n . w'` is the same

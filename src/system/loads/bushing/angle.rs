@@ -62,12 +62,11 @@ impl<const D: usize> DeformationMeasure<D> for FromAngle {
     fn add_tangent(
         &self,
         of: &Bushing<D>,
-        [_, moment]: SixComponents,
         at: Instant<'_, D>,
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
     ) {
-        let end: Attachment<D> = self.end();
+        let (end, [_, moment]): (Attachment<D>, _) = (self.end(), of.force(at));
         let u = end.direction(at.x);
         let turn = perpendicular(u) / u.norm_squared();
         let outer: SMatrix<f64, D, D> = turn * turn.transpose();

@@ -181,11 +181,11 @@ impl<const D: usize> DeformationMeasure<D> for BetweenFrames<D> {
     fn add_tangent(
         &self,
         of: &Bushing<D>,
-        [force, moment]: SixComponents,
         at: Instant<'_, D>,
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
     ) {
+        let [force, moment] = of.force(at);
         let products = self.products(at.x);
         let turned = Turned::new(&products);
         let terms = |by: &Matrix3<f64>| {

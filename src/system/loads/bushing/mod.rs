@@ -71,11 +71,10 @@ trait DeformationMeasure<const D: usize> {
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     );
 
-    /// Adds the tangent of stiffness and damping `of`, which make the force `on`.
+    /// Adds the tangent of a bushing with this measure.
     fn add_tangent(
         &self,
         of: &Bushing<D>,
-        on: SixComponents,
         at: Instant<'_, D>,
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
@@ -129,8 +128,7 @@ impl<const D: usize> ForceElement<D> for Bushing<D> {
     }
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let on = self.force(at);
-        measured!(&self.measure, of => of.add_tangent(self, on, at, stiffness, damping));
+        measured!(&self.measure, of => of.add_tangent(self, at, stiffness, damping));
     }
 
     /// The springs work on the rates of the positions that come in, the dampers on the velocities that come in.

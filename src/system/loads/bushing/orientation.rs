@@ -89,7 +89,6 @@ impl<const D: usize> DeformationMeasure<D> for FromOrientation {
     fn add_tangent(
         &self,
         of: &Bushing<D>,
-        _on: SixComponents,
         at: Instant<'_, D>,
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,

@@ -56,7 +56,6 @@ impl<const D: usize> DeformationMeasure<D> for FromPoint<D> {
     fn add_tangent(
         &self,
         of: &Bushing<D>,
-        _on: SixComponents,
         _at: Instant<'_, D>,
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
