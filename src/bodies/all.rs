@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::connectivity::Node;
 use super::frame::{NodeKind, RotationMaps};
-use super::winch::Length;
+use super::winch::PaidOut;
 use super::{LineChain, LumpedMass, Marker, RigidRod, RodChain, Winch};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
@@ -27,8 +27,8 @@ pub struct Bodies<const D: usize = 2> {
     pub rods: Vec<RigidRod>,
     /// Rigid bodies of space, and frames of sections in space.
     pub frames: RotationMaps,
-    /// Cables that winches pay out.
-    pub winches: Vec<Winch<D>>,
+    /// Whether a winch pays out any of the lines.
+    pub(super) pays_out: bool,
 }
 
 impl<const D: usize> Bodies<D> {
@@ -41,7 +41,7 @@ impl<const D: usize> Bodies<D> {
     /// Whether nodal coordinates are those that are integrated: no rotations and no cable of changing length.
     #[inline(always)]
     pub fn has_identity_map(&self) -> bool {
-        self.has_no_frames() && self.winches.is_empty()
+        self.has_no_frames() && !self.pays_out
     }
 
     /// Size: the length of the longest line, or the largest distance of two nodes if that is more, m. Where rigid bodies rotate in space it
@@ -106,29 +106,35 @@ impl<const D: usize> Bodies<D> {
         found.next()
     }
 
-    /// Length of a chain now.
-    #[inline(always)]
-    pub fn length_now<N: Number>(&self, chain: &LineChain<D>, drives: &[[N; 3]]) -> Length<N> {
-        let paid_out = self.paid_out(chain, drives);
-        paid_out.map_or_else(Length::same, |(_, now)| now)
+    /// Whether a winch pays out any of the lines: their meshes lengthen.
+    pub fn pays_out(&self) -> bool {
+        self.pays_out
     }
 
-    /// The winch that pays out a chain, and the length of the chain now.
+    /// Puts a line on a winch at its first or last end; the driven coordinate is the length that has been paid out, m.
+    pub fn pay_out(&mut self, line: usize, end: (bool, usize), gravity: Vector<D>) {
+        let winch = Winch::new(&self.chains[line], end, gravity);
+        self.chains[line].set_winch(winch);
+        self.pays_out = true;
+    }
+
+    /// Lines that are paid out, each with its winch.
     #[inline(always)]
+    pub fn winches(&self) -> impl Iterator<Item = (&LineChain<D>, &Winch<D>)> {
+        let lines = self.chains.iter().filter(|_| self.pays_out);
+        lines.filter_map(|line| Some((line, line.winch()?)))
+    }
+
+    /// A line that is paid out, by its first node.
     pub fn paid_out<N: Number>(
         &self,
-        chain: &LineChain<D>,
+        first: usize,
         drives: &[[N; 3]],
-    ) -> Option<(&Winch<D>, Length<N>)> {
-        let winch = self.winch_of(chain)?;
-        Some((winch, winch.now(drives)))
-    }
-
-    /// The winch that pays out a chain.
-    #[inline(always)]
-    pub fn winch_of(&self, chain: &LineChain<D>) -> Option<&Winch<D>> {
-        let is_own = |winch: &&Winch<D>| winch.nodes.start == chain.first_node();
-        self.winches.iter().find(is_own)
+    ) -> Option<PaidOut<'_, D, N>> {
+        let mut winches = self.winches();
+        let (chain, winch) = winches.find(|(chain, _)| chain.first_node() == first)?;
+        let now = winch.now(drives);
+        Some(PaidOut { winch, chain, now })
     }
 
     /// The line of a body.

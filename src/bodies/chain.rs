@@ -6,6 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::Node;
+use super::winch::{Length, Winch};
 use crate::elements::{BlockPack, Element, ElementMotion, Nodal, NodalView, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd, Vectorized, vectorized};
@@ -18,6 +19,8 @@ pub struct Chain<E: Element<D>, const D: usize> {
     packs: Vec<Pack<E::Pack>>,
     first: usize,
     is_damped: bool,
+    /// The winch that pays it out, if there is one.
+    winch: Option<Winch<D>>,
 }
 
 /// Elements that are computed together, at most [`PACK`].
@@ -55,7 +58,27 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
             packs: packs(&elements),
             elements,
             first,
+            winch: None,
         }
+    }
+
+    /// Puts the chain on a winch.
+    pub fn set_winch(&mut self, winch: Winch<D>) {
+        self.winch = Some(winch);
+    }
+
+    /// The winch that pays it out.
+    #[inline(always)]
+    pub fn winch(&self) -> Option<&Winch<D>> {
+        self.winch.as_ref()
+    }
+
+    /// Returns its length now, from the coordinates `drives` that are driven.
+    #[inline(always)]
+    pub fn length_now<N: Number>(&self, drives: &[[N; 3]]) -> Length<N> {
+        self.winch
+            .as_ref()
+            .map_or_else(Length::same, |winch| winch.now(drives))
     }
 
     /// Tells the first and the last element whether something is joined to the ends of the chain, or acts there;

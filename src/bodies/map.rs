@@ -90,7 +90,7 @@ impl<const D: usize> Bodies<D> {
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
         let shortened;
-        let block = if self.winches.is_empty() {
+        let block = if !self.pays_out {
             block
         } else {
             shortened = self.shorten_block((a, b), drives, block);

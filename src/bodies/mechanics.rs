@@ -30,7 +30,7 @@ impl<const D: usize> Bodies<D> {
     /// `f += M a` with cables as long as they are.
     pub fn add_inertia_now(&self, drives: &[[f64; 3]], a: &[Node<D>], f: &mut [Node<D>]) {
         for chain in &self.chains {
-            chain.add_inertia(self.length_now(chain, drives).longer_by(), a, f);
+            chain.add_inertia(chain.length_now(drives).longer_by(), a, f);
         }
         self.add_rigid_inertia(1.0, a, f);
     }
@@ -85,11 +85,11 @@ impl<const D: usize> Bodies<D> {
         other: &mut [Node<D>],
     ) -> f64 {
         let mut dissipated = 0.0;
-        if !self.winches.is_empty() {
+        if self.pays_out {
             self.add_lengthening(drives, motion, other, f);
         }
         for chain in &self.chains {
-            let longer = self.length_now(chain, drives).longer();
+            let longer = chain.length_now(drives).longer();
             dissipated += chain.add_force(motion, longer, f);
         }
         if !self.rod_chains.is_empty() {
@@ -110,7 +110,7 @@ impl<const D: usize> Bodies<D> {
         other: &mut [Node<D, N>],
         is_elastic: bool,
     ) {
-        if !self.winches.is_empty() {
+        if self.pays_out {
             self.add_lengthening(drives, motion, other, f);
         }
         torques.fill([N::of(0.0); 3]);
@@ -118,7 +118,7 @@ impl<const D: usize> Bodies<D> {
             return;
         }
         for chain in &self.chains {
-            let longer = self.length_now(chain, drives).longer();
+            let longer = chain.length_now(drives).longer();
             chain.add_force_of(motion, longer, f);
         }
         for chain in &self.rod_chains {
@@ -154,7 +154,7 @@ impl<const D: usize> Bodies<D> {
         (stiffness, damping): (&mut Matrix<f64>, &mut Matrix<f64>),
     ) {
         for chain in &self.chains {
-            let longer = self.length_now(chain, drives).longer();
+            let longer = chain.length_now(drives).longer();
             let matrices = (&mut *stiffness, &mut *damping);
             chain.add_tangent(motion, longer, assembly, matrices);
         }

@@ -18,10 +18,9 @@ impl<const D: usize> Bodies<D> {
     ) -> N {
         let spins = self.rod_chains.iter();
         let spins = spins.map(|chain| chain.spin_energy((x, v), &self.frames));
-        let paid_out = self.winches.iter().map(|winch| {
-            let chain = &self.chains[winch.chain];
-            winch.kinetic(chain, (x, v), &winch.now(drives))
-        });
+        let paid_out = self.winches();
+        let paid_out =
+            paid_out.map(|(chain, winch)| winch.kinetic(chain, (x, v), &winch.now(drives)));
         let others = spins.chain(paid_out);
         others.fold(self.quadratic(v, |v| v), |sum, energy| sum + energy)
     }
@@ -43,7 +42,7 @@ impl<const D: usize> Bodies<D> {
     ) -> N {
         let mut sum = N::of(0.0);
         let chains = self.chains.iter();
-        for chain in chains.filter(|chain| self.winch_of(chain).is_none()) {
+        for chain in chains.filter(|chain| chain.winch().is_none()) {
             for (j, element) in chain.elements().iter().enumerate() {
                 let e: Nodal<D, N> = chain.element(j, x);
                 let e = Nodal::from_columns(&[0, 1, 2, 3].map(|k| map(e.column(k).into())));
@@ -65,7 +64,7 @@ impl<const D: usize> Bodies<D> {
     /// Strain energy, J.
     pub fn strain_energy<N: Number>(&self, drives: &[[N; 3]], x: &[Node<D, N>]) -> N {
         let lines = self.chains.iter();
-        let lines = lines.map(|chain| chain.strain_energy(x, self.length_now(chain, drives).by));
+        let lines = lines.map(|chain| chain.strain_energy(x, chain.length_now(drives).by));
         let energies = lines.chain((self.rod_chains.iter()).map(|chain| chain.strain_energy(x)));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
@@ -91,7 +90,7 @@ impl<const D: usize> Bodies<D> {
         motion: (&[Node<D, N>], &[Node<D, N>]),
     ) -> N {
         let lines = self.chains.iter().map(|chain| {
-            let longer = self.length_now(chain, drives).longer();
+            let longer = chain.length_now(drives).longer();
             chain.dissipation(motion, longer)
         });
         let sections = self.rod_chains.iter();
@@ -108,9 +107,9 @@ impl<const D: usize> Bodies<D> {
         drives: &[[N; 3]],
         x: &[Node<D, N>],
     ) -> N {
-        self.winches.iter().fold(N::of(0.0), |fall, winch| {
+        self.winches().fold(N::of(0.0), |fall, (chain, winch)| {
             let more = N::of(1.0) / winch.now(drives).by - N::of(1.0);
-            let sum = sum_of(&self.chains[winch.chain], x);
+            let sum = sum_of(chain, x);
             fall + sum.dot(&gravity.map(N::of)) * more
         })
     }
@@ -129,7 +128,7 @@ impl<const D: usize> Bodies<D> {
             angular += Vector3::from(moment(&at, &p));
         };
         for chain in &self.chains {
-            let paid_out = self.paid_out(chain, drives);
+            let paid_out = chain.winch().map(|winch| (winch, winch.now(drives)));
             for (j, element) in chain.elements().iter().enumerate() {
                 let at: Nodal<D, N> = chain.element(j, x);
                 let mut p = chain.element(j, v) * element.mass().map(N::of);
@@ -171,7 +170,7 @@ impl<const D: usize> Bodies<D> {
     pub fn center_of_mass<N: Number>(&self, drives: &[[N; 3]], x: &[Node<D, N>]) -> Vector<D, N> {
         let (mut sum, mut mass) = (Vector::zeros(), N::of(self.mass()));
         for chain in &self.chains {
-            let longer = N::of(1.0) / self.length_now(chain, drives).by;
+            let longer = N::of(1.0) / chain.length_now(drives).by;
             sum += sum_of(chain, x) * longer;
             mass += (longer - N::of(1.0)) * N::of(chain.mass());
         }

@@ -27,8 +27,6 @@ use crate::math::space::Vector;
 /// A cable that is paid out.
 #[derive(Clone, Debug)]
 pub struct Winch<const D: usize = 2> {
-    /// Index of the chain.
-    pub chain: usize,
     /// Whether the winch is at its last end.
     pub at_last: bool,
     /// Driven coordinate: the length that has been paid out, m.
@@ -113,7 +111,7 @@ impl<N: Number> Length<N> {
 impl<const D: usize> Winch<D> {
     /// Builds the winch of a chain. `at_last` selects the paid-out end, `coordinate` is the driven one, its length.
     pub fn new(
-        (index, chain): (usize, &LineChain<D>),
+        chain: &LineChain<D>,
         (at_last, coordinate): (bool, usize),
         gravity: Vector<D>,
     ) -> Self {
@@ -125,7 +123,6 @@ impl<const D: usize> Winch<D> {
             start
         });
         Self {
-            chain: index,
             at_last,
             coordinate,
             nodes: chain.range(),

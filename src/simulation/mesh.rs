@@ -37,7 +37,7 @@ fn off<const D: usize, N: Number>(
 ) -> N {
     let Assembled { system, nodes, .. } = assembled;
     let jumps = values.missed(system, chain) * N::of(OFF);
-    let bends = values.bent_away(system, chain, nodes);
+    let bends = values.bent_away(chain, nodes);
     if bends > jumps { bends } else { jumps }
 }
 

@@ -29,12 +29,6 @@ pub struct Instant<'a, const D: usize, N = f64> {
 impl<'a, const D: usize, N: Number> Instant<'a, D, N> {
     /// The body with this first node, if a winch pays it out.
     pub fn paid_out(&self, first: usize) -> Option<PaidOut<'a, D, N>> {
-        let mut winches = self.bodies.winches.iter();
-        let winch = winches.find(|winch| winch.nodes.start == first)?;
-        Some(PaidOut {
-            winch,
-            chain: &self.bodies.chains[winch.chain],
-            now: winch.now(self.drives),
-        })
+        self.bodies.paid_out(first, self.drives)
     }
 }

@@ -26,7 +26,7 @@ impl<const D: usize> Bodies<D> {
         &'a self,
         drives: &[[N; 3]],
     ) -> impl Iterator<Item = (&'a Winch<D>, usize, Length<N>)> {
-        self.winches.iter().flat_map(move |winch| {
+        self.winches().flat_map(move |(_, winch)| {
             let now = winch.now(drives);
             winch.nodes.clone().map(move |node| (winch, node, now))
         })
@@ -34,11 +34,9 @@ impl<const D: usize> Bodies<D> {
 
     /// `s` of a node, 1 where it belongs to no cable that is paid out.
     pub fn root_at<N: Number>(&self, node: usize, drives: &[[N; 3]]) -> N {
-        let winch = self
-            .winches
-            .iter()
-            .find(|winch| winch.nodes.contains(&node));
-        winch.map_or(N::of(1.0), |winch| winch.now(drives).root[0])
+        let mut winches = self.winches();
+        let winch = winches.find(|(_, winch)| winch.nodes.contains(&node));
+        winch.map_or(N::of(1.0), |(_, winch)| winch.now(drives).root[0])
     }
 
     /// `u` of a node of a cable that is paid out.
@@ -111,7 +109,7 @@ impl<const D: usize> Bodies<D> {
         drives: &[[N; 3]],
         force: &Node<D, N>,
     ) -> Node<D, N> {
-        if self.winches.is_empty() {
+        if !self.pays_out {
             return *force;
         }
         let root = self.root_at(node, drives);
@@ -140,8 +138,8 @@ impl<const D: usize> Bodies<D> {
     ) {
         moved.fill([[N::of(0.0); D]; 2]);
         self.add_lengthened(drives, motion, moved);
-        for winch in &self.winches {
-            let (chain, longer) = (&self.chains[winch.chain], winch.now(drives).longer_by());
+        for (chain, winch) in self.winches() {
+            let longer = winch.now(drives).longer_by();
             chain.add_weight(&(winch.gravity.map(N::of) * (longer - N::of(1.0))), force);
             chain.add_inertia(-longer, moved, force);
         }
@@ -149,17 +147,15 @@ impl<const D: usize> Bodies<D> {
 
     /// The driven coordinate of a winch that has taken in its whole cable.
     pub fn taken_in(&self, drives: &[[f64; 3]]) -> Option<usize> {
+        let mut winches = self.winches().map(|(_, winch)| winch);
         let shortest =
             |winch: &&Winch<D>| drives[winch.coordinate][0] <= (SHORTEST - 1.0) * winch.length;
-        self.winches
-            .iter()
-            .find(shortest)
-            .map(|winch| winch.coordinate)
+        winches.find(shortest).map(|winch| winch.coordinate)
     }
 
     /// The driven coordinate of a winch that has paid out cable, and how much, m.
     pub fn paid_out_at_start(&self, drives: &[[f64; 3]]) -> Option<(usize, f64)> {
-        self.winches.iter().find_map(|winch| {
+        self.winches().find_map(|(_, winch)| {
             let [travel, ..] = drives[winch.coordinate];
             (travel.abs() > BEGUN * winch.length).then_some((winch.coordinate, travel))
         })
@@ -167,8 +163,8 @@ impl<const D: usize> Bodies<D> {
 
     /// Adds the momentum of material that passes through cables that are paid out, times a factor, to forces on nodes, kg m/s.
     pub fn add_passing(&self, drives: &[[f64; 3]], factor: f64, x: &[Node<D>], f: &mut [Node<D>]) {
-        for winch in &self.winches {
-            let (chain, now) = (&self.chains[winch.chain], winch.now(drives));
+        for (chain, winch) in self.winches() {
+            let now = winch.now(drives);
             for j in 0..chain.elements().len() {
                 let momentum: Nodal<D> = winch.passing_momentum(chain, j, x, &now) * factor;
                 chain.add_to(j, &momentum, f);

@@ -1,7 +1,7 @@
 //! Which rows and constraints parts make, and what they couple.
 
 use super::Parts;
-use crate::bodies::{ConnectivityRow, Links, Winch, no_node, tied_with};
+use crate::bodies::{ConnectivityRow, Links, no_node, tied_with};
 use crate::math::space::Vector;
 use crate::system::end::Attachment;
 use crate::system::joints::{
@@ -143,24 +143,11 @@ fn paid_out<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
 
 /// Winches, each with what its cable does as it passes through its mesh among the loads.
 pub(super) fn add_winches<const D: usize>(parts: &mut Parts<D>) {
-    let gravity = parts.gravity;
-    let of = |(chain, at_last, drive): &(usize, bool, usize)| {
-        Winch::new(
-            (*chain, &parts.bodies.chains[*chain]),
-            (*at_last, *drive),
-            gravity,
-        )
-    };
-    let winches: Vec<Winch<D>> = parts.winches.iter().map(of).collect();
-    let transports = winches.iter().enumerate();
-    let transports = transports.map(|(winch, of)| {
-        AppliedLoad::ConvectiveInertia(ConvectiveInertia {
-            winch,
-            chain: of.chain,
-        })
-    });
-    parts.loads.extend(transports);
-    parts.bodies.winches = winches;
+    for &(line, at_last, drive) in &parts.winches {
+        parts.bodies.pay_out(line, (at_last, drive), parts.gravity);
+        let inertia = ConvectiveInertia { line };
+        parts.loads.push(AppliedLoad::ConvectiveInertia(inertia));
+    }
 }
 
 /// Lists the couplings of nodes by mass, stiffness and constraints.

@@ -10,25 +10,19 @@ use crate::math::jet::Number;
 /// Inertia forces of material that a winch moves through the mesh of its cable.
 #[derive(Clone, Debug)]
 pub struct ConvectiveInertia {
-    /// Index of the winch.
-    pub winch: usize,
-    /// Index of its cable among the chains.
-    pub chain: usize,
+    /// Index of the cable among the lines.
+    pub line: usize,
 }
 
 impl ConvectiveInertia {
     /// First node of the cable.
     pub(super) fn first_node<const D: usize>(&self, chains: &[LineChain<D>]) -> usize {
-        chains[self.chain].first_node()
+        chains[self.line].first_node()
     }
 
     fn cable<'a, const D: usize, N: Number>(&self, at: Instant<'a, D, N>) -> PaidOut<'a, D, N> {
-        let winch = &at.bodies.winches[self.winch];
-        PaidOut {
-            winch,
-            chain: &at.bodies.chains[self.chain],
-            now: winch.now(at.drives),
-        }
+        let paid_out = at.paid_out(self.first_node(&at.bodies.chains));
+        paid_out.expect("a winch pays the cable out")
     }
 
     /// Forces at the Gauss points of an element, N/m.
@@ -45,25 +39,26 @@ impl ConvectiveInertia {
 impl<const D: usize> ForceElement<D> for ConvectiveInertia {
     /// Nodes of its elements.
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        let chain = &bodies.chains[self.chain];
+        let chain = &bodies.chains[self.line];
         let elements = 0..chain.elements().len();
         elements.map(|j| chain.nodes(j).to_vec()).collect()
     }
 
     fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        let [_, rate, second] = at.drives[at.bodies.winches[self.winch].coordinate];
+        let of = self.cable(at);
+        let [_, rate, second] = at.drives[of.winch.coordinate];
         // Derivatives may not vanish where values do.
         if rate.largest() == 0.0 && second.largest() == 0.0 {
             return;
         }
-        for j in 0..at.bodies.chains[self.chain].elements().len() {
+        for j in 0..of.chain.elements().len() {
             self.add_part(at, j, f);
         }
     }
 
     /// Adds the forces on an element.
     fn add_part<N: Number>(&self, at: Instant<'_, D, N>, element: usize, f: &mut [Node<D, N>]) {
-        let chain = &at.bodies.chains[self.chain];
+        let chain = &at.bodies.chains[self.line];
         let values = self.values(at, element);
         let forces = on_coordinates(&values, chain.element_length(element));
         chain.add_to(element, &forces, f);

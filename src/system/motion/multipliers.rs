@@ -182,7 +182,7 @@ impl<const D: usize> System<D> {
             ..
         } = work;
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
-        let is_still = self.driven.is_empty() && self.bodies.winches.is_empty();
+        let is_still = self.driven.is_empty() && !self.bodies.pays_out();
         let is_driven = !(is_still && self.bodies.has_no_frames());
         if is_driven {
             let motion = (&kinematics.x[..], &kinematics.v[..]);

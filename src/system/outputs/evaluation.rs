@@ -137,7 +137,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn strain(&self, system: &System<D>, marker: &Marker) -> (N, N) {
         let at = system.bodies.element_after(marker);
         at.map_or((N::of(0.0), N::of(0.0)), |(chain, j, xi)| {
-            let by = system.bodies.length_now(chain, &self.drives).by;
+            let by = chain.length_now(&self.drives).by;
             let e = chain.element(j, &self.x) * by;
             let element = &chain.elements()[j];
             let curvature = element.strain(&e, xi).1 * by;

@@ -12,7 +12,7 @@ impl<const D: usize> Derivatives<D> {
         plain: &Evaluation<D>,
         k: usize,
     ) {
-        for winch in &system.bodies.winches {
+        for (_, winch) in system.bodies.winches() {
             let [root, ..] = winch.now(&self.values.drives).root;
             for node in winch.nodes.clone() {
                 let driven = self.driven[node].as_flattened();
@@ -37,9 +37,8 @@ impl<const D: usize> Derivatives<D> {
     /// Adds the inertia that a longer cable has more to what constraints supply.
     pub(super) fn lengthen_supply(&mut self, system: &System<D>) {
         let values = &mut self.values;
-        for winch in &system.bodies.winches {
+        for (chain, winch) in system.bodies.winches() {
             let more = winch.now(&values.drives).longer_by() - Jet::of(1.0);
-            let chain = &system.bodies.chains[winch.chain];
             chain.add_inertia(
                 more,
                 &values.acceleration,

@@ -58,7 +58,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         // Curvatures are those by reference length, by which elements have not become longer.
         if largest > N::of(0.0) {
-            largest.root() * system.bodies.length_now(chain, &self.drives).longer_by()
+            largest.root() * chain.length_now(&self.drives).longer_by()
         } else {
             largest
         }
@@ -68,7 +68,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Displacement, m, that bending of whole elements makes of one end of a chain where the other one is held: the larger one of both
     /// ends. What elements are bent by as drawn, from these nodes, makes none.
-    pub fn bent_away(&self, system: &System<D>, chain: &LineChain<D>, drawn: &[Node<D>]) -> N {
+    pub fn bent_away(&self, chain: &LineChain<D>, drawn: &[Node<D>]) -> N {
         let x = &self.x[..];
         let place = |node: usize| Vector3::from(components(&Vector::from(x[node][0])));
         let [first, last] = [0, chain.elements().len() - 1].map(|j| chain.nodes(j));
@@ -85,7 +85,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let [a, b] = sums.map(|sum| sum.norm_squared());
         let square = if a > b { a } else { b };
         if square > N::of(0.0) {
-            square.root() * system.bodies.length_now(chain, &self.drives).longer_by()
+            square.root() * chain.length_now(&self.drives).longer_by()
         } else {
             square
         }

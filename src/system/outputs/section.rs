@@ -99,7 +99,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
         let load = self.distributed(system, chain.first_node());
         let changing = self.changing(system, (chain.first_node(), j));
-        let longer = N::of(1.0) / system.bodies.length_now(chain, &self.drives).by;
+        let longer = N::of(1.0) / chain.length_now(&self.drives).by;
         let force = |xi: f64| {
             let (weight, moved) = (part.weight_before(xi), part.moved_before(xi));
             let gravity = system.gravity * (weight[0] + weight[2]);
@@ -137,7 +137,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         (chain, j): (&LineChain<D>, usize),
     ) -> (Nodal<D, N>, [Vector3<N>; 2]) {
         let part = &chain.elements()[j];
-        let now = system.bodies.length_now(chain, &self.drives);
+        let now = chain.length_now(&self.drives);
         let (mut lack, _) = chain.force_of(j, (&self.x, &self.v), now.longer());
         let weight = (system.gravity * part.weight().transpose()).map(N::of);
         lack += (weight - self.inertia(system, (chain, j)) * part.mass().map(N::of)) / now.by;

@@ -252,7 +252,7 @@ fn refuse_paid_out<const D: usize>(
     work: &Workspace<D>,
     at_rest: bool,
 ) -> Result<(), SpectrumError> {
-    for winch in &system.bodies.winches {
+    for (_, winch) in system.bodies.winches() {
         let [travel, rate, _] = work.kinematics.drives[winch.coordinate];
         if travel.abs() > 1e-9 * winch.length || !(at_rest || rate == 0.0) {
             let body = system.bodies.body_from(winch.nodes.start);

@@ -264,7 +264,7 @@ impl<const D: usize> System<D> {
             change,
             ..
         } = &mut *work;
-        if !self.bodies.winches.is_empty() {
+        if self.bodies.pays_out() {
             let (drives, x) = (&kinematics.drives, &kinematics.x);
             self.bodies.add_passing(drives, -1.0, x, &mut scratch.other);
             self.bodies.shorten(drives, &mut scratch.other);
@@ -274,7 +274,7 @@ impl<const D: usize> System<D> {
         self.bodies
             .momentum_of(&kinematics.v, &kinematics.x, &mut forces.f);
         self.reduce_momentum(work, rates);
-        if !self.bodies.winches.is_empty() {
+        if self.bodies.pays_out() {
             (rates.iter_mut().zip(&work.change)).for_each(|(rate, more)| *rate += more);
         }
     }
