@@ -1,10 +1,11 @@
-//! All bodies of a system: one list for each kind, behind operations over all of them. Kinematics, forces and sums name no kind; a new
-//! kind of body joins in here.
+//! All bodies of a system: one list for each kind, behind operations over all of them. A new kind of body is a list here and a line in
+//! [`each`](super::body::each).
 
 use std::ops::Range;
 
+use super::body::{BodyPart, each};
 use super::connectivity::Node;
-use super::frame::{NodeKind, RotationMaps};
+use super::frame::{NodeKind, RigidBodyFrame, RotationMaps};
 use super::winch::PaidOut;
 use super::{LineChain, LumpedMass, Marker, RigidRod, RodChain, Winch};
 use crate::math::jet::Number;
@@ -18,15 +19,15 @@ pub struct Bodies<const D: usize = 2> {
     /// Nodes of every body, `[bodies]`.
     pub ranges: Vec<Range<usize>>,
     /// Lines of flexible bodies.
-    pub chains: Vec<LineChain<D>>,
+    pub(super) lines: Vec<LineChain<D>>,
     /// Sections of rods and beams along these lines: bending, shear and torsion.
-    pub rod_chains: Vec<RodChain>,
+    pub(super) sections: Vec<RodChain>,
     /// Masses in points: particles, planar rigid bodies, and masses on other bodies.
-    pub lumped_masses: Vec<LumpedMass>,
+    pub(super) masses: Vec<LumpedMass>,
     /// Straight rigid bodies whose sections are read.
-    pub rods: Vec<RigidRod>,
+    pub(super) rods: Vec<RigidRod>,
     /// Rigid bodies of space, and frames of sections in space.
-    pub frames: RotationMaps,
+    pub(super) frames: RotationMaps,
     /// Whether a winch pays out any of the lines.
     pub(super) pays_out: bool,
 }
@@ -47,10 +48,10 @@ impl<const D: usize> Bodies<D> {
     /// Size: the length of the longest line, or the largest distance of two nodes if that is more, m. Where rigid bodies rotate in space it
     /// is `reach` instead of the distance.
     pub fn size(&self, reach: f64) -> f64 {
-        let cables = self.chains.iter().map(LineChain::length);
+        let cables = self.lines.iter().map(LineChain::length);
         let lengths = cables.chain(self.rods.iter().map(|rod| rod.length));
         let longest = lengths.fold(0.0, f64::max);
-        if self.chains.len() + self.rods.len() == 1 && self.ranges.len() == 1 {
+        if self.lines.len() + self.rods.len() == 1 && self.ranges.len() == 1 {
             return longest;
         }
         longest.max(if self.has_no_frames() {
@@ -69,21 +70,58 @@ impl<const D: usize> Bodies<D> {
         if largest > 0.0 { largest } else { 1.0 }
     }
 
-    /// Returns the meaning of the two vectors of a node.
-    pub fn kind(&self, node: usize) -> NodeKind {
-        self.frames.kind(node)
-    }
-
     /// Cost of an evaluation of the bodies: numbers of elements, lumped masses and rigid bodies.
     pub fn cost_units(&self) -> usize {
-        let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
-        elements + self.lumped_masses.len() + self.frames.list().len()
+        let mut cost = 0;
+        each!(self, |body| cost += BodyPart::<D>::cost(body));
+        cost
     }
 
     /// Whether anything in a body dissipates.
     pub fn is_damped(&self) -> bool {
-        self.rod_chains.iter().any(RodChain::is_damped)
-            || self.chains.iter().any(LineChain::is_damped)
+        let mut is_damped = false;
+        each!(self, |body| is_damped |= BodyPart::<D>::is_damped(body));
+        is_damped
+    }
+
+    /// Lines of flexible bodies.
+    pub fn lines(&self) -> &[LineChain<D>] {
+        &self.lines
+    }
+
+    /// Lines of flexible bodies, to be changed.
+    pub fn lines_mut(&mut self) -> &mut [LineChain<D>] {
+        &mut self.lines
+    }
+
+    /// Sections along lines, body by body.
+    pub fn all_sections(&self) -> &[RodChain] {
+        &self.sections
+    }
+
+    /// Masses in points.
+    pub fn masses(&self) -> &[LumpedMass] {
+        &self.masses
+    }
+
+    /// Straight rigid bodies whose sections are read.
+    pub fn rods(&self) -> &[RigidRod] {
+        &self.rods
+    }
+
+    /// Number of frames that a state holds: of rigid bodies of space, then of sections.
+    pub fn frame_count(&self) -> usize {
+        self.frames.count()
+    }
+
+    /// Number of sections whose moments are forces of their own: those of space.
+    pub fn moments(&self) -> usize {
+        self.frames.carried().len()
+    }
+
+    /// Rigid bodies of space.
+    pub fn rigid(&self) -> &[RigidBodyFrame] {
+        self.frames.list()
     }
 
     /// The body with this first node. Bodies stand in the order of their nodes.
@@ -99,7 +137,7 @@ impl<const D: usize> Bodies<D> {
 
     /// The first rod or beam, among the bodies, with an element that is bent or twisted beyond what its frames hold, and the element.
     pub fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
-        let mut found = self.rod_chains.iter().filter_map(|chain| {
+        let mut found = self.sections.iter().filter_map(|chain| {
             let element = chain.overbent(x)?;
             Some((self.body_from(chain.line())?, element))
         });
@@ -111,17 +149,10 @@ impl<const D: usize> Bodies<D> {
         self.pays_out
     }
 
-    /// Puts a line on a winch at its first or last end; the driven coordinate is the length that has been paid out, m.
-    pub fn pay_out(&mut self, line: usize, end: (bool, usize), gravity: Vector<D>) {
-        let winch = Winch::new(&self.chains[line], end, gravity);
-        self.chains[line].set_winch(winch);
-        self.pays_out = true;
-    }
-
     /// Lines that are paid out, each with its winch.
     #[inline(always)]
     pub fn winches(&self) -> impl Iterator<Item = (&LineChain<D>, &Winch<D>)> {
-        let lines = self.chains.iter().filter(|_| self.pays_out);
+        let lines = self.lines.iter().filter(|_| self.pays_out);
         lines.filter_map(|line| Some((line, line.winch()?)))
     }
 
@@ -140,7 +171,7 @@ impl<const D: usize> Bodies<D> {
     /// The line of a body.
     pub fn line(&self, body: usize) -> Option<&LineChain<D>> {
         let first = self.ranges[body].start;
-        self.chains.iter().find(|chain| chain.first_node() == first)
+        self.lines.iter().find(|chain| chain.first_node() == first)
     }
 
     /// Chain, element and place inside it of a marker of a flexible body.
@@ -167,7 +198,7 @@ impl<const D: usize> Bodies<D> {
     /// Bending and torsion of a rod or beam with this line.
     pub fn sections(&self, chain: &LineChain<D>) -> Option<&RodChain> {
         let first = chain.first_node();
-        self.rod_chains.iter().find(|rod| rod.line() == first)
+        self.sections.iter().find(|rod| rod.line() == first)
     }
 
     /// The straight rigid body with this node.

@@ -17,6 +17,8 @@
 //! Multibody System Dynamics 4 (2000) 129-193 (Cayley-Gibbs-Rodrigues parameters); H. Munthe-Kaas, BIT 38 (1998) 92-111
 //! (one-step methods in coordinates that are renewed every step).
 
+mod body;
+mod derivatives;
 mod section_frame;
 mod shear_rotation;
 mod tangent;
@@ -25,11 +27,14 @@ mod turn;
 use nalgebra::{Matrix3, Vector3};
 
 use super::connectivity::Node;
+use super::map::Rotations;
 use super::marker::Marker;
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, quaternion};
 use crate::math::space::{Vector, components, is_nothing, vector};
 
+pub(super) use body::unplaced;
+pub use derivatives::{AngularAccelerations, AxisMotion};
 pub use section_frame::{Derivative, SectionFrame, SectionFrameState};
 pub use tangent::turning_block;
 pub use turn::RotationIncrement;
@@ -114,20 +119,6 @@ impl RigidBodyFrame {
         (largest / self.mass).sqrt()
     }
 
-    /// `f += s M a` over its nodes, with the axes as coordinates.
-    pub fn add_inertia<const D: usize, N: Number>(
-        &self,
-        s: f64,
-        a: &[Node<D, N>],
-        f: &mut [Node<D, N>],
-    ) {
-        for (node, part, mass) in self.masses() {
-            for (f, a) in f[node][part].iter_mut().zip(&a[node][part]) {
-                *f += N::of(s * mass) * *a;
-            }
-        }
-    }
-
     /// Node and part of each of its vectors, and the mass that it would have as a coordinate: kg, then kg m^2.
     pub fn masses(&self) -> [(usize, usize, f64); 4] {
         let [a, b, c] = self.axis_masses();
@@ -206,15 +197,6 @@ impl RigidBodyFrame {
         let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| q[at] / scale);
         self.places.map(value).into()
     }
-}
-
-/// Rotations of rigid bodies and section frames from the frames that the state holds.
-#[derive(Debug)]
-pub struct Rotations<'a> {
-    /// Rotations of rigid bodies.
-    pub turns: &'a mut [RotationIncrement],
-    /// States of section frames.
-    pub carries: &'a mut [SectionFrameState],
 }
 
 /// Meaning of the two vectors of a node.
@@ -318,14 +300,14 @@ impl RotationMaps {
     pub fn place<const D: usize>(
         &self,
         from: &[Quaternion],
-        Rotations { turns, carries }: Rotations<'_>,
+        rotations: &mut Rotations,
         x: &mut [Node<D>],
     ) {
         if D == 2 {
             return;
         }
-        self.place_carried(&from[self.list.len()..], carries, x);
-        for ((frame, from), turn) in self.list.iter().zip(from).zip(turns) {
+        self.place_carried(&from[self.list.len()..], &mut rotations.sections, x);
+        for ((frame, from), turn) in self.list.iter().zip(from).zip(&mut rotations.rigid) {
             turn.rotation = components(&x[frame.node][1].into()).into();
             frame.set_axes(&axes(&turn.quaternion(from)), x);
         }
@@ -335,14 +317,14 @@ impl RotationMaps {
     pub fn place_rates<const D: usize>(
         &self,
         x: &[Node<D>],
-        Rotations { turns, carries }: Rotations<'_>,
+        rotations: &mut Rotations,
         v: &mut [Node<D>],
     ) {
         if D == 2 {
             return;
         }
-        self.place_carried_rates(x, carries, v);
-        for (frame, turn) in self.list.iter().zip(turns) {
+        self.place_carried_rates(x, &mut rotations.sections, v);
+        for (frame, turn) in self.list.iter().zip(&mut rotations.rigid) {
             turn.rate = components(&v[frame.node][1].into()).into();
             turn.spin = turn.spin_of(&turn.rate);
             frame.set_axes(&turned(&frame.axes(x), &turn.spin), v);

@@ -1,12 +1,51 @@
 //! From coordinates that are integrated to nodal coordinates `x`, and forces back. Nodes of cables are what is integrated. Nodes of rigid
 //! bodies and of sections follow from rotations (`frame.rs`), those of a cable on a winch from its length (`winch/lengthening.rs`).
 
-use super::Bodies;
 use super::assembly::NodeBlock;
+use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::Node;
-use super::frame::Rotations;
+use super::frame::{Derivative, RotationIncrement, SectionFrameState};
+use super::{Bodies, Elimination};
 use crate::math::jet::Number;
 use crate::math::rotation::Quaternion;
+
+/// How bodies and sections have rotated, at a configuration, from the frames that the state holds.
+#[derive(Clone, Debug, Default)]
+pub struct Rotations {
+    /// Rotations of rigid bodies of space, `[rigid bodies]`.
+    pub(super) rigid: Vec<RotationIncrement>,
+    /// States of section frames, `[section frames]`.
+    pub(super) sections: Vec<SectionFrameState>,
+}
+
+impl Rotations {
+    /// Without any rotation.
+    pub fn of<const D: usize>(bodies: &Bodies<D>) -> Self {
+        Self {
+            rigid: vec![RotationIncrement::default(); bodies.frames.list().len()],
+            sections: vec![SectionFrameState::default(); bodies.frames.carried().len()],
+        }
+    }
+
+    /// Takes over the rotations of rigid bodies alone.
+    pub fn copy_rigid(&mut self, other: &Self) {
+        self.rigid.copy_from_slice(&other.rigid);
+    }
+
+    /// Becomes the same as another one, without new memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.rigid.copy_from_slice(&other.rigid);
+        self.sections.copy_from_slice(&other.sections);
+    }
+}
+
+/// Vectors over the free coordinates and over the nodes that no one keeps.
+pub struct ScratchVectors<'a, const D: usize> {
+    /// `[free]`.
+    pub y: &'a mut [f64],
+    /// `[nodes]`.
+    pub nodal: &'a mut [Node<D>],
+}
 
 impl<const D: usize> Bodies<D> {
     /// Takes what is integrated, which `x` holds before, to nodal coordinates. Rotations count from the frames `from`.
@@ -15,7 +54,7 @@ impl<const D: usize> Bodies<D> {
         &self,
         from: &[Quaternion],
         drives: &[[f64; 3]],
-        rotations: Rotations<'_>,
+        rotations: &mut Rotations,
         x: &mut [Node<D>],
     ) {
         self.lengthen(drives, x);
@@ -27,7 +66,7 @@ impl<const D: usize> Bodies<D> {
     pub fn place_rates(
         &self,
         drives: &[[f64; 3]],
-        rotations: Rotations<'_>,
+        rotations: &mut Rotations,
         x: &[Node<D>],
         v: &mut [Node<D>],
     ) {
@@ -47,37 +86,34 @@ impl<const D: usize> Bodies<D> {
         self.frames.place_changes(x, dx);
     }
 
-    /// Adds to nodal accelerations what follows from positions `x` and rates `v` alone.
+    /// Adds to nodal accelerations what follows from positions and rates alone.
     #[inline(always)]
-    pub fn add_bias<N: Number>(
-        &self,
-        drives: &[[N; 3]],
-        (x, v): (&[Node<D, N>], &[Node<D, N>]),
-        a: &mut [Node<D, N>],
-    ) {
-        self.frames.add_centripetal((x, v), a);
-        self.add_lengthened(drives, (x, v), a);
+    pub fn add_bias<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
+        self.frames.add_centripetal(motion.pair(), a);
+        self.add_lengthened(motion, a);
     }
 
-    /// Takes forces on nodes back to what is integrated: forces, moments along axes. With `torques` and rates, gyroscopic moments and the
-    /// moments `torques` of sections are added.
+    /// Takes forces on nodes back to what is integrated: forces, moments along axes. Gyroscopic moments and the moments `torques` of sections
+    /// are added.
     #[inline(always)]
     pub fn pull_back_motion<N: Number>(
         &self,
-        drives: &[[N; 3]],
-        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        motion: NodalMotion<'_, D, N>,
         torques: &[[N; 3]],
         f: &mut [Node<D, N>],
     ) {
-        self.shorten(drives, f);
-        self.frames.pull_back((x, Some(v)), f);
+        self.shorten(motion.drives, f);
+        self.frames.pull_back((motion.x, Some(motion.v)), f);
         for (frame, torque) in self.frames.carried().iter().zip(torques) {
             let moment = f[frame.node][1].iter_mut().zip(torque);
             moment.for_each(|(sum, torque)| *sum += *torque);
         }
-        for chain in &self.rod_chains {
-            chain.add_gyroscopic((x, v), &self.frames, f);
-        }
+        each!(self, |body| BodyPart::add_gyroscopic(
+            body,
+            motion,
+            &self.frames,
+            f
+        ));
     }
 
     /// Takes second derivatives by two nodes back to what is integrated, and hands on the blocks.
@@ -90,15 +126,81 @@ impl<const D: usize> Bodies<D> {
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
         let shortened;
-        let block = if !self.pays_out {
-            block
-        } else {
+        let block = if self.pays_out {
             shortened = self.shorten_block((a, b), drives, block);
             &shortened
+        } else {
+            block
         };
         if self.has_no_frames() {
             return add(a, b, block);
         }
         self.frames.pull_block((a, b), block, x, add);
+    }
+
+    /// Converts changes of `q` between spins of bodies and sections, or their derivatives, and rotations from the frames that the state
+    /// holds.
+    #[inline(always)]
+    pub fn convert(
+        &self,
+        order: Derivative,
+        at: &Rotations,
+        elimination: &Elimination<D>,
+        ScratchVectors { y, nodal }: ScratchVectors<'_, D>,
+        q: &mut [f64],
+    ) {
+        if self.has_no_frames() {
+            return;
+        }
+        self.frames.convert(order, &at.rigid, q);
+        if self.frames.carried().is_empty() {
+            return;
+        }
+        elimination.expand(q, y, nodal);
+        self.frames.turn_carried(order, &at.sections, nodal, y);
+        elimination.coordinates_of(y);
+        q.copy_from_slice(y);
+    }
+
+    /// Takes over the rotations of a stage that differ from those where a tangent was made: of sections with a shear rotation, whose shear is
+    /// stiffer than they are inert. Inertia of all others is linear in `q`.
+    pub fn keep_stage(&self, now: &Rotations, stage: &mut Rotations) {
+        let kept = stage.sections.iter_mut().zip(&now.sections);
+        for ((kept, now), frame) in kept.zip(self.frames.carried()) {
+            if frame.has_shear {
+                *kept = *now;
+            }
+        }
+    }
+
+    /// Whether sections have frames that follow lines: their rotations depend on positions.
+    pub fn has_section_frames(&self) -> bool {
+        !self.frames.carried().is_empty()
+    }
+
+    /// Largest rotation of rigid bodies in the coordinates `q`, rad.
+    pub fn largest_rotation(&self, q: &[f64]) -> f64 {
+        self.frames.largest(q)
+    }
+
+    /// Largest rotation of a section from the frame that the state holds, rad.
+    pub fn largest_section_rotation(&self, at: &Rotations) -> f64 {
+        self.frames.largest_carry(&at.sections)
+    }
+
+    /// Rotations of sections begin at zero anew: `frames` become what they are at coordinates `x`. Coordinates and rates are over the free
+    /// coordinates.
+    pub fn renew_sections(
+        &self,
+        (x, at): (&[Node<D>], &Rotations),
+        frames: &mut [Quaternion],
+        free: [&mut [f64]; 2],
+    ) {
+        self.frames.renew_carried((x, &at.sections), frames, free);
+    }
+
+    /// Rotations of rigid bodies begin at zero anew: `frames` become what they are, and rates in `v` spins.
+    pub fn renew_rigid(&self, frames: &mut [Quaternion], q: &mut [f64], v: &mut [f64]) {
+        self.frames.renew(frames, q, v);
     }
 }

@@ -4,16 +4,21 @@
 mod all;
 mod articulated;
 mod assembly;
+mod body;
 mod chain;
 mod connectivity;
 mod elimination;
 mod frame;
 mod jacobian;
 mod layout;
+mod line;
+mod linearized;
 mod lumped;
 mod map;
 mod marker;
 mod mechanics;
+mod nodes;
+mod probe;
 mod rod_chain;
 mod setup;
 mod stages;
@@ -24,6 +29,7 @@ pub mod winch;
 pub use all::Bodies;
 pub use articulated::{Articulated, Link};
 pub use assembly::{Assembly, Links, NodeBlock, no_block};
+pub use body::NodalMotion;
 pub use chain::Chain;
 pub use connectivity::{
     Cluster, ConnectivityRow, Dependent, Node, RANK_TOLERANCE, add_node, carried_node,
@@ -31,14 +37,17 @@ pub use connectivity::{
 };
 pub use elimination::Elimination;
 pub use frame::{
-    Axes, Derivative, NodeKind, RENEWED, RigidBodyFrame, RotationIncrement, RotationMaps,
-    Rotations, SectionFrame, SectionFrameState, axes_at, combined, spin_at, turned, turning_block,
+    AngularAccelerations, Axes, AxisMotion, Derivative, NodeKind, RENEWED, RigidBodyFrame,
+    RotationMaps, SectionFrame, axes_at, combined, spin_at, turned, turning_block,
 };
 pub use jacobian::{Jacobian, SparseRows};
+pub use linearized::{ElementTangent, LinearTerms, LinearizationPoint};
 pub use lumped::{LumpedMass, RigidRod};
+pub use map::{Rotations, ScratchVectors};
 pub use marker::{Marker, Partial, block_of};
+pub use probe::{NodeBlocks, Nodes, Probe, SKEW};
 pub use rod_chain::{RodChain, carried_nodes, middle, planar_axes, turn_inner, untwisted};
-pub use stages::STAGES;
+pub use stages::{RotatingNodes, STAGES};
 pub use tangent::Tangent;
 pub use winch::Winch;
 

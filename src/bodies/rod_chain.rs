@@ -2,6 +2,7 @@
 //! those of the line, two for the frame carried at each of them, and one inside every element, which holds the internal twist and a beam's
 //! internal shear rotations alone. In the plane there are beams alone; the section at a node is a unit vector in one node (`plane.rs`).
 
+mod body;
 mod inertia;
 mod lanes;
 mod loaded;
@@ -17,7 +18,7 @@ use super::assembly::{NodeBlock, no_block};
 use super::connectivity::{Node, no_node};
 use super::frame::{RotationMaps, SectionFrame, axes_at, combined};
 use super::marker::Marker;
-use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
+use crate::elements::beam::{At, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::section::{SectionElement, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
@@ -220,73 +221,6 @@ impl RodChain {
     /// Returns the section frame at a node.
     fn frame<'a>(&self, k: usize, frames: &'a RotationMaps) -> &'a SectionFrame {
         &frames.carried()[self.carried + k]
-    }
-
-    /// [`Self::add_force`] of numbers of any kind, element by element.
-    pub fn add_force_of<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
-        (force, moments): (&mut [Node<D, N>], &mut [[N; 3]]),
-    ) -> N {
-        let mut sum = N::of(0.0);
-        for (j, (section, _)) in self.elements.iter().enumerate() {
-            let at = self.at(j, motion.0);
-            let rates = section.is_damped().then(|| self.rates(j, motion, frames));
-            let (
-                Force {
-                    e,
-                    moment,
-                    inner: f,
-                },
-                power,
-            ) = section.force(&at, rates.as_ref());
-            let [a, first, b, last, inner] = self.nodes(j);
-            for (k, vector) in e.iter().enumerate() {
-                let node = &mut force[[a, b][k / 2]][k % 2];
-                for (sum, f) in node.iter_mut().zip(vector) {
-                    *sum += *f;
-                }
-            }
-            for (k, moment) in moment.into_iter().enumerate() {
-                if D == 2 {
-                    let node = [first, last][k];
-                    plane::turn(&motion.0[node][1], &moment, &mut force[node][1]);
-                    continue;
-                }
-                for (sum, m) in moments[self.carried + j + k].iter_mut().zip(moment) {
-                    *sum += m;
-                }
-            }
-            for (k, (part, axis)) in self.inside() {
-                force[inner][part][axis] += f[k];
-            }
-            sum += power;
-        }
-        sum
-    }
-
-    /// Power that damping takes out, W.
-    pub fn dissipation<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
-    ) -> N {
-        let mut sum = N::of(0.0);
-        for (j, (section, _)) in self.elements.iter().enumerate() {
-            if section.is_damped() {
-                let rates = self.rates(j, motion, frames);
-                sum += section.force(&self.at(j, motion.0), Some(&rates)).1;
-            }
-        }
-        sum
-    }
-
-    /// Strain energy, J.
-    pub fn strain_energy<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> N {
-        let elements = self.elements.iter().enumerate();
-        let energies = elements.map(|(j, (section, _))| section.energy(&self.at(j, x)));
-        energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
     /// Coordinates inside its elements, and where they stand in their nodes.

@@ -32,6 +32,17 @@ use sections::StageSections;
 /// Most stages: one real and one complex system.
 pub const STAGES: usize = 3;
 
+/// Which nodes rotate with bodies, and how.
+#[derive(Clone, Debug)]
+pub struct RotatingNodes {
+    /// Nodes that rotate with elastic lines, `[nodes]`.
+    pub elastic: Vec<bool>,
+    /// Nodes of sections and of what is inside elements, which do not rotate on their own, `[nodes]`.
+    pub still: Vec<bool>,
+    /// Nodes of lines with those of the sections that they rotate with.
+    pub sections: Vec<(usize, usize)>,
+}
+
 /// Vectors of the stages and how far the directions of nodes have turned.
 #[derive(Clone, Debug)]
 pub struct Stages<const D: usize> {
@@ -87,15 +98,15 @@ impl<const D: usize> Stages<D> {
     pub(super) fn new(
         elimination: &Elimination<D>,
         grounded: &[usize],
-        ([elastic, still], sections): ([&[bool]; 2], &[(usize, usize)]),
+        rotating: &RotatingNodes,
     ) -> Self {
         let nodes = elimination.assembly.nodes();
         let directions = || vec![SVector::zeros(); nodes];
         Self {
-            floating: floating::<D>(elimination, grounded, still),
-            knots: knots(&elimination.assembly, elastic),
-            elastic: elastic.to_vec(),
-            sections: StageSections::new(sections),
+            floating: floating::<D>(elimination, grounded, &rotating.still),
+            knots: knots(&elimination.assembly, &rotating.elastic),
+            elastic: rotating.elastic.clone(),
+            sections: StageSections::new(&rotating.sections),
             nodes: vec![no_node(); nodes],
             base: directions(),
             turned: [directions(), directions(), directions()],

@@ -14,7 +14,7 @@ use nalgebra::Complex;
 use super::assembly::Assembly;
 use super::elimination::Elimination;
 use super::jacobian::{Jacobian, SparseRows};
-use super::stages::{STAGES, Stages};
+use super::stages::{RotatingNodes, STAGES, Stages};
 use crate::math::sparse::{Matrix, Number};
 
 /// Stiffness and damping over the free coordinates, and the factors of a combination with the mass. Rows and columns
@@ -78,13 +78,13 @@ impl<const D: usize> Tangent<D> {
         is_damped: bool,
         jacobian: &Jacobian,
         grounded: &[usize],
-        (elastic_and_still, sections): ([&[bool]; 2], &[(usize, usize)]),
+        rotating: &RotatingNodes,
     ) -> Self {
         let pattern = elimination.assembly.pattern();
         let zeros = Matrix::zeros(pattern);
         let parts = vec![0.0; jacobian.rows().count()];
         Self {
-            stages: Stages::new(elimination, grounded, (elastic_and_still, sections)),
+            stages: Stages::new(elimination, grounded, rotating),
             stiffness: zeros.clone(),
             damping: zeros.clone(),
             is_damped,

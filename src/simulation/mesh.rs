@@ -20,7 +20,7 @@ pub(super) fn resolution<const D: usize, N: Number>(
 ) -> N {
     let system = &assembled.system;
     let mut largest = N::of(0.0);
-    for chain in &system.bodies().chains {
+    for chain in system.bodies().lines() {
         let off = off(values, assembled, chain);
         if off > largest {
             largest = off;
@@ -90,9 +90,9 @@ impl<const D: usize> Engine<D> {
         }
         let (assembled, values) = self.placed(state, inputs);
         let system = &assembled.system;
-        let missed = (system.bodies().chains.iter()).map(|chain| off(values, assembled, chain));
+        let missed = (system.bodies().lines().iter()).map(|chain| off(values, assembled, chain));
         let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        let first = worst.map(|(chain, _)| system.bodies().chains[chain].first_node());
+        let first = worst.map(|(chain, _)| system.bodies().lines()[chain].first_node());
         let body = first.and_then(|first| system.bodies().body_from(first));
         self.mesh.found = body.map(|body| (body, resolution));
     }

@@ -93,7 +93,7 @@ impl<const D: usize> Engine<D> {
         for rod in watch.rods.iter_mut().filter(|rod| rod.found.is_none()) {
             let (assembled, values) = self.placed(state, inputs);
             let system = &assembled.system;
-            let square = values.turning_across(system, &system.bodies().chains[rod.chain]);
+            let square = values.turning_across(system, &system.bodies().lines()[rod.chain]);
             let share = rod.by_rate * square;
             rod.found = (share > SHARE).then_some(share);
         }

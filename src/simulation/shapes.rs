@@ -292,7 +292,7 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
             axes: Vec::new(),
         };
     }
-    if bodies.frames.body_of(first).is_none() {
+    if bodies.rigid_at(first).is_none() {
         return Pose {
             nodes: vec![[position, slope]],
             axes: Vec::new(),
@@ -334,7 +334,7 @@ fn outlines<const D: usize>(
     let mut found: Vec<Vec<[f64; 3]>> = (0..system.bodies().ranges.len())
         .map(|body| vec![components(&Vector::from(x[first(body)][0]))])
         .collect();
-    for chain in &system.bodies().chains {
+    for chain in system.bodies().lines() {
         let parts = parts(chain.elements().len());
         let along = |part: u32| chain.length() * f64::from(part) / f64::from(parts);
         if let Some(body) = system.bodies().body_from(chain.first_node()) {
@@ -342,7 +342,7 @@ fn outlines<const D: usize>(
             found[body] = (0..=parts).map(|part| components(&place(part))).collect();
         }
     }
-    for rod in &system.bodies().rods {
+    for rod in system.bodies().rods() {
         if let Some(body) = system.bodies().body_from(rod.node) {
             let ends = [-0.5, 0.5].map(|part| [part * rod.length, 0.0]);
             let ends = ends.map(|end| Marker::rigid(body, rod.node, end).position(x));

@@ -92,7 +92,7 @@ impl<const D: usize> System<D> {
             needs_rates: loads_damped
                 || parts.rotation != [0.0; 3]
                 || parts.tracks_work
-                || !bodies.frames.is_empty(),
+                || !bodies.has_no_frames(),
             reach: 0.0,
             bodies,
             elimination,
@@ -119,7 +119,7 @@ impl<const D: usize> System<D> {
         };
         system.find_functions();
         system.move_reference();
-        system.find_rotations();
+        system.bodies.find_rotations(&system.elimination);
         system.reach = system.find_reach();
         system.weight = system.bodies.weight(system.gravity);
         system.keep(nonlinear, &described);
@@ -177,44 +177,12 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Finds the rotations of rigid bodies among the coordinates.
-    fn find_rotations(&mut self) {
-        let mut frames = std::mem::take(&mut self.bodies.frames);
-        let mut y = vec![0.0; self.elimination.scratch()];
-        let turned = |axis: usize, moment: f64| {
-            let mut unit = no_node();
-            unit[1][axis] = moment;
-            unit
-        };
-        for frame in frames.list_mut() {
-            for axis in (0..3).filter(|axis| frame.moments[*axis] > 0.0) {
-                let unit = turned(axis, frame.moments[axis]);
-                let moved = self.elimination.reduce_node(frame.node, &unit, &mut y);
-                frame.places[axis] = moved.first().copied();
-            }
-        }
-        let assembly = &self.elimination.assembly;
-        for frame in frames.carried_mut() {
-            for axis in 0..frame.turns() {
-                assembly.restrict_node(frame.node, &turned(axis, 1.0), &mut y);
-                let mut range = assembly.range_of(frame.node);
-                let place = range.clone().find(|at| y[*at] != 0.0);
-                frame.places[axis] = place.map(|at| (at, y[at]));
-                range.by_ref().for_each(|at| y[at] = 0.0);
-            }
-        }
-        self.bodies.frames = frames;
-    }
-
     /// Largest distance from the first node of what its bodies reach, however they turn: nodes, joints, and the radius of
     /// gyration of bodies that turn, m.
     fn find_reach(&self) -> f64 {
         let first = Vector::from(self.bodies.reference[0][0]);
         let ends = || self.joints.iter().flat_map(|joint| &joint.ends);
-        let mut arms = vec![0.0_f64; self.bodies.reference.len()];
-        for frame in self.bodies.frames.list() {
-            arms[frame.node] = frame.gyration();
-        }
+        let mut arms = self.bodies.gyrations();
         for marker in ends()
             .filter_map(Attachment::marker)
             .filter(|m| m.is_framed())
@@ -246,16 +214,11 @@ impl<const D: usize> System<D> {
     /// Keeps non-linear constraints, but for those that nothing free can violate.
     fn keep(&mut self, nonlinear: Vec<Constraint<D>>, described: &[Node<D>]) {
         let mut x = self.bodies.reference.clone();
-        for frame in self.bodies.frames.list() {
-            frame.set_axes(&frame.axes(described), &mut x);
-        }
-        for frame in self.bodies.frames.carried() {
-            x[frame.node..][..2].copy_from_slice(&described[frame.node..][..2]);
-        }
+        self.bodies.take_axes(described, &mut x);
         let assembly = &self.elimination.assembly;
         let slides = nonlinear.iter().filter_map(|c| match &c.kind {
             ConstraintKind::PointOnCurve(along) if c.is_slide() => {
-                Some(along.nearest(&self.bodies.chains[along.chain], &x))
+                Some(along.nearest(&self.bodies.lines()[along.chain], &x))
             }
             _ => None,
         });
@@ -279,7 +242,7 @@ impl<const D: usize> System<D> {
         let mut y = vec![0.0; assembly.free()];
         let is_free = |(index, constraint): (usize, &Constraint<D>)| {
             let mut size = 0.0;
-            constraint.for_each_pulled((&view, &self.bodies.frames), |node, term| {
+            constraint.for_each_pulled(&view, |node, term| {
                 assembly.restrict_node(node, term, &mut y);
                 size += product(term, term);
             });
@@ -356,12 +319,8 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
             load.ends().iter().for_each(&mut take);
         }
     }
-    for lump in parts
-        .bodies
-        .lumped_masses
-        .iter()
-        .filter(|lump| lump.inertia > 0.0)
-    {
+    let masses = parts.bodies.masses().iter();
+    for lump in masses.filter(|lump| lump.inertia > 0.0) {
         take(&Attachment::Body(lump.marker));
     }
     takes
@@ -380,7 +339,7 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
     // Coordinates of a cable that is paid out are not moved alike by a translation of all.
     let paid_out = parts.winches.iter();
     let mut nodes: Vec<usize> = paid_out
-        .map(|(chain, ..)| parts.bodies.chains[*chain].first_node())
+        .map(|(chain, ..)| parts.bodies.lines()[*chain].first_node())
         .collect();
     for load in &parts.loads {
         let is_grounded = match load {

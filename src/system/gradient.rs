@@ -1,7 +1,7 @@
 //! Derivatives of a function of two ends, such as a constraint or a coordinate of a joint: forces on both, and over the nodes.
 
 use super::end::{Add, Attachment};
-use crate::bodies::{Node, RotationMaps, add_node, no_node};
+use crate::bodies::{Bodies, Node, add_node, no_node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, is_nothing};
 
@@ -58,21 +58,13 @@ impl<const D: usize, N: Number> Gradient<D, N> {
     #[inline(always)]
     pub fn for_each_pulled(
         &self,
-        frames: &RotationMaps,
+        bodies: &Bodies<D>,
         x: &[Node<D, N>],
         mut term: impl FnMut(usize, &Node<D, N>),
     ) {
         for (end, [position, direction]) in &self.ends {
-            let Attachment::Body(marker) = end else {
-                continue;
-            };
-            if frames.pull_marker(marker, [position, direction], x, &mut term) {
-                continue;
-            }
-            let [a, b] = marker.forces(*position, *direction);
-            term(a.0, &a.1);
-            if !marker.is_nodal() {
-                term(b.0, &b.1);
+            if let Attachment::Body(marker) = end {
+                bodies.pull_marker(marker, [position, direction], x, &mut term);
             }
         }
     }

@@ -207,7 +207,7 @@ impl<const D: usize> System<D> {
             pace: MethodStatistics::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
-            frames: vec![NO_TURN; self.bodies.frames.count()],
+            frames: vec![NO_TURN; self.bodies.frame_count()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
             released: vec![0.0; self.releases.len()],

@@ -6,7 +6,7 @@ use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
 use crate::bodies::{
-    Articulated, Jacobian, Node, RotationIncrement, STAGES, SectionFrameState, Tangent, no_node,
+    Articulated, Jacobian, NodalMotion, Node, Rotations, STAGES, Tangent, no_node,
 };
 use crate::math::jet::Number;
 use crate::math::recent::Recent;
@@ -59,9 +59,8 @@ pub struct Kinematics<const D: usize = 2> {
     pub x: Vec<Node<D>>,
     /// Rates of the nodal coordinates, `[nodes]`.
     pub v: Vec<Node<D>>,
-    /// Rotations of rigid bodies from their frames, and states of the section frames of rods and beams.
-    pub(super) turns: Vec<RotationIncrement>,
-    pub(super) carries: Vec<SectionFrameState>,
+    /// Rotations of bodies and sections from these frames.
+    pub(super) rotations: Rotations,
     /// Counted angles, `[angles]`, rad. Each search for one begins at its last value.
     pub(super) angles: Vec<f64>,
     /// Lengths along cables at which slides are, `[slides]`, m. Each search for one begins at its last value.
@@ -107,10 +106,8 @@ pub(super) struct Constraints<const D: usize> {
 pub(super) struct Linearized<const D: usize> {
     /// Stiffness and damping over the free coordinates, and their factors.
     pub tangent: Tangent<D>,
-    /// Rotations of rigid bodies where the tangent was computed.
-    pub base_turns: Vec<RotationIncrement>,
-    /// States of section frames where the tangent was computed, then of frames with a shear rotation at each stage.
-    pub stages: [Vec<SectionFrameState>; 1 + STAGES],
+    /// Rotations of bodies and sections where the tangent was computed, then with the shear rotations of each stage.
+    pub stages: [Rotations; 1 + STAGES],
 }
 
 /// Vectors that no stage keeps.
@@ -173,7 +170,7 @@ impl<const D: usize> Workspace<D> {
     /// For a system.
     pub fn new(system: &System<D>) -> Self {
         let nodes = vec![no_node(); system.bodies.reference.len()];
-        let ([elastic, still], sections) = moving(system);
+        let rotating = system.bodies.rotating_nodes();
         let is_linear = |row: usize| system.constraints[row].is_linear();
         let (elimination, multipliers) = (&system.elimination, &system.multipliers);
         let jacobian = Jacobian::new(elimination, multipliers, system.evenness(), is_linear);
@@ -182,19 +179,18 @@ impl<const D: usize> Workspace<D> {
             system.is_damped,
             &jacobian,
             &system.grounded,
-            ([&elastic, &still], &sections),
+            &rotating,
         );
         let lambda = vec![0.0; system.constraints.len()];
         let kinematics = Kinematics::new(system);
         Self {
             linearization: Linearized {
                 tangent,
-                base_turns: kinematics.turns.clone(),
-                stages: std::array::from_fn(|_| kinematics.carries.clone()),
+                stages: std::array::from_fn(|_| kinematics.rotations.clone()),
             },
             forces: NodalForces {
                 f: nodes.clone(),
-                torques: vec![[0.0; 3]; kinematics.carries.len()],
+                torques: vec![[0.0; 3]; system.bodies.moments()],
                 dissipated: 0.0,
                 linear_constraint_forces: nodes.clone(),
                 power: [0.0; 2],
@@ -256,6 +252,16 @@ pub(super) struct Frozen<N> {
 }
 
 impl<const D: usize> Kinematics<D> {
+    /// Configuration and rates as bodies see them.
+    #[inline(always)]
+    pub(super) fn motion(&self) -> NodalMotion<'_, D> {
+        NodalMotion {
+            drives: &self.drives,
+            x: &self.x,
+            v: &self.v,
+        }
+    }
+
     /// Converts what stands beside nodal coordinates and rates to constants of another kind of number.
     pub(super) fn frozen<N: Number>(&self) -> Frozen<N> {
         let lift = |x: &[f64]| x.iter().copied().map(N::of).collect();
@@ -277,40 +283,14 @@ impl<const D: usize> Kinematics<D> {
             recent: vec![Recent::default(); system.drives.len()],
             releases: system.releases.clone(),
             released: vec![false; system.releases.len()],
-            frames: vec![NO_TURN; system.bodies.frames.count()],
+            frames: vec![NO_TURN; system.bodies.frame_count()],
             drives: vec![[0.0; 3]; system.drives.len()],
             targets: vec![[0.0; 3]; system.driven.len()],
             x: nodes.clone(),
             v: nodes,
-            turns: vec![RotationIncrement::default(); system.bodies.frames.list().len()],
-            carries: vec![SectionFrameState::default(); system.bodies.frames.carried().len()],
+            rotations: Rotations::of(&system.bodies),
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
         }
     }
-}
-
-/// Which nodes turn with elastic lines and which of their own do not, and the nodes of lines with those of sections that they turn with.
-fn moving<const D: usize>(system: &System<D>) -> ([Vec<bool>; 2], Vec<(usize, usize)>) {
-    let mut elastic = vec![false; system.bodies.reference.len()];
-    for chain in &system.bodies.chains {
-        elastic[chain.range()].fill(true);
-    }
-    let mut still = vec![false; elastic.len()];
-    let mut sections = Vec::new();
-    for chain in &system.bodies.rod_chains {
-        if chain.has_shear() {
-            // These turn with their sections; in the plane by directions, as cables do.
-            sections.extend(chain.frames().map(|(frame, line)| (line, frame)));
-            sections
-                .iter()
-                .for_each(|(line, _)| elastic[*line] &= D == 2);
-        }
-        let frames = chain.frames().map(|(node, _)| node);
-        frames
-            .chain(chain.axes_nodes())
-            .chain(chain.inner())
-            .for_each(|node| still[node] = true);
-    }
-    ([elastic, still], sections)
 }

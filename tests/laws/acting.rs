@@ -154,16 +154,21 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
         let weight = 1.0;
         Some(vec![ContactPoint { marker, weight }])
     });
-    let cables = frame.bodies.chains.iter().enumerate().map(|(body, chain)| {
-        let elements = chain.elements().iter().enumerate();
-        let places = elements.flat_map(|(j, element)| {
-            [0.1, 0.6].map(|xi| ContactPoint {
-                marker: Marker::within(body, chain, j, xi),
-                weight: 0.5 * element.length(),
-            })
+    let cables = frame
+        .bodies
+        .lines()
+        .iter()
+        .enumerate()
+        .map(|(body, chain)| {
+            let elements = chain.elements().iter().enumerate();
+            let places = elements.flat_map(|(j, element)| {
+                [0.1, 0.6].map(|xi| ContactPoint {
+                    marker: Marker::within(body, chain, j, xi),
+                    weight: 0.5 * element.length(),
+                })
+            });
+            places.collect::<Vec<_>>()
         });
-        places.collect::<Vec<_>>()
-    });
     let normal = Vector2::new(made.noise[23].cos(), made.noise[23].sin());
     let both = markers.chain(cables).flat_map(|places| {
         let points = places.iter().map(|place| place.marker.position(&frame.x));

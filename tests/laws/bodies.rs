@@ -150,7 +150,7 @@ fn projecting_rates_that_constraints_allow_changes_nothing() {
         let mut values = Evaluation::new(&system);
         values.kinematics(&system, &started, &mut work);
         // |q'|^2 / 2 is the kinetic energy.
-        let rate = flat(&system.bodies().chains[0], &rates);
+        let rate = flat(&system.bodies().lines()[0], &rates);
         let energy = 0.5 * rate.dot(&(chain.mass() * &rate));
         let square = 0.5 * DVector::from_vec(q.clone()).norm_squared();
         let off = (energy - square).abs();

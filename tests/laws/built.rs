@@ -183,14 +183,15 @@ impl Mechanism {
             }
             joints.push(joint);
         }
+        let mut bodies = Bodies::new(self.nodes.clone(), ranges);
+        for line in self.chains() {
+            bodies.add_line(line);
+        }
+        for mass in lumped_masses {
+            bodies.add_mass(mass);
+        }
         Parts {
-            bodies: Bodies {
-                reference: self.nodes.clone(),
-                ranges,
-                chains: self.chains(),
-                lumped_masses,
-                ..Bodies::default()
-            },
+            bodies,
             rigid,
             joints,
             drives,

@@ -171,13 +171,11 @@ impl Chain {
         let node = |node: &[Vector2<f64>; 2]| node.map(Into::into);
         let nodes: Vec<Node> = self.nodes.iter().map(node).collect();
         let joints = self.joints.iter();
+        let ranges = std::iter::once(0..nodes.len()).collect();
+        let mut bodies = Bodies::new(nodes, ranges);
+        bodies.add_line(self.flexible());
         Parts {
-            bodies: Bodies {
-                ranges: std::iter::once(0..nodes.len()).collect(),
-                reference: nodes,
-                chains: vec![self.flexible()],
-                ..Bodies::default()
-            },
+            bodies,
             rigid: Vec::new(),
             joints: joints.map(|held| self.joint(held)).collect(),
             drives: Vec::new(),
@@ -342,11 +340,11 @@ pub fn expansion(system: &System) -> DMatrix<f64> {
         .map(|column| {
             let mut q = vec![0.0; system.coordinates()];
             q[column] = 1.0;
-            flat(&system.bodies().chains[0], &expand(system, &q))
+            flat(&system.bodies().lines()[0], &expand(system, &q))
         })
         .collect();
     if columns.is_empty() {
-        DMatrix::zeros(8 * system.bodies().chains[0].elements().len(), 0)
+        DMatrix::zeros(8 * system.bodies().lines()[0].elements().len(), 0)
     } else {
         DMatrix::from_columns(&columns)
     }
@@ -354,7 +352,7 @@ pub fn expansion(system: &System) -> DMatrix<f64> {
 
 /// The transposed matrix as `reduce` applies it to forces on elements, column by column.
 pub fn reduction(system: &System) -> DMatrix<f64> {
-    let chain = &system.bodies().chains[0];
+    let chain = &system.bodies().lines()[0];
     let size = 8 * chain.elements().len();
     let mut t = DMatrix::zeros(system.coordinates(), size);
     for column in 0..size {

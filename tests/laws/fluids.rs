@@ -31,7 +31,7 @@ fn fluid(frame: &Frame) -> Option<AppliedLoad> {
         buoyant: 0.3,
         inert: 0.4,
     };
-    let points = GAUSS_5.len() * frame.bodies.chains[chain].elements().len();
+    let points = GAUSS_5.len() * frame.bodies.lines()[chain].elements().len();
     Some(AppliedLoad::Fluid(Box::new(Fluid {
         on: LoadedLine::Chain(chain),
         strips: (0..points).map(strip).collect(),

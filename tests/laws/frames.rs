@@ -42,15 +42,11 @@ pub fn frame(made: Mechanism) -> Frame {
     for (x, dx) in x.iter_mut().zip(dx) {
         add_node(x, 1.0, &dx);
     }
-    Frame {
-        bodies: Bodies {
-            chains: made.chains(),
-            ..Bodies::default()
-        },
-        made,
-        x,
-        v,
+    let mut bodies = Bodies::default();
+    for line in made.chains() {
+        bodies.add_line(line);
     }
+    Frame { bodies, made, x, v }
 }
 
 /// Nodes moved along others.
@@ -85,7 +81,7 @@ impl Frame {
             .collect();
         let travel = match &constraint.kind {
             ConstraintKind::PointOnCurve(along) => {
-                vec![along.nearest(&self.bodies.chains[along.chain], x)]
+                vec![along.nearest(&self.bodies.lines()[along.chain], x)]
             }
             _ => Vec::new(),
         };

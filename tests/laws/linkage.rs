@@ -432,12 +432,11 @@ impl Mechanism {
                 moments: body.moments.into(),
                 places: [None; 3],
             });
-        let mut bodies = Bodies {
-            reference: self.nodes(|body| (body.center, body.axes)),
-            ranges: (0..count).map(|i| 2 * i..2 * i + 2).collect(),
-            ..Bodies::default()
-        };
-        frames.for_each(|frame| bodies.frames.push(frame));
+        let mut bodies = Bodies::new(
+            self.nodes(|body| (body.center, body.axes)),
+            (0..count).map(|i| 2 * i..2 * i + 2).collect(),
+        );
+        frames.for_each(|frame| bodies.add_rigid(frame));
         let mut parts = Parts {
             bodies,
             rigid: Vec::new(),

@@ -43,7 +43,7 @@ fn bulk(system: &System, state: &State) -> Bulk {
         angular: 0.0,
         energy: values.strain_energy(system) + values.kinetic_energy(system),
     };
-    let chain = &system.bodies().chains[0];
+    let chain = &system.bodies().lines()[0];
     for (j, element) in chain.elements().iter().enumerate() {
         let (e, rate) = (chain.element(j, &values.x), chain.element(j, &values.v));
         let weight = element.weight();

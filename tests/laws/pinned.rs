@@ -46,7 +46,7 @@ fn fall(unit: f64) -> DVector<f64> {
     let mut values = Evaluation::new(&system);
     let rest = system.blank_state(0.0);
     values.dynamics(&system, &rest, &[], &mut Workspace::new(&system));
-    flat(&system.bodies().chains[0], &values.acceleration) * unit
+    flat(&system.bodies().lines()[0], &values.acceleration) * unit
 }
 
 /// Acceleration of the pin, gap that opens between the elements, and acceleration of the tip

@@ -95,7 +95,7 @@ fn case(chain: &Chain) -> Case {
 
 /// All forces on all elements but those of connectivity and joints; loads act on the element after.
 fn applied(chain: &Chain, case: &Case) -> DVector<f64> {
-    let body = &case.system.bodies().chains[0];
+    let body = &case.system.bodies().lines()[0];
     let [e, rate] = [&case.values.x, &case.values.v].map(|x| flat(body, x));
     let mut f = DVector::zeros(chain.size());
     for (j, element) in chain.elements.iter().enumerate() {
@@ -121,7 +121,7 @@ fn applied(chain: &Chain, case: &Case) -> DVector<f64> {
 fn agrees_with_augmented(chain: &Chain, allowed: f64) -> Outcome {
     let case = case(chain);
     let (system, values) = (&case.system, &case.values);
-    let body = &system.bodies().chains[0];
+    let body = &system.bodies().lines()[0];
     let (expected, multipliers) = augmented(chain, &applied(chain, &case));
     // In the mass norm, as everything here is.
     let difference = flat(body, &values.acceleration) - &expected;
@@ -192,7 +192,7 @@ fn resultant(e: &DVector<f64>, force: &DVector<f64>) -> (Vector2<f64>, f64) {
 fn newton_and_euler(chain: &Chain) -> Outcome {
     let mut case = case(chain);
     let (system, values) = (&case.system, &case.values);
-    let body = &system.bodies().chains[0];
+    let body = &system.bodies().lines()[0];
     let (e, rate) = (flat(body, &values.x), flat(body, &values.v));
     let inertia = chain.mass() * flat(body, &values.acceleration);
     let applied = applied(chain, &case);

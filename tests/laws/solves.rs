@@ -1,6 +1,6 @@
 //! Solves with the tangent in the coordinates `q`, against dense matrices and differences.
 
-use flexbody::bodies::{Jacobian, Tangent, add_node};
+use flexbody::bodies::{Jacobian, RotatingNodes, Tangent, add_node};
 use flexbody::elements::{Element, Nodal};
 use flexbody::system::loads::{AppliedLoad, Force, Moment};
 use flexbody::system::{Attachment, DrivenSystem, Dynamics, Signal, System, fastest};
@@ -30,7 +30,7 @@ fn dense(chain: &Chain, loads: Vec<AppliedLoad>) -> Dense {
     let q = chain.coordinates(&system, 0.25);
     let v = chain.coordinates(&system, 1.0);
     let t = expansion(&system);
-    let body = &system.bodies().chains[0];
+    let body = &system.bodies().lines()[0];
     let e = flat(body, &system.bodies().reference) + &t * DVector::from_column_slice(&q);
     let rate = &t * DVector::from_column_slice(&v);
     let part =
@@ -305,14 +305,18 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
             add_node(x, 1.0, reference);
         }
         let elimination = system.elimination();
-        let body = &system.bodies().chains[0];
-        let elastic = vec![true; x.len()];
+        let body = &system.bodies().lines()[0];
+        let rotating = RotatingNodes {
+            elastic: vec![true; x.len()],
+            still: vec![false; x.len()],
+            sections: Vec::new(),
+        };
         let mut tangent: Tangent<2> = Tangent::new(
             elimination,
             body.is_damped(),
             &Jacobian::new(elimination, &[], Vec::new(), |_| false),
             &[],
-            ([&elastic, &vec![false; elastic.len()]], &[]),
+            &rotating,
         );
         tangent.clear();
         let assembly = &elimination.assembly;

@@ -1,7 +1,8 @@
 //! Chains of cables in space: what bodies of the plane promise holds for any dimension.
 
 use flexbody::bodies::{
-    Assembly, Chain, ConnectivityRow, Elimination, Jacobian, Links, Node, Tangent, map_node,
+    Assembly, Chain, ConnectivityRow, Elimination, Jacobian, Links, Node, RotatingNodes, Tangent,
+    map_node,
 };
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Nodal, StrainMeasure};
@@ -159,13 +160,17 @@ impl Case {
     }
 
     fn tangent(&self, x: &[Node<3>]) -> Tangent<3> {
-        let elastic = vec![true; x.len()];
+        let rotating = RotatingNodes {
+            elastic: vec![true; x.len()],
+            still: vec![false; x.len()],
+            sections: Vec::new(),
+        };
         let mut tangent: Tangent<3> = Tangent::new(
             &self.elimination,
             false,
             &Jacobian::new(&self.elimination, &[], Vec::new(), |_| false),
             &[],
-            ([&elastic, &vec![false; elastic.len()]], &[]),
+            &rotating,
         );
         tangent.clear();
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);

@@ -95,7 +95,7 @@ fn kernels_of<const D: usize>(
     let (rest, mut force) = (vec![no_node(); nodes.len()], vec![no_node(); nodes.len()]);
     group.bench_function("force", |b| {
         b.iter(|| {
-            bench.system.bodies().chains[0].add_force(
+            bench.system.bodies().lines()[0].add_force(
                 (black_box(&nodes), &rest),
                 [1.0, 0.0],
                 &mut force,

@@ -153,6 +153,23 @@ impl RotationMaps {
         [Some((frame.node, partial)), None]
     }
 
+    /// Calls with the geometric stiffness of forces over the nodes on axes, symmetric, pair by pair of nodes that have coordinates.
+    pub fn for_each_geometric<const D: usize>(
+        &self,
+        f: &[Node<D>],
+        x: &[Node<D>],
+        mut add: impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        for frame in &self.list {
+            let turned = Self::geometric(frame, f, x);
+            let block = turning_block(&((turned + turned.transpose()) * 0.5));
+            add(frame.node, frame.node, &block);
+        }
+        for frame in &self.carried {
+            Self::geometric_of_carried(frame, f, x, &mut add);
+        }
+    }
+
     /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,
     /// symmetric where the forces have no moment.
     pub fn geometric<const D: usize>(

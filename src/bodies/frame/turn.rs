@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use super::{RigidBodyFrame, RotationMaps};
+use super::{Derivative, RigidBodyFrame, RotationMaps};
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, normalized, product};
 
@@ -85,30 +85,23 @@ impl RigidBodyFrame {
 }
 
 impl RotationMaps {
-    /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
-    /// angular velocities rates.
-    pub fn to_rotations(&self, turns: &[RotationIncrement], q: &mut [f64]) {
+    /// Converts changes of `q` between small rotations about axes, or angular velocities and their derivatives, and rotations from the frames
+    /// that the state holds.
+    pub fn convert(&self, order: Derivative, turns: &[RotationIncrement], q: &mut [f64]) {
         for (frame, turn) in self.list.iter().zip(turns) {
             let mut spin = frame.read(q);
-            frame.complete(turn, &mut spin, false);
-            frame.write(&turn.rate_of(&spin), q);
-        }
-    }
-
-    /// The way back of [`RotationMaps::to_rotations`].
-    pub fn to_spins(&self, turns: &[RotationIncrement], q: &mut [f64]) {
-        for (frame, turn) in self.list.iter().zip(turns) {
-            let spin = turn.spin_of(&frame.read(q));
-            frame.write(&spin, q);
-        }
-    }
-
-    /// Angular accelerations become second derivatives of rotations.
-    pub fn to_second(&self, turns: &[RotationIncrement], a: &mut [f64]) {
-        for (frame, turn) in self.list.iter().zip(turns) {
-            let mut rate = frame.read(a);
-            frame.complete(turn, &mut rate, true);
-            frame.write(&turn.second_of(&rate), a);
+            let converted = match order {
+                Derivative::First => {
+                    frame.complete(turn, &mut spin, false);
+                    turn.rate_of(&spin)
+                }
+                Derivative::Second => {
+                    frame.complete(turn, &mut spin, true);
+                    turn.second_of(&spin)
+                }
+                Derivative::Back => turn.spin_of(&spin),
+            };
+            frame.write(&converted, q);
         }
     }
 

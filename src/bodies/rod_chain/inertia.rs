@@ -2,18 +2,15 @@
 
 use std::ops::Range;
 
-use super::loaded::add_moment;
 use super::{RodChain, part, plane};
-use crate::bodies::assembly::{Assembly, no_block};
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{RotationMaps, SectionFrame};
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
-use crate::math::sparse::Matrix;
 
 impl RodChain {
     /// Momenta conjugate to the spins at the ends of element `j` and to its rates inside, N m s: first end, inside, last end.
-    fn momenta<const D: usize, N: Number>(
+    pub(super) fn momenta<const D: usize, N: Number>(
         &self,
         j: usize,
         motion: (&[Node<D, N>], &[Node<D, N>]),
@@ -65,57 +62,8 @@ impl RodChain {
         (0..self.elements.len()).fold(N::of(0.0), |sum, j| sum + inside(j))
     }
 
-    /// Kinetic energy of spin, J.
-    pub fn spin_energy<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
-    ) -> N {
-        let mut sum = N::of(0.0);
-        for j in 0..self.elements.len() {
-            let rates = self.rates(j, motion, frames);
-            let momenta = self.momenta_of(j, &rates);
-            let rates = [rates.spin[0], rates.inner, rates.spin[1]];
-            for place in self.massive() {
-                let terms = momenta[place].iter().zip(&rates[place]);
-                sum = terms.fold(sum, |sum, (p, w)| sum + *p * *w);
-            }
-        }
-        sum * N::of(0.5)
-    }
-
-    /// Adds the force on slopes, or of a beam the moment on sections, that spin asks for where sections turn.
-    pub fn add_gyroscopic<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
-        force: &mut [Node<D, N>],
-    ) {
-        self.for_each_momentum(motion, frames, |frame, momentum| {
-            frame.add_gyroscopic(momentum, motion, force);
-        });
-    }
-
-    /// Adds mass times changes of spins and internal coordinates, over the nodes: forces on axes whose moments along them these are.
-    pub fn add_spin_inertia<const D: usize>(
-        &self,
-        (x, dx): (&[Node<D>], &[Node<D>]),
-        frames: &RotationMaps,
-        force: &mut [Node<D>],
-    ) {
-        for j in 0..self.elements.len() {
-            let [a, inner, b] = self.momenta(j, (x, dx), frames);
-            for (k, moment) in [(j, a), (j + 1, b)].into_iter().filter(|_| D > 2) {
-                add_moment(self.frame(k, frames).node, &moment, x, force);
-            }
-            for (k, (part, axis)) in self.inside() {
-                force[self.inner + j][part][axis] += inner[k];
-            }
-        }
-    }
-
     /// Which of first end, inside and last end of an element have inertia that is none of a node: in the plane the inside alone.
-    fn massive(&self) -> Range<usize> {
+    pub(super) fn massive(&self) -> Range<usize> {
         if self.is_planar() { 1..2 } else { 0..3 }
     }
 
@@ -127,28 +75,6 @@ impl RodChain {
         };
         let frames = self.frames().enumerate();
         frames.map(move |(k, (node, _))| (node, of(k.checked_sub(1), 2) + of(Some(k), 0)))
-    }
-
-    /// Adds the inertia of spins to a matrix of the system.
-    pub fn add_mass<const D: usize>(&self, assembly: &Assembly<D>, matrix: &mut Matrix<f64>) {
-        let turns: Vec<_> = self.parts.clone().map(|k| (k, (1, k))).collect();
-        let inside: Vec<_> = self.inside().collect();
-        for (j, (_, inertia)) in self.elements.iter().enumerate() {
-            let [_, a, _, b, inner] = self.nodes(j);
-            let places = [(a, &turns), (inner, &inside), (b, &turns)];
-            for r in self.massive() {
-                for c in self.massive().take_while(|c| *c <= r) {
-                    let (mut block, ((row, at), (column, on))) =
-                        (no_block(), (places[r], places[c]));
-                    for (i, (p, axis)) in at {
-                        for (k, (q, other)) in on {
-                            block[*p][*axis][*q][*other] = inertia[r][c][*i][*k];
-                        }
-                    }
-                    assembly.add(row, column, &block, matrix);
-                }
-            }
-        }
     }
 
     /// Returns the force residual of element `j`: elastic and damping forces minus the inertia forces of spins. Inertia

@@ -69,52 +69,15 @@ impl RodChain {
     }
 
     /// Momenta of spins at both ends alone.
-    fn momenta_of_spins<N: Number>(&self, j: usize, spin: [[N; 3]; 2]) -> [[N; 3]; 3] {
+    pub(super) fn momenta_of_spins<N: Number>(&self, j: usize, spin: [[N; 3]; 2]) -> [[N; 3]; 3] {
         let none = [N::of(0.0); 3];
         let (e, inner) = ([none; 4], none);
         self.momenta_of(j, &Rates { e, spin, inner })
     }
-
-    /// Adds the same of all elements to forces over the nodes.
-    pub fn add_turning<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        rotation: Rotation,
-        frames: &RotationMaps,
-        force: &mut [Node<D, N>],
-    ) {
-        // In the plane directions of sections have inertia as other directions have.
-        for j in (0..self.count()).filter(|_| D > 2) {
-            self.add_load(
-                j,
-                &self.turning(j, motion, rotation, frames),
-                motion.0,
-                force,
-            );
-        }
-    }
-
-    /// Kinetic energy of the spins that the rotation of the scene gives to sections, J.
-    pub fn turning_energy<const D: usize, N: Number>(
-        &self,
-        x: &[Node<D, N>],
-        rotation: Rotation,
-        frames: &RotationMaps,
-    ) -> N {
-        let mut sum = N::of(0.0);
-        for j in (0..self.count()).filter(|_| D > 2) {
-            let spin = [j, j + 1].map(|k| along(self.frame(k, frames), rotation, x));
-            let [first, _, last] = self.momenta_of_spins(j, spin);
-            let pairs = [first, last].into_iter().flatten();
-            let terms = pairs.zip(spin.into_iter().flatten());
-            sum = terms.fold(sum, |sum, (momentum, rate)| sum + momentum * rate);
-        }
-        sum * N::of(0.5)
-    }
 }
 
 /// Components of the rotation along the axes about which a section spins freely, or their rates where `x` holds rates.
-fn along<const D: usize, N: Number>(
+pub(super) fn along<const D: usize, N: Number>(
     frame: &SectionFrame,
     rotation: Rotation,
     x: &[Node<D, N>],

@@ -3,9 +3,9 @@
 //! `x`.
 
 use super::{Length, Winch};
-use crate::bodies::{Bodies, Node, NodeBlock, map_node};
+use crate::bodies::{Bodies, NodalMotion, Node, NodeBlock, map_node};
 use crate::elements::Nodal;
-use crate::math::jet::Number;
+use crate::math::jet::{Jet, Number};
 
 /// Part of the reference length below which a cable cannot be taken in.
 const SHORTEST: f64 = 1e-3;
@@ -78,19 +78,14 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Adds the accelerations of nodes that do not follow from those of coordinates, `2 s' u' + s'' u`.
-    pub fn add_lengthened<N: Number>(
-        &self,
-        drives: &[[N; 3]],
-        (x, v): (&[Node<D, N>], &[Node<D, N>]),
-        out: &mut [Node<D, N>],
-    ) {
-        for (_, node, now) in self.lengthened(drives) {
-            let ([root, rate, second], way) = (now.root, self.way(node, x, &now));
+    pub fn add_lengthened<N: Number>(&self, motion: NodalMotion<'_, D, N>, out: &mut [Node<D, N>]) {
+        for (_, node, now) in self.lengthened(motion.drives) {
+            let ([root, rate, second], way) = (now.root, self.way(node, motion.x, &now));
             let twice = N::of(2.0) * rate / root;
             change(&mut out[node], &way, |sum, u| {
                 sum + (second - twice * rate) * u
             });
-            change(&mut out[node], &v[node], |sum, v| sum + twice * v);
+            change(&mut out[node], &motion.v[node], |sum, v| sum + twice * v);
         }
     }
 
@@ -131,15 +126,14 @@ impl<const D: usize> Bodies<D> {
     /// accelerations that do not follow from those of coordinates. These are left in `moved`.
     pub fn add_lengthening<N: Number>(
         &self,
-        drives: &[[N; 3]],
-        motion: (&[Node<D, N>], &[Node<D, N>]),
+        motion: NodalMotion<'_, D, N>,
         moved: &mut [Node<D, N>],
         force: &mut [Node<D, N>],
     ) {
         moved.fill([[N::of(0.0); D]; 2]);
-        self.add_lengthened(drives, motion, moved);
+        self.add_lengthened(motion, moved);
         for (chain, winch) in self.winches() {
-            let longer = winch.now(drives).longer_by();
+            let longer = winch.now(motion.drives).longer_by();
             chain.add_weight(&(winch.gravity.map(N::of) * (longer - N::of(1.0))), force);
             chain.add_inertia(-longer, moved, force);
         }
@@ -169,6 +163,53 @@ impl<const D: usize> Bodies<D> {
                 let momentum: Nodal<D> = winch.passing_momentum(chain, j, x, &now) * factor;
                 chain.add_to(j, &momentum, f);
             }
+        }
+    }
+
+    /// Takes derivative `k` of accelerations of coordinates `found`, over the nodes, to what it is in that of the nodes: every number of cables
+    /// that are paid out changes with their length. `value` are the
+    /// nodal accelerations, `acceleration` the same with the derivatives known, and `bias` the part of it that follows from positions and rates
+    /// alone.
+    pub fn differentiate_lengthened(
+        &self,
+        k: usize,
+        drives: &[[Jet; 3]],
+        value: &[Node<D>],
+        (bias, acceleration): (&[Node<D, Jet>], &[Node<D, Jet>]),
+        found: &mut [Node<D>],
+    ) {
+        for (_, winch) in self.winches() {
+            let [root, ..] = winch.now(drives).root;
+            for node in winch.nodes.clone() {
+                let driven = bias[node].as_flattened();
+                let known = acceleration[node].as_flattened();
+                let value = value[node].as_flattened();
+                let found = found[node].as_flattened_mut().iter_mut();
+                for (i, found) in found.enumerate() {
+                    let own = (value[i] - driven[i].re) / root.re;
+                    let below = match k {
+                        1 => root.v1 * own,
+                        _ => {
+                            let first = known[i].v1 - driven[i].v1 - root.v1 * own;
+                            2.0 * root.v1 * first / root.re + root.v2 * own
+                        }
+                    };
+                    *found = root.re * *found + below;
+                }
+            }
+        }
+    }
+
+    /// Adds the inertia that cables have more of than their reference at these accelerations, N.
+    pub fn add_inertia_of_paid_out<N: Number>(
+        &self,
+        drives: &[[N; 3]],
+        acceleration: &[Node<D, N>],
+        f: &mut [Node<D, N>],
+    ) {
+        for (line, winch) in self.winches() {
+            let more = winch.now(drives).longer_by() - N::of(1.0);
+            line.add_inertia(more, acceleration, f);
         }
     }
 }

@@ -55,8 +55,8 @@ impl<const D: usize> Builder<'_, D> {
         }
         let nodes = first..self.parts.bodies.reference.len();
         let mut axes = Vec::new();
-        axes.extend((self.parts.bodies.frames.list().last()).map(|frame| frame.node + 1));
-        let sections = (self.parts.bodies.rod_chains.last()).filter(|rod| rod.line() == first);
+        axes.extend((self.parts.bodies.rigid().last()).map(|frame| frame.node + 1));
+        let sections = (self.parts.bodies.all_sections().last()).filter(|rod| rod.line() == first);
         axes.extend(sections.into_iter().flat_map(RodChain::axes_nodes));
         axes.retain(|node| nodes.contains(node));
         let still = sections.map_or(nodes.end, |rod| rod.inner().start);
@@ -101,7 +101,7 @@ impl<const D: usize> Builder<'_, D> {
         let node = self.parts.bodies.reference.len();
         // What rounding left of the moment of a thin rod about itself is none.
         let rounded = |moment| if moment > 1e-9 * largest { moment } else { 0.0 };
-        self.parts.bodies.frames.push(RigidBodyFrame {
+        self.parts.bodies.add_rigid(RigidBodyFrame {
             node,
             mass: solid.mass,
             moments: solid.moments.map(rounded),
@@ -138,7 +138,7 @@ impl<const D: usize> Builder<'_, D> {
             ways.map(|way| vector::<D, f64>(way).into())
         };
         self.parts.bodies.reference.extend(mesh.iter().map(node));
-        self.parts.bodies.chains.push(chain);
+        self.parts.bodies.add_line(chain);
         if cable.is_rod() {
             self.sections(cable, axial, &mesh, first);
         }
@@ -150,10 +150,11 @@ impl<const D: usize> Builder<'_, D> {
 
     /// The directions of the sections of the planar beam built last keep their length, and have its rotary inertia.
     fn directions(&mut self, body: usize) {
-        let chain = self.parts.bodies.rod_chains.last();
-        for (node, inertia) in chain.into_iter().flat_map(RodChain::planar_inertia) {
+        let sections = self.parts.bodies.all_sections().last();
+        let inertia = sections.into_iter().flat_map(RodChain::planar_inertia);
+        for (node, inertia) in inertia.collect::<Vec<_>>() {
             self.parts.rigid.push((node, true));
-            self.parts.bodies.lumped_masses.push(LumpedMass {
+            self.parts.bodies.add_mass(LumpedMass {
                 marker: Marker::rigid(body, node, [0.0; 2]),
                 mass: 0.0,
                 added: 0.0,
@@ -175,13 +176,7 @@ impl<const D: usize> Builder<'_, D> {
             2 => line.iter().map(|[_, slope]| [[0.0; D], *slope]).collect(),
             _ => carried_nodes(&line, rod.first_axis(), (tangent, steps), twists),
         };
-        let carried = self
-            .parts
-            .bodies
-            .rod_chains
-            .iter()
-            .map(|chain| chain.count() + 1);
-        let carried = carried.sum();
+        let carried = self.parts.bodies.section_frames();
         let length_of = |j: usize| (mesh[j + 1] - mesh[j]) * rod.shape.length();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {
             let length = length_of(j);
@@ -227,7 +222,7 @@ impl<const D: usize> Builder<'_, D> {
             _ => untwisted(),
         });
         self.parts.bodies.reference.extend(inner);
-        self.parts.bodies.rod_chains.push(chain);
+        self.parts.bodies.add_sections(chain);
     }
 
     /// A cable that does not bend, about its middle; gives back how far along it from there its first end is, m.
@@ -237,10 +232,10 @@ impl<const D: usize> Builder<'_, D> {
         let mass = cable.line_density_of(&section) * length;
         let added = self.resolved.added_mass(index, &section) * length;
         let [x, y, _] = cable.shape.tangent(0.5);
-        self.parts.bodies.rods.push(RigidRod {
+        self.parts.bodies.add_rod(RigidRod {
             node: self.parts.bodies.reference.len(),
             length,
-            mass: self.parts.bodies.lumped_masses.len(),
+            mass: self.parts.bodies.masses().len(),
         });
         self.lump(
             index,
@@ -261,7 +256,7 @@ impl<const D: usize> Builder<'_, D> {
         let position: Vector<D> = vector(lump.position);
         (self.parts.bodies.reference).push([position.into(), direction.into()]);
         self.parts.rigid.push((node, lump.inertia > 0.0));
-        self.parts.bodies.lumped_masses.push(LumpedMass {
+        self.parts.bodies.add_mass(LumpedMass {
             marker: Marker::rigid(index, node, [0.0; 2]),
             mass: lump.mass,
             added: lump.added,
@@ -273,7 +268,8 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn along(&self, cable: Cable<'_>, s: f64) -> Marker {
         match cable.id.form {
             Form::Chain(chain) => {
-                let (chain, marker) = (&self.parts.bodies.chains[chain], self.on_line_of(cable, s));
+                let (chain, marker) =
+                    (&self.parts.bodies.lines()[chain], self.on_line_of(cable, s));
                 let sections = self.parts.bodies.sections(chain);
                 let section = sections.and_then(|rod| rod.section_at(&marker));
                 section.unwrap_or(marker)
@@ -287,11 +283,11 @@ impl<const D: usize> Builder<'_, D> {
         let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {
-                let chain = &self.parts.bodies.chains[chain];
+                let chain = &self.parts.bodies.lines()[chain];
                 Marker::along(body, chain, s * chain.length())
             }
             Form::Rod(rod) => {
-                let RigidRod { node, length, .. } = self.parts.bodies.rods[rod];
+                let RigidRod { node, length, .. } = self.parts.bodies.rods()[rod];
                 Marker::rigid(body, node, [(s - 0.5) * length, 0.0])
             }
         }

@@ -34,7 +34,7 @@ impl<const D: usize> Builder<'_, D> {
         let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {
-                let chain = &self.parts.bodies.chains[chain];
+                let chain = &self.parts.bodies.lines()[chain];
                 let elements = chain.elements().iter().enumerate();
                 let places = elements.flat_map(|(j, element)| {
                     GAUSS_5.map(|point| ContactPoint {
@@ -45,7 +45,7 @@ impl<const D: usize> Builder<'_, D> {
                 places.collect()
             }
             Form::Rod(rod) => {
-                let RigidRod { node, length, .. } = self.parts.bodies.rods[rod];
+                let RigidRod { node, length, .. } = self.parts.bodies.rods()[rod];
                 let part = length / PANELS as f64;
                 let places = (0..PANELS).flat_map(|panel| {
                     GAUSS_5.map(|point| {

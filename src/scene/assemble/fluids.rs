@@ -51,7 +51,7 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn line(&self, cable: Cable<'_>) -> LoadedLine {
         match cable.id.form {
             Form::Chain(chain) => LoadedLine::Chain(chain),
-            Form::Rod(rod) => LoadedLine::Rod(self.parts.bodies.rods[rod]),
+            Form::Rod(rod) => LoadedLine::Rod(self.parts.bodies.rods()[rod]),
         }
     }
 

@@ -90,7 +90,7 @@ impl<const D: usize> Builder<'_, D> {
     fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> AppliedLoad<D> {
         let end = self.along(cable, 0.0);
         let first = |chain: &RodChain| chain.frames().next();
-        let mut firsts = self.parts.bodies.rod_chains.iter().filter_map(first);
+        let mut firsts = self.parts.bodies.all_sections().iter().filter_map(first);
         let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
         AppliedLoad::DistributedMoment(Box::new(DistributedMoment {
             on: on.expect("a body with sections is among the rods"),

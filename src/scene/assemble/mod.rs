@@ -96,7 +96,7 @@ impl<const D: usize> Assembled<D> {
         } = state;
         let system = &self.system;
         let bodies = system.bodies();
-        for (node, held, now) in bodies.frames.quaternions(frames, coordinates) {
+        for (node, held, now) in bodies.quaternions(frames, coordinates) {
             let body = bodies.body_from(node);
             if body.is_some_and(|body| self.held(now, body)[0] < 0.0) {
                 *held = held.map(|part| -part);
@@ -259,21 +259,20 @@ impl<const D: usize> Builder<'_, D> {
             let section = Some(self.marker(mass.marker));
             let section = section.filter(|of| D == 2 && of.nodes != marker.nodes);
             let inertia = if section.is_some() { 0.0 } else { mass.inertia };
-            self.parts.bodies.lumped_masses.push(LumpedMass {
+            self.parts.bodies.add_mass(LumpedMass {
                 marker,
                 mass: mass.mass,
                 added: 0.0,
                 inertia,
             });
-            self.parts
-                .bodies
-                .lumped_masses
-                .extend(section.map(|of| LumpedMass {
+            if let Some(of) = section {
+                self.parts.bodies.add_mass(LumpedMass {
                     marker: Marker::rigid(of.body, of.nodes[1], [0.0; 2]),
                     mass: 0.0,
                     added: 0.0,
                     inertia: mass.inertia,
-                }));
+                });
+            }
         }
     }
 

@@ -20,17 +20,13 @@ pub(super) fn free_ends<const D: usize>(parts: &mut Parts<D>) {
     let ends = joints.chain(parts.loads.iter().flat_map(AppliedLoad::ends));
     let lumped_masses = parts
         .bodies
-        .lumped_masses
+        .masses()
         .iter()
         .flat_map(|lump| lump.marker.nodes);
     for node in ends.flat_map(|end| end.nodes()).chain(lumped_masses) {
         used[node] = true;
     }
-    for chain in &mut parts.bodies.chains {
-        let first = chain.first_node();
-        let last = first + chain.node_count() - 1;
-        chain.set_free_ends([!used[first], !used[last]], &parts.bodies.reference);
-    }
+    parts.bodies.set_free_ends(&used);
 }
 
 pub(super) fn constraints<const D: usize>(
@@ -126,7 +122,7 @@ fn release_rows<const D: usize>(
         nonlinear.push(Constraint::of(index, ConstraintKind::LinearConstraint(row)));
         false
     });
-    if !parts.bodies.frames.list().is_empty() {
+    if !parts.bodies.rigid().is_empty() {
         // What belongs to one joint stands together.
         nonlinear.sort_by_key(|constraint| constraint.joint);
     }
@@ -136,7 +132,7 @@ fn release_rows<const D: usize>(
 fn paid_out<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
     let mut paid_out = vec![false; parts.bodies.reference.len()];
     for (chain, ..) in &parts.winches {
-        paid_out[parts.bodies.chains[*chain].range()].fill(true);
+        paid_out[parts.bodies.lines()[*chain].range()].fill(true);
     }
     paid_out
 }

@@ -38,7 +38,7 @@ use super::coordinate::Translation;
 use super::direction::AxisTurn;
 use super::end::{Add, Attachment};
 use super::gradient::Gradient;
-use crate::bodies::{Bodies, ConnectivityRow, Marker, Node, RotationMaps};
+use crate::bodies::{Bodies, ConnectivityRow, Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -354,10 +354,12 @@ impl<const D: usize> Constraint<D> {
     /// the first node.
     pub fn for_each_pulled<N: Number>(
         &self,
-        (view, frames): (&View<'_, D, N>, &RotationMaps),
+        view: &View<'_, D, N>,
         mut term: impl FnMut(usize, &Node<D, N>),
     ) {
-        self.for_each_pair(view, |pair| pair.for_each_pulled(frames, view.x, &mut term));
+        self.for_each_pair(view, |pair| {
+            pair.for_each_pulled(view.bodies, view.x, &mut term)
+        });
     }
 
     /// The derivative of `g` along a nodal vector.

@@ -90,7 +90,7 @@ impl<const D: usize> PointOnCurve<D> {
 
     fn foot<N: Number>(&self, view: &View<'_, D, N>) -> (Foot<D, N>, Vector<D, N>, N) {
         let at = foot(
-            &view.bodies.chains[self.chain],
+            &view.bodies.lines()[self.chain],
             view.travel[self.slide],
             view.x,
         );
@@ -137,11 +137,11 @@ impl<const D: usize> Equation<D> for PointOnCurve<D> {
     fn nodes(&self, bodies: &Bodies<D>) -> Vec<usize> {
         self.end
             .nodes()
-            .chain(bodies.chains[self.chain].range())
+            .chain(bodies.lines()[self.chain].range())
             .collect()
     }
 
     fn size(&self, bodies: &Bodies<D>) -> f64 {
-        bodies.chains[self.chain].length()
+        bodies.lines()[self.chain].length()
     }
 }

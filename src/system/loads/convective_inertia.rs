@@ -21,7 +21,7 @@ impl ConvectiveInertia {
     }
 
     fn cable<'a, const D: usize, N: Number>(&self, at: Instant<'a, D, N>) -> PaidOut<'a, D, N> {
-        let paid_out = at.paid_out(self.first_node(&at.bodies.chains));
+        let paid_out = at.paid_out(self.first_node(at.bodies.lines()));
         paid_out.expect("a winch pays the cable out")
     }
 
@@ -39,7 +39,7 @@ impl ConvectiveInertia {
 impl<const D: usize> ForceElement<D> for ConvectiveInertia {
     /// Nodes of its elements.
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        let chain = &bodies.chains[self.line];
+        let chain = &bodies.lines()[self.line];
         let elements = 0..chain.elements().len();
         elements.map(|j| chain.nodes(j).to_vec()).collect()
     }
@@ -58,7 +58,7 @@ impl<const D: usize> ForceElement<D> for ConvectiveInertia {
 
     /// Adds the forces on an element.
     fn add_part<N: Number>(&self, at: Instant<'_, D, N>, element: usize, f: &mut [Node<D, N>]) {
-        let chain = &at.bodies.chains[self.line];
+        let chain = &at.bodies.lines()[self.line];
         let values = self.values(at, element);
         let forces = on_coordinates(&values, chain.element_length(element));
         chain.add_to(element, &forces, f);
@@ -76,7 +76,7 @@ impl<const D: usize> ForceElement<D> for ConvectiveInertia {
         first: usize,
         segment: usize,
     ) -> Option<Values<D, N>> {
-        (self.first_node(&at.bodies.chains) == first).then(|| self.values(at, segment))
+        (self.first_node(at.bodies.lines()) == first).then(|| self.values(at, segment))
     }
 
     /// Winches stand where equilibria are sought.

@@ -38,7 +38,7 @@ impl<const D: usize> DistributedForce<D> {
     /// The cable, if a winch pays it out.
     fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
         match self.on {
-            LoadedLine::Chain(_) => at.paid_out(self.first_node(&at.bodies.chains)),
+            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.bodies.lines())),
             LoadedLine::Rod(_) => None,
         }
     }
@@ -90,7 +90,7 @@ impl<const D: usize> DistributedForce<D> {
             return;
         }
         let chain = match self.on {
-            LoadedLine::Chain(chain) => &at.bodies.chains[chain],
+            LoadedLine::Chain(chain) => &at.bodies.lines()[chain],
             LoadedLine::Rod(rod) => {
                 for panel in 0..PANELS {
                     let values = self.values(at, panel);
@@ -123,7 +123,7 @@ impl<const D: usize> DistributedForce<D> {
                 sum += load.dot(&Vector::from(field[node][k])) * N::of(weight);
             }
         };
-        self.each(&at.bodies.chains, |node, weights| add(node, weights, &load));
+        self.each(at.bodies.lines(), |node, weights| add(node, weights, &load));
         self.each_changing(at, add);
         sum
     }
@@ -157,7 +157,7 @@ impl<const D: usize> ForceElement<D> for DistributedForce<D> {
                 }
             }
         };
-        self.each(&at.bodies.chains, |node, weights| add(node, weights, &load));
+        self.each(at.bodies.lines(), |node, weights| add(node, weights, &load));
         self.each_changing(at, add);
     }
 
@@ -175,7 +175,7 @@ impl<const D: usize> ForceElement<D> for DistributedForce<D> {
         first: usize,
         segment: usize,
     ) -> Option<Values<D, N>> {
-        let is_on = self.density.changes() && self.first_node(&at.bodies.chains) == first;
+        let is_on = self.density.changes() && self.first_node(at.bodies.lines()) == first;
         is_on.then(|| self.values(at, segment))
     }
 

@@ -43,14 +43,14 @@ impl DistributedMoment {
         };
         let moments = moments.map(Into::into);
         if self.follower {
-            at.bodies.rod_chains[self.on].outward(element, at.x, &moments)
+            at.bodies.all_sections()[self.on].outward(element, at.x, &moments)
         } else {
             moments
         }
     }
 
     fn rod<'a, const D: usize, N>(&self, at: Instant<'a, D, N>) -> &'a RodChain {
-        &at.bodies.rod_chains[self.on]
+        &at.bodies.all_sections()[self.on]
     }
 }
 
@@ -74,7 +74,8 @@ impl<const D: usize> ForceElement<D> for DistributedMoment {
         let mut sum = N::of(0.0);
         for element in 0..rod.count() {
             let force = rod.loaded(element, at.x, &self.moments(at, element));
-            sum += rod.power_of((element, &force), (at.x, at.v), &at.bodies.frames);
+            let loaded = (element, &force);
+            sum += (at.bodies).power_on_sections(rod, loaded, at.motion());
         }
         [sum, N::of(0.0)]
     }
@@ -107,7 +108,7 @@ impl<const D: usize> ForceElement<D> for DistributedMoment {
     }
 
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        let rod = &bodies.rod_chains[self.on];
+        let rod = &bodies.all_sections()[self.on];
         let elements = 0..rod.count();
         elements.map(|j| rod.all_nodes(j).to_vec()).collect()
     }

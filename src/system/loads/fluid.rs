@@ -213,12 +213,12 @@ impl<const D: usize> Fluid<D> {
         let current = self.current(segment, |signal| signal.value(at));
         let rates = self.current(segment, |signal| signal.rate(at));
         let paid_out = match self.on {
-            LoadedLine::Chain(_) => at.paid_out(self.first_node(&at.bodies.chains)),
+            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.bodies.lines())),
             LoadedLine::Rod(_) => None,
         };
         for (point, (current, rate)) in current.into_iter().zip(rates).enumerate() {
             let strip = &self.strips[GAUSS_5.len() * segment + point];
-            let place = self.place(&at.bodies.chains, segment, point);
+            let place = self.place(at.bodies.lines(), segment, point);
             let on = (&place, (segment, GAUSS_5[point].at));
             let flow = self.flow(at, on, (current, paid_out.as_ref()));
             let force = flow.drag(strip.drag) + rate * N::of(strip.inert)
@@ -257,7 +257,7 @@ impl<const D: usize> ForceElement<D> for Fluid<D> {
             LoadedLine::Chain(chain) => {
                 let segments = 0..self.segments();
                 segments
-                    .map(|j| bodies.chains[chain].nodes(j).to_vec())
+                    .map(|j| bodies.lines()[chain].nodes(j).to_vec())
                     .collect()
             }
             LoadedLine::Rod(rod) => vec![vec![rod.node]; self.segments()],
@@ -359,7 +359,7 @@ impl<const D: usize> ForceElement<D> for Fluid<D> {
         first: usize,
         segment: usize,
     ) -> Option<Values<D, N>> {
-        (self.first_node(&at.bodies.chains) == first).then(|| self.values(at, segment))
+        (self.first_node(at.bodies.lines()) == first).then(|| self.values(at, segment))
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {

@@ -150,8 +150,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
         let rates = Some(&state.rates[..]);
         self.work.kinematics.smooth_interval = Some([before, before]);
         system.forward_kinematics(time, &state.coordinates, rates, self.work);
-        let motion = (&self.work.kinematics.x[..], &self.work.kinematics.v[..]);
-        let energy = system.bodies.kinetic(&self.work.kinematics.drives, motion);
+        let energy = system.bodies.kinetic(self.work.kinematics.motion());
         // Material keeps its velocity, not the mesh that it passes through.
         let Workspace {
             kinematics,
@@ -178,8 +177,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
         system.forward_kinematics(time, &state.coordinates, Some(&state.rates), self.work);
         if system.tracks_work {
             // Drives alone do work: the other impulses act where velocities have no part before or after.
-            let motion = (&self.work.kinematics.x[..], &self.work.kinematics.v[..]);
-            state.work[0] += system.bodies.kinetic(&self.work.kinematics.drives, motion) - energy;
+            state.work[0] += system.bodies.kinetic(self.work.kinematics.motion()) - energy;
         }
         self.work.kinematics.smooth_interval = None;
         if kept {

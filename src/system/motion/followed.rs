@@ -25,7 +25,9 @@ impl<const D: usize> DrivenSystem<'_, D> {
         if let Some(drive) = system.bodies.taken_in(&self.work.kinematics.drives) {
             return StepOutcome::WinchEmpty(drive);
         }
-        if state.angles.is_empty() && state.travel.is_empty() && system.bodies.rod_chains.is_empty()
+        if state.angles.is_empty()
+            && state.travel.is_empty()
+            && system.bodies.all_sections().is_empty()
         {
             return StepOutcome::AsIs;
         }
@@ -43,7 +45,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
             let ConstraintKind::PointOnCurve(along) = &constraint.kind else {
                 continue;
             };
-            let length = system.bodies.chains[along.chain].length();
+            let length = system.bodies.lines()[along.chain].length();
             let is_released = constraint.is_released(&self.work.kinematics.released);
             if !is_released && !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
                 let joint = constraint.joint.expect("a slide is part of a joint");

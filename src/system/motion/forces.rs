@@ -1,6 +1,6 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use crate::bodies::{Node, NodeBlock, RotationMaps, Rotations, add_node, map_node, turning_block};
+use crate::bodies::{Node, NodeBlock, add_node, map_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::instant::Instant;
@@ -46,13 +46,11 @@ impl<const D: usize> System<D> {
         let Kinematics {
             frames,
             drives,
-            turns,
-            carries,
+            rotations,
             x,
             ..
         } = &mut work.kinematics;
-        self.bodies
-            .place(frames, drives, Rotations { turns, carries }, x);
+        self.bodies.place(frames, drives, rotations, x);
         self.find_travel(&work.kinematics.x, &mut work.kinematics.travel);
         if let Some(v) = v {
             self.rate_kinematics(v, work);
@@ -63,7 +61,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn find_travel<N: Number>(&self, x: &[Node<D, N>], travel: &mut [N]) {
         for (constraint, travel) in self.slides.iter().zip(travel) {
             if let ConstraintKind::PointOnCurve(along) = &self.constraints[*constraint].kind {
-                *travel = along.travel(&self.bodies.chains[along.chain], x, *travel);
+                *travel = along.travel(&self.bodies.lines()[along.chain], x, *travel);
             }
         }
     }
@@ -75,14 +73,12 @@ impl<const D: usize> System<D> {
         self.add_driven(&work.kinematics.targets, 1, &mut work.kinematics.v);
         let Kinematics {
             drives,
-            turns,
-            carries,
+            rotations,
             x,
             v,
             ..
         } = &mut work.kinematics;
-        self.bodies
-            .place_rates(drives, Rotations { turns, carries }, x, v);
+        self.bodies.place_rates(drives, rotations, x, v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
@@ -126,7 +122,7 @@ impl<const D: usize> System<D> {
             scratch,
             ..
         } = work;
-        let motion = (&kinematics.x[..], &kinematics.v[..]);
+        let motion = kinematics.motion();
         let NodalForces {
             f,
             torques,
@@ -135,7 +131,7 @@ impl<const D: usize> System<D> {
         } = forces;
         f.copy_from_slice(&self.weight);
         let out = (&mut f[..], &mut torques[..]);
-        *dissipated = (self.bodies).add_forces(&kinematics.drives, motion, out, &mut scratch.other);
+        *dissipated = (self.bodies).add_forces(motion, out, &mut scratch.other);
         let at = self.instant(time, kinematics);
         for load in &self.loads {
             load.add_force(at, f);
@@ -164,9 +160,8 @@ impl<const D: usize> System<D> {
         if self.bodies.has_identity_map() {
             self.elimination.reduce(&forces.f, y, acceleration);
         } else {
-            let motion = (&kinematics.x[..], &kinematics.v[..]);
             other.copy_from_slice(&forces.f);
-            (self.bodies).pull_back_motion(&kinematics.drives, motion, &forces.torques, other);
+            (self.bodies).pull_back_motion(kinematics.motion(), &forces.torques, other);
             self.elimination.reduce(other, y, acceleration);
         }
         change(1.0, &mut forces.f);
@@ -187,11 +182,11 @@ impl<const D: usize> System<D> {
             ..
         } = work;
         let tangent = &mut linearization.tangent;
-        let (x, v, drives) = (&kinematics.x, &kinematics.v, &kinematics.drives);
+        let (x, drives) = (&kinematics.x, &kinematics.drives);
         tangent.clear();
         let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
-        let matrices = (&mut *stiffness, &mut *damping);
-        (self.bodies).add_tangent(drives, (x, v), assembly, matrices);
+        let matrices = [&mut *stiffness, &mut *damping];
+        (self.bodies).add_tangent(kinematics.motion(), assembly, matrices);
         let at = self.instant(time, kinematics);
         for load in &self.loads {
             load.add_tangent(
@@ -209,21 +204,8 @@ impl<const D: usize> System<D> {
                 self.add_block((a, b), block, (x, drives), &mut tangent.stiffness);
             });
         }
-        for frame in self.bodies.frames.list() {
-            let turned = RotationMaps::geometric(frame, &forces.linear_constraint_forces, x);
-            let block = turning_block(&((turned + turned.transpose()) * 0.5));
-            assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
-        }
-        for frame in self.bodies.frames.carried() {
-            RotationMaps::geometric_of_carried(
-                frame,
-                &forces.linear_constraint_forces,
-                x,
-                |a, b, block| {
-                    assembly.add(a, b, block, &mut tangent.stiffness);
-                },
-            );
-        }
+        let (of, stiffness) = (&forces.linear_constraint_forces, &mut tangent.stiffness);
+        self.bodies.add_geometric(of, x, assembly, stiffness);
         tangent.hold(assembly, &constraints.jacobian, &self.multipliers);
         self.add_multipliers(&view, &constraints.jacobian, &mut tangent.stiffness);
     }
@@ -270,11 +252,11 @@ impl<const D: usize> System<D> {
             acceleration,
             ..
         } = work;
-        let motion @ (x, _) = (&kinematics.x[..], &kinematics.v[..]);
+        let motion = kinematics.motion();
         let (drives, Scratch { y, other }) = (&kinematics.drives, scratch);
         self.elimination.expand(acceleration, y, other);
-        self.bodies.place_changes(drives, x, other);
-        self.bodies.add_bias(drives, motion, other);
+        self.bodies.place_changes(drives, motion.x, other);
+        self.bodies.add_bias(motion, other);
         self.add_driven(&kinematics.targets, 2, other);
         let found = &mut forces.linear_constraint_forces;
         for (found, f) in found.iter_mut().zip(&forces.f) {

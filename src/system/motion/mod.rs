@@ -6,5 +6,5 @@ mod followed;
 pub(in crate::system) mod forces;
 pub(in crate::system) mod multipliers;
 pub(in crate::system) mod rank;
-mod rods;
+mod rotations;
 pub(in crate::system) mod tree;

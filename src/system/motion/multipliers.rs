@@ -78,7 +78,7 @@ impl<const D: usize> System<D> {
                 continue;
             }
             (constraints.jacobian).fill(&self.elimination, row, |tell| {
-                constraint.for_each_pulled((&view, &self.bodies.frames), |node, term| {
+                constraint.for_each_pulled(&view, |node, term| {
                     tell(node, &self.bodies.shortened(node, view.drives, term));
                 });
             });
@@ -135,7 +135,7 @@ impl<const D: usize> System<D> {
         for (_, (constraint, index)) in constraints.filter(|(row, _)| jacobian.is_independent(*row))
         {
             assembly.add_corner(*index, 1.0, matrix);
-            constraint.for_each_pulled((view, &self.bodies.frames), |node, term| {
+            constraint.for_each_pulled(view, |node, term| {
                 let term = self.bodies.shortened(node, view.drives, term);
                 assembly.add_gradient((*index, node), &term, matrix);
             });
@@ -185,10 +185,8 @@ impl<const D: usize> System<D> {
         let is_still = self.driven.is_empty() && !self.bodies.pays_out();
         let is_driven = !(is_still && self.bodies.has_no_frames());
         if is_driven {
-            let motion = (&kinematics.x[..], &kinematics.v[..]);
             self.driven_acceleration(&kinematics.targets, &mut scratch.other);
-            self.bodies
-                .add_bias(&kinematics.drives, motion, &mut scratch.other);
+            (self.bodies).add_bias(kinematics.motion(), &mut scratch.other);
         }
         self.fill_right(
             &self.view(kinematics),

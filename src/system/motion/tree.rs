@@ -45,7 +45,7 @@ struct Pair<const D: usize> {
 impl<const D: usize> Tree<D> {
     /// The tree that these constraints make of all that moves; nothing where they make none.
     pub fn of(system: &System<D>) -> Option<Self> {
-        let frames = system.bodies.frames.list();
+        let frames = system.bodies.rigid();
         let is_whole = system.coordinates() == 6 * frames.len() && system.driven.is_empty();
         let turns = |frame: &RigidBodyFrame| frame.places.iter().all(Option::is_some);
         if frames.is_empty() || !is_whole || !frames.iter().all(turns) {
@@ -132,7 +132,7 @@ impl<const D: usize> Tree<D> {
 
 /// Where the centre of mass of a body is among the coordinates, and how many of these make a metre.
 fn center<const D: usize>(system: &System<D>, frame: usize, y: &mut [f64]) -> Option<(usize, f64)> {
-    let frame = &system.bodies.frames.list()[frame];
+    let frame = &system.bodies.rigid()[frame];
     let mut force = no_node();
     for axis in 0..D {
         force[0][axis] = frame.mass * (1.0 + axis as f64);
@@ -223,7 +223,7 @@ fn body<const D: usize>(system: &System<D>, end: &Attachment<D>) -> Option<Optio
     if !marker.is_framed() {
         return None;
     }
-    system.bodies.frames.body_of(marker.nodes[0]).map(Some)
+    system.bodies.rigid_at(marker.nodes[0]).map(Some)
 }
 
 /// Whether a row holds a point of the second end at that of the first, along this axis.
@@ -269,7 +269,7 @@ impl<const D: usize> System<D> {
             return constraints.is_tree;
         }
         let view = self.view(kinematics);
-        let frames = self.bodies.frames.list();
+        let frames = self.bodies.rigid();
         let of_turn = |turn: usize, link: &Link| {
             let node = frames[link.frame].node;
             let mut of_body = Vector3::zeros();
@@ -295,7 +295,7 @@ impl<const D: usize> System<D> {
         };
         let right = &constraints.right;
         constraints.articulated.bring(
-            self.bodies.frames.list(),
+            self.bodies.rigid(),
             |turn| right[tree.turns[turn]],
             |link| match &tree.pins[link] {
                 Some(pin) => {

@@ -9,9 +9,7 @@
 //!
 //! Source: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 13.
 
-use nalgebra::Vector3;
-
-use crate::bodies::{Node, add_node, map_node, no_node, product, turned};
+use crate::bodies::{AngularAccelerations, AxisMotion, Node, add_node, map_node, no_node, product};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::system::joints::View;
 use crate::system::loads::ForceElement as _;
@@ -25,20 +23,19 @@ pub struct Derivatives<const D: usize> {
     pub values: Evaluation<D, Jet>,
     /// Forces on the nodes, but for constraints.
     f: Vec<Node<D, Jet>>,
-    /// Forces on the centres of mass and about the axes of rigid bodies in space. `spin_rates` holds the angular
-    /// accelerations of these.
+    /// Forces on what is integrated, over the nodes.
     pulled: Vec<Node<D, Jet>>,
-    spin_rates: Vec<Vector3<Jet>>,
-    /// Torques of rods, and angular accelerations about the tangents of their carried frames.
+    /// Moments of sections.
     torques: Vec<[Jet; 3]>,
-    carried_rates: Vec<[Jet; 3]>,
-    /// Nodal accelerations of what is driven, and of axes that turn.
-    pub(super) driven: Vec<Node<D, Jet>>,
+    /// Angular accelerations of rigid bodies and sections.
+    angular: AngularAccelerations,
+    /// Nodal accelerations of what is driven, and of axes that rotate.
+    driven: Vec<Node<D, Jet>>,
     /// First and second derivative of generalized accelerations.
     q: [Vec<f64>; 2],
     /// One derivative of a nodal vector, and another one.
     one: Vec<Node<D>>,
-    pub(super) other: Vec<Node<D>>,
+    other: Vec<Node<D>>,
     /// Nodal accelerations of the free coordinates and their derivatives.
     moved: [Vec<Node<D>>; 2],
     /// Right-hand side of constraints.
@@ -58,12 +55,8 @@ impl<const D: usize> Derivatives<D> {
             values: Evaluation::new(system),
             f: nodes.clone(),
             pulled: nodes.clone(),
-            spin_rates: vec![
-                Vector3::from_element(Jet::from_re(0.0));
-                system.bodies.frames.list().len()
-            ],
-            torques: vec![[Jet::from_re(0.0); 3]; system.bodies.frames.carried().len()],
-            carried_rates: vec![[Jet::from_re(0.0); 3]; system.bodies.frames.carried().len()],
+            angular: AngularAccelerations::of(&system.bodies),
+            torques: vec![[Jet::from_re(0.0); 3]; system.bodies.moments()],
             driven: nodes,
             q: [q.clone(), q],
             one: none.clone(),
@@ -208,15 +201,14 @@ impl<const D: usize> Derivatives<D> {
             *f = map_node(weight, Jet::from_re);
         }
         let values = &self.values;
-        let motion = (&values.x[..], &values.v[..]);
         let out = (&mut self.f[..], &mut self.torques[..]);
-        (system.bodies).add_forces_of(&values.drives, motion, out, &mut self.pulled, elastic);
+        (system.bodies).add_forces_of(values.motion(), out, &mut self.pulled, elastic);
         let at = values.instant(system);
         for load in &system.loads {
             load.add_force(at, &mut self.f);
         }
         if system.is_turning() {
-            let (motion, other) = ((&values.x[..], &values.v[..]), &mut self.pulled);
+            let (motion, other) = (values.motion(), &mut self.pulled);
             (system.bodies).add_frame_inertia(system.rotation, motion, other, &mut self.f);
         }
     }
@@ -243,8 +235,7 @@ impl<const D: usize> Derivatives<D> {
                 (driven.zip(c.as_flattened())).for_each(|(d, c)| *d += second * Jet::of(*c));
             }
         }
-        let (x, v) = (&self.values.x, &self.values.v);
-        (system.bodies).add_bias(&self.values.drives, (x, v), &mut self.driven);
+        (system.bodies).add_bias(self.values.motion(), &mut self.driven);
         if !system.constraints.is_empty() {
             self.turn_constraints(system, k, work);
         }
@@ -261,7 +252,9 @@ impl<const D: usize> Derivatives<D> {
         }
         let (elimination, q) = (&system.elimination, &self.q[k - 1]);
         elimination.expand(q, &mut work.scratch.y, &mut self.other);
-        self.lengthen_accelerations(system, plain, k);
+        let known = (&self.driven[..], &self.values.acceleration[..]);
+        let (drives, value) = (&self.values.drives, &plain.acceleration);
+        (system.bodies).differentiate_lengthened(k, drives, value, known, &mut self.other);
         let accelerations = self.values.acceleration.iter_mut().zip(&plain.acceleration);
         for ((a, plain), (moved, driven)) in accelerations.zip(self.other.iter().zip(&self.driven))
         {
@@ -271,7 +264,12 @@ impl<const D: usize> Derivatives<D> {
                 set_part(a, k, moved[i] + part(driven.as_flattened()[i], k));
             }
         }
-        self.turn_axes(system, k);
+        let axes = AxisMotion {
+            x: &self.values.x,
+            bias: &self.driven,
+            acceleration: &mut self.values.acceleration,
+        };
+        (system.bodies).differentiate_axes(k, &self.other, &mut self.angular, axes);
     }
 
     /// Derivative `k` of forces on the nodes; of moments on rigid bodies of space, along their axes.
@@ -280,75 +278,12 @@ impl<const D: usize> Derivatives<D> {
             return take(&self.f, k, &mut self.one);
         }
         self.pulled.copy_from_slice(&self.f);
-        let (motion, drives) = (
-            (&self.values.x[..], &self.values.v[..]),
-            &self.values.drives,
-        );
-        (system.bodies).pull_back_motion(drives, motion, &self.torques, &mut self.pulled);
+        let motion = self.values.motion();
+        (system.bodies).pull_back_motion(motion, &self.torques, &mut self.pulled);
         take(&self.pulled, k, &mut self.one);
         let elimination = &system.elimination;
         elimination.expand(&work.acceleration, &mut work.scratch.y, &mut self.other);
-        for (frame, rate) in system.bodies.frames.list().iter().zip(&mut self.spin_rates) {
-            for (rate, value) in rate.iter_mut().zip(&self.other[frame.node][1]) {
-                rate.re = *value;
-            }
-        }
-        for (frame, rate) in system
-            .bodies
-            .frames
-            .carried()
-            .iter()
-            .zip(&mut self.carried_rates)
-        {
-            let found = self.other[frame.node][1].iter();
-            for (rate, value) in rate.iter_mut().zip(found) {
-                rate.re = *value;
-            }
-        }
-    }
-
-    /// Derivative `k` of accelerations of axes, from that of angular accelerations in their places.
-    fn turn_axes(&mut self, system: &System<D>, k: usize) {
-        let frames = system.bodies.frames.list().iter();
-        for (frame, spin_rate) in frames.zip(&mut self.spin_rates) {
-            let found = &self.other[frame.node][1];
-            for (rate, value) in spin_rate.iter_mut().zip(found) {
-                set_part(rate, k, *value);
-            }
-            let by_rate = turned(&frame.axes(&self.values.x), spin_rate);
-            let by_spin = frame.axes(&self.driven);
-            let mut sum = frame.axes(&self.values.acceleration);
-            for (axis, sum) in sum.iter_mut().enumerate() {
-                for (i, sum) in sum.iter_mut().enumerate() {
-                    let [a, b] = [by_rate[axis][i], by_spin[axis][i]].map(|of| part(of, k));
-                    set_part(sum, k, a + b);
-                }
-            }
-            frame.set_axes(&sum, &mut self.values.acceleration);
-        }
-        self.turn_carried(system, k);
-    }
-
-    /// Computes derivative `k` of the accelerations of section axes.
-    fn turn_carried(&mut self, system: &System<D>, k: usize) {
-        let frames = system.bodies.frames.carried().iter();
-        for (frame, spin_rate) in frames.zip(&mut self.carried_rates) {
-            for (rate, value) in spin_rate.iter_mut().zip(&self.other[frame.node][1]) {
-                set_part(rate, k, *value);
-            }
-            let acceleration = &mut self.values.acceleration;
-            let by_rate = frame.turned(&self.values.x, acceleration, *spin_rate);
-            let by_spin = frame.axes(&self.driven);
-            let mut sum = frame.axes(acceleration);
-            for (axis, sum) in sum.iter_mut().enumerate() {
-                for (i, sum) in sum.iter_mut().enumerate() {
-                    let [a, b] = [by_rate[axis][i], by_spin[axis][i]].map(|of| part(of, k));
-                    set_part(sum, k, a + b);
-                }
-            }
-            frame.set_axes(&sum, acceleration);
-            acceleration[frame.node][0] = acceleration[frame.line][0];
-        }
+        (system.bodies).set_angular_accelerations(&self.other, &mut self.angular);
     }
 
     /// Computes derivative `k` of the right-hand side of constraints. The effect of the present multipliers through the
@@ -367,7 +302,7 @@ impl<const D: usize> Derivatives<D> {
             let bias = constraint.bias(&view);
             let mut right = -part(bias, k);
             right -= part(constraint.along(&view, &self.driven), k);
-            constraint.for_each_pulled((&view, &system.bodies.frames), |node, term| {
+            constraint.for_each_pulled(&view, |node, term| {
                 // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
                 let term = system.bodies.shortened(node, view.drives, term);
                 for order in 1..=k {
@@ -395,7 +330,9 @@ impl<const D: usize> Derivatives<D> {
             system.bodies.add_inertia(1.0, &self.one, &mut self.other);
             add_order(&self.other, k, &mut self.values.linear_constraint_forces);
         }
-        self.lengthen_supply(system);
+        let values = &mut self.values;
+        let (of, supplied) = (&values.acceleration, &mut values.linear_constraint_forces);
+        (system.bodies).add_inertia_of_paid_out(&values.drives, of, supplied);
         let Evaluation {
             x,
             v,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::bodies::{Marker, Node, axes_at, combined, spin_at};
+use crate::bodies::{Marker, NodalMotion, Node, axes_at, combined, spin_at};
 use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::math::rotation::{NO_TURN, Quaternion};
@@ -58,7 +58,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             angles: vec![zero; system.angles.len()],
             travel: vec![zero; system.slides.len()],
             drives: vec![[zero; 3]; system.drives.len()],
-            frames: vec![NO_TURN; system.bodies.frames.count()],
+            frames: vec![NO_TURN; system.bodies.frame_count()],
             released: vec![false; system.releases.len()],
         }
     }
@@ -148,7 +148,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Principal axes of the rigid body of space that a marker belongs to, in global components; the global ones where it
     /// belongs to none.
     pub fn axes(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 3] {
-        if system.bodies.frames.has_axes(marker.nodes[0]) {
+        if system.bodies.has_axes(marker.nodes[0]) {
             axes_at(marker.nodes[0], &self.x).map(<[N; 3]>::from)
         } else {
             std::array::from_fn(|k| axis::<3, N>(k).into())
@@ -158,7 +158,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Quaternion of the principal axes that the state holds of the body that a marker belongs to: less than half a turn from
     /// the one now.
     pub fn held(&self, system: &System<D>, marker: &Marker) -> Quaternion {
-        let index = system.bodies.frames.index_of(marker.nodes[0]);
+        let index = system.bodies.frame_index(marker.nodes[0]);
         index.map_or(NO_TURN, |index| self.frames[index])
     }
 
@@ -166,7 +166,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// body.
     pub fn spin(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
         let node = marker.nodes[0];
-        if !system.bodies.frames.has_axes(node) {
+        if !system.bodies.has_axes(node) {
             let spin = Attachment::<D, N>::Body(marker.lift()).spin(&self.x, &self.v);
             return [N::of(0.0), N::of(0.0), spin];
         }
@@ -178,7 +178,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn spin_rate(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
         let (x, v, a) = (&self.x, &self.v, &self.acceleration);
         let node = marker.nodes[0];
-        if !system.bodies.frames.has_axes(node) {
+        if !system.bodies.has_axes(node) {
             let rate = Attachment::<D, N>::Body(marker.lift()).spin_rate(x, v, a);
             return [N::of(0.0), N::of(0.0), rate];
         }
@@ -186,6 +186,15 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (axes, second) = (axes_at(node, x), axes_at(node, a));
         let sum = (0..3).fold(Vector3::zeros(), |sum, k| sum + axes[k].cross(&second[k]));
         (sum * N::of(0.5)).into()
+    }
+
+    /// Configuration and rates as bodies see them.
+    pub(in crate::system) fn motion(&self) -> NodalMotion<'_, D, N> {
+        NodalMotion {
+            drives: &self.drives,
+            x: &self.x,
+            v: &self.v,
+        }
     }
 
     pub(in crate::system) fn instant<'a>(&'a self, system: &'a System<D>) -> Instant<'a, D, N> {
@@ -217,7 +226,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn power(&self, system: &System<D>) -> [N; 2] {
         let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
         let (at, view) = (self.instant(system), self.view(system));
-        let by_bodies = (system.bodies).dissipation(&self.drives, (&self.x, &self.v));
+        let by_bodies = system.bodies.dissipation(self.motion());
         let rate_of = |place: usize| {
             let target = &system.linear[system.driven[place].row].target;
             target.derivatives(&self.drives)[1]
@@ -243,7 +252,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Kinetic energy, J.
     pub fn kinetic_energy(&self, system: &System<D>) -> N {
-        (system.bodies).kinetic(&self.drives, (&self.x, &self.v))
+        system.bodies.kinetic(self.motion())
     }
 
     /// Strain energy, J.
@@ -272,7 +281,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Momentum (kg m/s) and angular momentum about the origin (kg m^2/s), in the plane its third component.
     pub fn momentum(&self, system: &System<D>) -> (Vector<D, N>, [N; 3]) {
-        (system.bodies).momentum(&self.drives, (&self.x, &self.v))
+        system.bodies.momentum(self.motion())
     }
 
     /// Center of mass, m.

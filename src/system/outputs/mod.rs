@@ -6,7 +6,6 @@ pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
 pub(in crate::system) mod fit;
 mod forces;
-mod lengthened;
 mod resolution;
 pub(in crate::system) mod rod;
 pub(in crate::system) mod section;

@@ -124,7 +124,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         rod: &RigidRod,
         [from, to]: [f64; 2],
     ) -> (Vector<D, N>, Vector3<N>) {
-        let own = &system.bodies.lumped_masses[rod.mass];
+        let own = &system.bodies.masses()[rod.mass];
         let [density, moved] = [own.mass, own.moved()].map(|mass| N::of(mass / rod.length));
         let at = Marker::rigid(0, rod.node, [from, 0.0]).lift();
         let [start, slope] = self.inertia_at(system, &at).map(|inertia| -inertia * moved);
@@ -189,7 +189,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         (is_on, is_own): (impl Fn(&Marker) -> bool, impl Fn(usize) -> bool),
         mut call: impl FnMut(&Attachment<D, N>, Forces<D, N>),
     ) {
-        for (index, lump) in system.bodies.lumped_masses.iter().enumerate() {
+        for (index, lump) in system.bodies.masses().iter().enumerate() {
             if !is_own(index) && is_on(&lump.marker) {
                 let marker = lump.marker.lift();
                 let [position, direction] = self.inertia_at(system, &marker);

@@ -149,7 +149,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut torques = [Vector3::zeros(); 2];
         if let Some(sections) = system.bodies.sections(chain) {
             let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
-            let mut force = sections.lack(j, motion, (system.rotation, &system.bodies.frames));
+            let element = (sections, j);
+            let mut force = (system.bodies).sections_residual(element, motion, system.rotation);
             if let Some(moments) = self.moments(system, (chain, j)) {
                 force.add(&sections.loaded(j, &self.x, &moments.map(Into::into)));
             }
@@ -179,7 +180,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut sum = Vector::zeros();
         for load in &system.loads {
             if let AppliedLoad::DistributedForce(load) = load
-                && load.first_node(&system.bodies.chains) == first
+                && load.first_node(system.bodies.lines()) == first
             {
                 sum += load.uniform(at);
             }
@@ -219,7 +220,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let AppliedLoad::DistributedMoment(load) = load else {
                 continue;
             };
-            if system.bodies.rod_chains[load.on].line() == first {
+            if system.bodies.all_sections()[load.on].line() == first {
                 let sum = sum.get_or_insert([Vector3::zeros(); GAUSS_5.len()]);
                 let moments = load.moments(at, j).map(Vector3::from);
                 sum.iter_mut().zip(moments).for_each(|(sum, m)| *sum += m);

@@ -230,7 +230,7 @@ pub(super) fn slowest<const D: usize>(
     let mut apply = |z: &mut [f64]| {
         let (a, b) = z.split_at_mut(n);
         b.iter_mut().for_each(|b| *b *= rate);
-        if linear.is_damped {
+        if linear.terms.is_damped {
             damped.copy_from_slice(a);
             linear.apply_damping(&mut damped, &mut y, &mut product);
         }

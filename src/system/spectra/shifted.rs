@@ -4,13 +4,11 @@
 //! Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
 //! section 5 (Schur complement).
 
-use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU, SMatrix};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
 
-use super::linearization::{Elastic, Linearization};
-use crate::bodies::{Node, add_node, no_node};
-use crate::elements::{Blocks, Nodal};
+use super::linearization::Linearization;
+use crate::bodies::{Node, no_node};
 use crate::math::row_space::RowSpace;
-use crate::math::space::Vector;
 use crate::math::sparse::{self, Factors, General};
 use crate::math::vector::dot;
 use crate::system::Workspace;
@@ -35,13 +33,13 @@ impl<'a, const D: usize> Linearization<'a, D> {
     /// Gives the solves of `work` the symmetric part of `K`, exactly, in place of the tangent of steps, which leaves small parts out.
     pub fn hand_over(&self, work: &mut Workspace<D>) {
         let pattern = self.elimination.assembly.pattern();
-        (self.stiffness).symmetric_part(pattern, &mut work.linearization.tangent.stiffness);
+        (self.terms.stiffness).symmetric_part(pattern, &mut work.linearization.tangent.stiffness);
     }
 
     /// `R q`, in place; `y` and `product` are scratch as long as the free coordinates.
     pub fn apply_damping(&self, q: &mut [f64], y: &mut [f64], product: &mut [f64]) {
         self.elimination.displacements(q, y);
-        self.multiply(&self.damping, y, product);
+        self.multiply(&self.terms.damping, y, product);
         self.elimination.project(product, q);
     }
 
@@ -91,18 +89,11 @@ impl<'a, const D: usize> Linearization<'a, D> {
             }
         }
         let [stiffness, damping] = &mut projected;
-        for element in &self.elements {
-            let local: Vec<Nodal<D>> = nodal.iter().map(|x| element.relative(x)).collect();
-            add_products(&local, |e| times(&element.stiffness, e), stiffness);
-            if let Some(matrix) = &element.damping {
-                add_products(&local, |e| times(matrix, e), damping);
-            }
-        }
-        for element in &self.rods {
+        for element in &self.terms.elements {
             let local: Vec<_> = nodal.iter().map(|x| element.relative(x)).collect();
-            add_products(&local, |e| element.stiffness * e, stiffness);
+            add_products(&local, &element.stiffness, stiffness);
             if let Some(matrix) = &element.damping {
-                add_products(&local, |e| matrix * e, damping);
+                add_products(&local, matrix, damping);
             }
         }
         projected
@@ -121,16 +112,11 @@ impl<'a, const D: usize> Linearization<'a, D> {
         let products: f64 = products
             .map(|(column, row)| (dot(column, &y) * dot(row, &y)).abs())
             .sum();
-        let elastic = self.elements.iter().map(|element| {
+        let elastic = self.terms.elements.iter().map(|element| {
             let e = element.relative(&x).abs();
-            let sizes = element.stiffness.map(|row| row.map(|block| block.abs()));
-            e.dot(&times(&sizes, &e))
+            e.dot(&(element.stiffness.abs() * &e))
         });
-        let of_rods = self.rods.iter().map(|element| {
-            let e = element.relative(&x).abs();
-            e.dot(&(element.stiffness.abs() * e))
-        });
-        others + products + elastic.sum::<f64>() + of_rods.sum::<f64>()
+        others + products + elastic.sum::<f64>()
     }
 
     /// Orthonormal columns that the held directions leave.
@@ -168,10 +154,10 @@ impl<'a, const D: usize> Linearization<'a, D> {
         let pattern = self.elimination.assembly.pattern();
         let mut matrix = General::zeros(pattern);
         matrix.add_symmetric(s * s, &self.elimination.mass);
-        if self.is_damped {
-            matrix.add(s, &self.damping);
+        if self.terms.is_damped {
+            matrix.add(s, &self.terms.damping);
         }
-        matrix.add(<T as From<f64>>::from(1.0), &self.stiffness);
+        matrix.add(<T as From<f64>>::from(1.0), &self.terms.stiffness);
         let mut shifted = Shifted {
             of: self,
             factors: matrix.factor(pattern)?,
@@ -184,33 +170,14 @@ impl<'a, const D: usize> Linearization<'a, D> {
     }
 }
 
-impl<const D: usize> Elastic<D> {
-    /// Displacements of the nodes relative to the position of the first.
-    fn relative(&self, x: &[Node<D>]) -> Nodal<D> {
-        let [a, mut b] = self.nodes.map(|node| x[node]);
-        add_node(&mut b, -1.0, &[a[0], [0.0; D]]);
-        [[0.0; D], a[1], b[0], b[1]].into()
-    }
-}
-
 /// Adds the products of displacements of one element with what a matrix makes of them: rows by columns.
-fn add_products<const R: usize, const C: usize>(
-    local: &[SMatrix<f64, R, C>],
-    times: impl Fn(&SMatrix<f64, R, C>) -> SMatrix<f64, R, C>,
-    sum: &mut DMatrix<f64>,
-) {
+fn add_products(local: &[DVector<f64>], matrix: &DMatrix<f64>, sum: &mut DMatrix<f64>) {
     for (k, right) in local.iter().enumerate() {
-        let force = times(right);
+        let force = matrix * right;
         for (i, left) in local.iter().enumerate() {
             sum[(i, k)] += left.dot(&force);
         }
     }
-}
-
-/// A matrix of blocks over the vectors of an element times such vectors.
-fn times<const D: usize>(blocks: &Blocks<D>, e: &Nodal<D>) -> Nodal<D> {
-    let row = |r: usize| (0..4).map(|c| blocks[r][c] * e.column(c)).sum();
-    Nodal::from_columns(&std::array::from_fn::<Vector<D>, 4, _>(row))
 }
 
 impl<const D: usize, T: ComplexField + sparse::Number> Shifted<'_, D, T> {

@@ -126,12 +126,16 @@ pub fn natural_frequencies<const D: usize>(
             linear if is_small(linear, count) => {
                 symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
             }
-            linear if linear.is_symmetric => match iteration::lowest(system, work, linear, count) {
-                Err(NoEigenvalues::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
-                    symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
+            linear if linear.terms.is_symmetric => {
+                match iteration::lowest(system, work, linear, count) {
+                    Err(NoEigenvalues::Missing(_))
+                        if linear.elimination.coordinates() <= MIDDLE =>
+                    {
+                        symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
+                    }
+                    found => found?.iter().map(|mode| mode.square).collect(),
                 }
-                found => found?.iter().map(|mode| mode.square).collect(),
-            },
+            }
             linear => {
                 let found = iteration::slowest(system, work, linear, count)?;
                 let mut squares: Vec<f64> = found.iter().map(|s| -(s * s).re).collect();
@@ -180,22 +184,8 @@ pub fn eigenvalues<const D: usize>(
     let linear = at(system, inputs, work, state);
     refuse_paid_out(system, work, false)?;
     refuse_driven(system, work)?;
-    // How a thin rod turns about itself nobody knows.
-    let thin = system
-        .bodies
-        .frames
-        .list()
-        .iter()
-        .filter(|frame| frame.is_thin());
-    let spins = thin.map(|frame| frame.spin(&work.kinematics.x, &work.kinematics.v).norm());
-    // Nor are gyroscopic terms of rods held here.
-    let of_rods = system.bodies.frames.carried().iter();
-    let of_rods = of_rods.map(|frame| {
-        frame
-            .velocity(&work.kinematics.x, &work.kinematics.v)
-            .norm()
-    });
-    let spin = spins.chain(of_rods).fold(0.0, f64::max);
+    // Nothing tells the spin of a thin rod about itself, and gyroscopic terms of sections are not linearized.
+    let spin = system.bodies.largest_spin(work.kinematics.motion());
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));
     }
@@ -204,7 +194,7 @@ pub fn eigenvalues<const D: usize>(
     let mut found = if is_small(&linear, count) {
         all(&linear)?
     } else {
-        let found = if linear.is_symmetric && !linear.is_damped {
+        let found = if linear.terms.is_symmetric && !linear.terms.is_damped {
             iteration::slowest_conservative(system, work, &linear, count)
         } else {
             iteration::slowest(system, work, &linear, count)
@@ -231,11 +221,11 @@ pub fn eigenvalues<const D: usize>(
 /// All eigenvalues, by dense matrices; of a pair the one with the positive imaginary part.
 fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>>, SpectrumError> {
     let (basis, [stiffness, damping]) = linear.dense();
-    if linear.is_damped {
+    if linear.terms.is_damped {
         return quadratic(&stiffness, &damping).ok_or(SpectrumError::NotFinite);
     }
     let terms = basis.iter().map(|q| linear.size(q)).fold(0.0, f64::max);
-    if linear.is_symmetric {
+    if linear.terms.is_symmetric {
         let squares = symmetric(&stiffness).ok_or(SpectrumError::NotFinite)?;
         let real = squares.iter().map(|k| Complex::new(*k, 0.0));
         return Ok(roots(real, noise(squares.iter().copied(), terms)));
@@ -284,7 +274,7 @@ fn refuse_turning<const D: usize>(
         add_node(x, 1.0, reference);
     }
     elimination.expand(&state.rates, &mut y, &mut v);
-    for chain in &system.bodies.chains {
+    for chain in system.bodies.lines() {
         let shared = rotation(&x, &v, chain.range());
         let Some(turn) = shared.filter(|turn| turn.norm() > 0.0) else {
             continue;
@@ -315,18 +305,12 @@ fn refuse_driven<const D: usize>(
         return Ok(());
     }
     let (x, v) = (&work.kinematics.x, &work.kinematics.v);
-    let chains = system.bodies.chains.iter();
+    let chains = system.bodies.lines().iter();
     let turns = chains.map(|chain| rotation(x, v, chain.range()));
     if let Some(turn) = turns.flatten().find(|turn| turn.norm() > 0.0) {
         return Err(SpectrumError::Turns(turn.norm()));
     }
-    let carried = system.bodies.frames.carried().iter();
-    let rates = carried.map(|frame| {
-        frame
-            .velocity(&work.kinematics.x, &work.kinematics.v)
-            .norm()
-    });
-    let spin = rates.fold(0.0, f64::max);
+    let spin = (system.bodies).largest_section_spin(work.kinematics.motion());
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));
     }

@@ -1,12 +1,9 @@
 //! Directions that constraints hold, and what their turning adds to the linearized equations (`linearization.rs`).
 
-use nalgebra::Vector3;
-
 use super::linearization::Linearization;
-use crate::bodies::{Node, add_node, map_node, no_node};
+use crate::bodies::{Node, map_node, no_node};
 use crate::math::jet::{Jet, moving};
 use crate::math::row_space::RowSpace;
-use crate::math::space::{Vector, components, vector};
 use crate::math::vector::{dot, norm};
 use crate::system::joints::View;
 use crate::system::{System, Workspace};
@@ -57,7 +54,7 @@ impl<const D: usize> System<D> {
         if at_rest || is_still || made.independent.is_empty() {
             return;
         }
-        made.is_symmetric = false;
+        made.terms.is_symmetric = false;
         let space = made.held();
         let rates = space.combine(&self.turning_rows(work, &made.independent));
         let padded = vec![0.0; elimination.assembly.pattern().len()];
@@ -72,12 +69,12 @@ impl<const D: usize> System<D> {
             elimination.displacements(unit, &mut y);
             let assembly = &elimination.assembly;
             assembly.put(&y, &mut x);
-            made.damping.multiply(assembly.pattern(), &x, &mut sum);
+            made.terms
+                .damping
+                .multiply(assembly.pattern(), &x, &mut sum);
             assembly.take(&sum, &mut y);
-            for frame in self.bodies.frames.list() {
-                let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
-                frame.add_moment(&-(frame.inertia_rate(&spin) * frame.read(unit)), &mut y);
-            }
+            let motion = work.kinematics.motion();
+            self.bodies.subtract_inertia_rate(motion, unit, &mut y);
             let column = rate.iter().zip(&y).map(|(rate, damped)| -(rate + damped));
             made.border.columns.push(column.collect());
             made.border.rows.push(rate);
@@ -122,16 +119,10 @@ impl<const D: usize> System<D> {
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
-            self.constraints[*row].for_each_pulled((&view, &self.bodies.frames), |node, term| {
+            self.constraints[*row].for_each_pulled(&view, |node, term| {
                 let mut change = map_node(term, |t| t.v1);
-                if let Some((frame, _)) = self.bodies.frames.of_node::<D>(node) {
-                    // Of rotations about axes that stand still.
-                    let spin = frame.spin(&work.kinematics.x, &work.kinematics.v);
-                    let moment = components(&term[1].map(|t| t.re).into());
-                    let along = Vector3::from(moment).cross(&spin);
-                    let turned: Vector<D> = vector(along.into());
-                    add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
-                }
+                let (motion, value) = (work.kinematics.motion(), map_node(term, |t| t.re));
+                (self.bodies).in_still_axes(node, motion, &value, &mut change);
                 (self.elimination.assembly).restrict_node(node, &change, &mut rate);
             });
             self.elimination.project_in_place(&mut rate);

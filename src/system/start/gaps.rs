@@ -15,7 +15,7 @@ impl<const D: usize> System<D> {
     /// Returns the point that placement rotates a body about: the mean of its nodes, m.
     pub(super) fn center(&self, body: usize, x: &[Node<D>]) -> Vector<D> {
         let nodes = self.bodies.ranges[body].clone();
-        if self.bodies.frames.of_node::<D>(nodes.start).is_some() {
+        if self.bodies.rigid_at(nodes.start).is_some() {
             return x[nodes.start][0].into();
         }
         let points = nodes.filter(|node| self.bodies.kind(*node) == NodeKind::Point);
@@ -112,7 +112,7 @@ impl<const D: usize> System<D> {
     pub(super) fn find_slides(&self, x: &[Node<D>], travel: &mut [f64]) {
         for (travel, constraint) in travel.iter_mut().zip(&self.slides) {
             if let ConstraintKind::PointOnCurve(along) = &self.constraints[*constraint].kind {
-                *travel = along.nearest(&self.bodies.chains[along.chain], x);
+                *travel = along.nearest(&self.bodies.lines()[along.chain], x);
             }
         }
     }
@@ -120,7 +120,7 @@ impl<const D: usize> System<D> {
     /// Whether a row is one of what joints see: not that a rigid body of space has no coordinates but its own.
     fn is_seen(&self, linear: &Linear<D>) -> bool {
         let mut nodes = linear.row.terms.iter().map(|(node, _)| *node);
-        !nodes.any(|node| self.bodies.frames.holds(node))
+        !nodes.any(|node| self.bodies.holds(node))
     }
 
     /// Returns the left-hand side of a row minus its target.

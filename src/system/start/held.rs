@@ -74,10 +74,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn turn(&mut self, rate: [f64; 3], center: Vector<D>) {
         let arm = carried(rate, center, Vector::zeros());
         let mut arms = vec![[arm.into(), [0.0; D]]; self.bodies.reference.len()];
-        for frame in self.bodies.frames.list() {
-            // Its second node holds axes alone.
-            arms[frame.node + 1] = no_node();
-        }
+        self.bodies.clear_axes(&mut arms);
         let mut weight = std::mem::take(&mut self.weight);
         self.bodies.add_inertia(1.0, &arms, &mut weight);
         self.weight = weight;

@@ -83,8 +83,7 @@ impl<const D: usize> System<D> {
         self.turn_driven(&mut x, work);
         let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
-        self.bodies.frames.keep_held(nodes, &mut x);
-        self.bodies.frames.frames_at(&x, &mut state.frames);
+        (self.bodies).start_frames(nodes, &mut x, &mut state.frames);
         work.resume(&state);
         self.forward_kinematics(time, &state.coordinates, None, work);
         match left {
@@ -149,7 +148,7 @@ impl<const D: usize> System<D> {
         work: &mut Workspace<D>,
         state: &mut State,
     ) -> Option<()> {
-        if self.bodies.chains.is_empty() {
+        if self.bodies.lines().is_empty() {
             return None;
         }
         let mut open = OpenGaps {
@@ -188,18 +187,15 @@ impl<const D: usize> System<D> {
             self.bodies.extent(&work.kinematics.x),
         );
         let fits = gaps.iter().all(|gap| gap.abs() <= CLOSE);
-        let stretched = self
-            .bodies
-            .chains
-            .iter()
-            .any(|c| c.mean_strain(&work.kinematics.x) > STRETCHED);
+        let stretched =
+            (self.bodies.lines().iter()).any(|c| c.mean_strain(&work.kinematics.x) > STRETCHED);
         (fits && !stretched).then_some(())
     }
 
     /// Size of the largest body, with what joins it: length of a cable, reach of the ends of joints from the centre
     /// of mass of a rigid body, length of a distance, m. 0 where there are only particles.
     pub fn body_size(&self) -> f64 {
-        let cables = self.bodies.chains.iter().map(LineChain::length);
+        let cables = self.bodies.lines().iter().map(LineChain::length);
         let joints = self.joints.iter().flat_map(|joint| {
             let reach = joint.ends.each_ref().map(|end| match end.marker() {
                 Some(marker) if marker.element.is_none() => marker.arm(),

@@ -59,13 +59,11 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         way: None,
         release: None,
     };
+    let ranges = std::iter::once(0..nodes.len()).collect();
+    let mut bodies = Bodies::new(nodes, ranges);
+    bodies.add_line(chain);
     let system = System::new(Parts {
-        bodies: Bodies {
-            ranges: std::iter::once(0..nodes.len()).collect(),
-            reference: nodes,
-            chains: vec![chain],
-            ..Bodies::default()
-        },
+        bodies,
         rigid: Vec::new(),
         joints: vec![pin],
         drives: Vec::new(),

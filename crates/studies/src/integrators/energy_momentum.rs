@@ -75,7 +75,7 @@ impl Bar {
         let start = build.start;
         let cables = start.scene.bodies.iter().filter_map(|body| body.flexible());
         let mut bars = Vec::new();
-        for (cable, chain) in cables.zip(&start.assembled.system.bodies().chains) {
+        for (cable, chain) in cables.zip(start.assembled.system.bodies().lines()) {
             for (j, element) in chain.elements().iter().enumerate() {
                 let length = element.length();
                 let axial_stiffness = cable.axial_stiffness_of(&cable.section_at(0.5));

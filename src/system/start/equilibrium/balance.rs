@@ -129,10 +129,8 @@ fn rounded<const D: usize>(
         .tangent
         .apply_stiffness(elimination, &mut noise);
     let mut forces = sample(terms, of_terms);
-    system
-        .bodies
-        .frames
-        .pull_back((&work.kinematics.x, None), &mut forces);
+    let (drives, x) = (&work.kinematics.drives, &work.kinematics.x);
+    system.bodies.pull_back(drives, x, &mut forces);
     let mut summed = noise.clone();
     elimination.reduce(&forces, &mut work.scratch.y, &mut summed);
     (noise.iter_mut().zip(&summed)).for_each(|(noise, sum)| *noise += sum);

@@ -412,7 +412,7 @@ fn first_step<const D: usize>(
     work: &mut Workspace<D>,
     state: &State,
 ) -> f64 {
-    if system.is_conservative() || system.bodies.rod_chains.is_empty() {
+    if system.is_conservative() || system.bodies.all_sections().is_empty() {
         return 1.0;
     }
     let least = smallest_shift(system, inputs, work, state);

@@ -51,7 +51,7 @@ impl<const D: usize> System<D> {
     /// Gives cables without bending stiffness one, from the unstressed shape with these nodal coordinates on: a part of that under which joints
     /// are closed.
     pub(super) fn stiffen(&mut self, part: f64, shape: &[Node<D>]) {
-        for chain in &mut self.bodies.chains {
+        for chain in self.bodies.lines_mut() {
             let stiffness = BENT * chain.axial_stiffness() * chain.length().powi(2);
             chain.stiffen(part * stiffness, shape);
         }
@@ -60,7 +60,7 @@ impl<const D: usize> System<D> {
     /// Whether an element folds back on itself.
     pub(super) fn is_folded(&self, state: &State, work: &mut Workspace<D>) -> bool {
         let x = self.nodes_of(state, work);
-        self.bodies.chains.iter().any(|chain| {
+        self.bodies.lines().iter().any(|chain| {
             let mut elements = 0..chain.elements().len();
             elements.any(|j| chain.is_folded(j, &x))
         })

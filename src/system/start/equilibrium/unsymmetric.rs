@@ -148,10 +148,8 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
     system
         .elimination
         .expand(q, &mut work.scratch.y, &mut work.scratch.other);
-    system
-        .bodies
-        .frames
-        .place_changes(&work.kinematics.x, &mut work.scratch.other);
+    let (drives, x) = (&work.kinematics.drives, &work.kinematics.x);
+    (system.bodies).place_changes(drives, x, &mut work.scratch.other);
     let still: Frozen<Jet> = work.kinematics.frozen();
     let zero = Jet::from_re(0.0);
     let pairs = work.kinematics.x.iter().zip(&work.scratch.other);
@@ -192,10 +190,8 @@ fn skew<const D: usize>(model: &mut DrivenSystem<'_, D>, q: &[f64]) -> Vec<f64> 
         );
     }
     let mut out = vec![0.0; q.len()];
-    system
-        .bodies
-        .frames
-        .pull_back((&work.kinematics.x, None), &mut work.forces.f);
+    let (drives, x) = (&work.kinematics.drives, &work.kinematics.x);
+    system.bodies.pull_back(drives, x, &mut work.forces.f);
     system
         .elimination
         .reduce(&work.forces.f, &mut work.scratch.y, &mut out);

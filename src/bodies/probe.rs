@@ -2,25 +2,29 @@
 
 use nalgebra::DMatrix;
 
-use crate::bodies::{Assembly, Node, NodeBlock, RotationMaps, map_node, no_block};
+use super::assembly::{Assembly, NodeBlock, no_block};
+use super::connectivity::{Node, map_node};
+use super::frame::RotationMaps;
 use crate::elements;
 use crate::math::jet::Jet;
 use crate::math::sparse::General;
 
 /// Part of a block that its transpose must differ by to count as not symmetric.
-pub(super) const SKEW: f64 = 1e-10;
+pub const SKEW: f64 = 1e-10;
 
 /// Nodal vectors that carry derivatives, of which few at a time are not zero.
-pub(super) struct Probe<const D: usize> {
+pub struct Probe<const D: usize> {
     x: Vec<Node<D, Jet>>,
     v: Vec<Node<D, Jet>>,
     f: Vec<Node<D, Jet>>,
 }
 
-pub(super) type Nodes<const D: usize> = [Node<D, Jet>];
+/// Nodal vectors of numbers that carry derivatives.
+pub type Nodes<const D: usize> = [Node<D, Jet>];
 
 impl<const D: usize> Probe<D> {
-    pub(super) fn new(x: &[Node<D>], v: &[Node<D>]) -> Self {
+    /// At nodal coordinates and rates.
+    pub fn new(x: &[Node<D>], v: &[Node<D>]) -> Self {
         let lift = |x: &[Node<D>]| x.iter().map(|x| map_node(x, Jet::from_re)).collect();
         Self {
             x: lift(x),
@@ -30,7 +34,7 @@ impl<const D: usize> Probe<D> {
     }
 
     /// Minus the derivatives, by coordinates or rates, of forces on these nodes that depend on no others.
-    pub(super) fn differentiate(
+    pub fn differentiate(
         &mut self,
         nodes: &[usize],
         by_rates: bool,
@@ -73,26 +77,26 @@ fn part<const D: usize>(whole: &DMatrix<f64>, i: usize, j: usize) -> NodeBlock<D
 }
 
 /// A matrix over a few nodes.
-pub(super) struct NodeBlocks {
+pub struct NodeBlocks {
     nodes: Vec<usize>,
     whole: DMatrix<f64>,
 }
 
 impl NodeBlocks {
     /// The matrix over two nodes, vector by vector.
-    pub(super) fn vectors<const D: usize>(&self) -> elements::Blocks<D> {
+    pub fn vectors<const D: usize>(&self) -> elements::Blocks<D> {
         let part = |r: usize, c: usize| self.whole.fixed_view::<D, D>(r * D, c * D).into();
         std::array::from_fn(|r| std::array::from_fn(|c| part(r, c)))
     }
 
     /// Over nodes.
-    pub(super) fn new(nodes: &[usize], whole: DMatrix<f64>) -> Self {
+    pub fn new(nodes: &[usize], whole: DMatrix<f64>) -> Self {
         let nodes = nodes.to_vec();
         Self { nodes, whole }
     }
 
     /// Transforms the matrix to the coordinates of bodies at this configuration: rotations replace axes.
-    pub(super) fn pulled<const D: usize>(self, frames: &RotationMaps, x: &[Node<D>]) -> Self {
+    pub fn pulled<const D: usize>(self, frames: &RotationMaps, x: &[Node<D>]) -> Self {
         if frames.is_empty() {
             return self;
         }
@@ -105,7 +109,7 @@ impl NodeBlocks {
 
     /// Adds, over the coordinates of bodies, what derivatives by rates make of those that small rotations change: the axes of a
     /// body that is turned by `p` have the rates `p x e'`.
-    pub(super) fn add_turned<const D: usize>(
+    pub fn add_turned<const D: usize>(
         &mut self,
         by_rates: &Self,
         frames: &RotationMaps,
@@ -152,11 +156,13 @@ impl NodeBlocks {
         (nodes, change)
     }
 
-    pub(super) fn is_symmetric(&self) -> bool {
+    /// Whether it is symmetric up to roundoff.
+    pub fn is_symmetric(&self) -> bool {
         (&self.whole - self.whole.transpose()).amax() <= SKEW * self.whole.amax()
     }
 
-    pub(super) fn add<const D: usize>(
+    /// Adds the matrix to one over the free coordinates. What it adds to places that are not stored is told instead: row, column, value.
+    pub fn add<const D: usize>(
         &self,
         assembly: &Assembly<D>,
         matrix: &mut General<f64>,

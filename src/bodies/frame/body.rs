@@ -1,0 +1,183 @@
+//! Rigid bodies of space as bodies.
+
+use nalgebra::{DMatrix, SMatrix, Vector3};
+
+use super::{RigidBodyFrame, RotationMaps, turning_block};
+use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
+use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
+use crate::bodies::connectivity::Node;
+use crate::bodies::linearized::{LinearTerms, LinearizationPoint};
+use crate::bodies::probe::NodeBlocks;
+use crate::bodies::setup::NodeNumber;
+use crate::math::jet::Number;
+use crate::math::space::{Vector, spin_matrix};
+use crate::math::sparse::Matrix;
+
+/// Coordinates of both nodes where the body has not rotated.
+pub(in crate::bodies) fn unplaced<const D: usize>([center, _]: &Node<D>) -> Node<D> {
+    [*center, [0.0; D]]
+}
+
+impl<const D: usize> BodyPart<D> for RigidBodyFrame {
+    fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    fn cost(&self) -> usize {
+        1
+    }
+
+    fn add_links(&self, links: &mut Links) {
+        links.mass.push((self.node, self.node));
+    }
+
+    fn unplace(&self, nodes: &mut [Node<D>]) {
+        let at = unplaced(&nodes[self.node]);
+        nodes[self.node..][..2].fill(at);
+    }
+
+    /// The second node has no coordinates, and the first has no rotation about an axis without inertia.
+    fn add_fixed_numbers(&self, unplaced: &[Node<D>], fixed: &mut Vec<(NodeNumber, f64)>) {
+        for (part, vector) in unplaced[self.node + 1].iter().enumerate() {
+            let numbers = vector.iter().enumerate();
+            fixed.extend(numbers.map(|(axis, value)| ((self.node + 1, part, axis), *value)));
+        }
+        let without = (0..D).filter(|axis| self.moments[*axis] <= 0.0);
+        fixed.extend(without.map(|axis| ((self.node, 1, axis), 0.0)));
+    }
+
+    /// A force on an axis acts on the first node.
+    fn set_owners(&self, owners: &mut [[usize; 2]]) {
+        owners[self.node + 1] = [self.node; 2];
+    }
+
+    fn add_mass(&self, assembly: &Assembly<D>, mass: &mut Matrix<f64>) {
+        let mut block = no_block();
+        for axis in 0..D {
+            block[0][axis][0][axis] = self.mass;
+            block[1][axis][1][axis] = self.moments[axis];
+        }
+        assembly.add(self.node, self.node, &block, mass);
+    }
+
+    fn add_mass_times(
+        &self,
+        axes: &SMatrix<f64, D, D>,
+        (maps, x): (&RotationMaps, &[Node<D>]),
+        assembly: &Assembly<D>,
+        matrix: &mut Matrix<f64>,
+    ) {
+        for (node, part, mass) in self.masses() {
+            let mut block: NodeBlock<D> = no_block();
+            for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
+                block[part][r][part][c] = mass * axes[(r, c)];
+            }
+            maps.pull_block((node, node), &block, x, |a, b, block| {
+                assembly.add(a, b, block, matrix);
+            });
+        }
+    }
+
+    fn add_inertia<N: Number>(&self, s: f64, a: &[Node<D, N>], f: &mut [Node<D, N>]) {
+        for (node, part, mass) in self.masses() {
+            for (f, a) in f[node][part].iter_mut().zip(&a[node][part]) {
+                *f += N::of(s * mass) * *a;
+            }
+        }
+    }
+
+    fn add_weight(&self, gravity: &Vector<D>, f: &mut [Node<D>]) {
+        f[self.node][0] = (gravity * self.mass).into();
+    }
+
+    fn add_quadratic<N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        map: &impl Fn(Vector<D, N>) -> Vector<D, N>,
+        sum: &mut N,
+    ) {
+        for (node, part, mass) in self.masses() {
+            *sum += map(x[node][part].into()).norm_squared() * N::of(mass);
+        }
+    }
+
+    fn add_momentum<N: Number>(
+        &self,
+        motion: NodalMotion<'_, D, N>,
+        _maps: &RotationMaps,
+        sum: &mut Momentum<D, N>,
+    ) {
+        for (node, part, mass) in self.masses() {
+            let [at, rate] = [motion.x, motion.v].map(|of| Vector::from(of[node][part]));
+            let is_center = (node, part) == (self.node, 0);
+            sum.add(at, rate * N::of(mass), is_center);
+        }
+    }
+
+    fn add_center<N: Number>(
+        &self,
+        _drives: &[[N; 3]],
+        x: &[Node<D, N>],
+        sum: &mut Vector<D, N>,
+    ) -> N {
+        *sum += Vector::from(x[self.node][0]) * N::of(self.mass);
+        N::of(0.0)
+    }
+
+    /// Geometric stiffness of forces on the axes, gyroscopic moments, and the Coriolis force in a frame that rotates. Small rotations are
+    /// measured about axes fixed in the frame of the scene, those of the body at the instant. With the angular momentum `L = J w` the moment
+    /// is `J p'' + (w J - J w - L) p'`; each vector stands for the matrix of its cross product.
+    fn linearize(
+        &self,
+        at: &mut LinearizationPoint<'_, D>,
+        maps: &RotationMaps,
+        terms: &mut LinearTerms,
+    ) {
+        let mut none = |_: usize, _: usize, _: f64| {};
+        let (node, (x, v)) = ((self.node, self.node), at.motion.pair());
+        let spin = self.spin(x, v);
+        let mut turned = RotationMaps::geometric(self, at.forces, x);
+        if spin == Vector3::zeros() {
+            // At rest without the moment that speeds the body up, which is none in equilibrium.
+            turned = (turned + turned.transpose()) * 0.5;
+        }
+        let block = turning_block(&turned);
+        (at.assembly).add_block(node, &block, &mut terms.stiffness, &mut none);
+        if spin != Vector3::zeros() {
+            (terms.is_damped, terms.is_symmetric) = (true, false);
+            let gyroscopic = self.inertia_rate(&spin) - self.momentum(&spin).cross_matrix();
+            let block = turning_block(&gyroscopic);
+            (at.assembly).add_block(node, &block, &mut terms.damping, &mut none);
+        }
+        if at.rotation != [0.0; 3] {
+            self.linearize_coriolis(at, maps, terms);
+        }
+    }
+}
+
+impl RigidBodyFrame {
+    /// The Coriolis force in a frame of the scene that rotates.
+    fn linearize_coriolis<const D: usize>(
+        &self,
+        at: &LinearizationPoint<'_, D>,
+        maps: &RotationMaps,
+        terms: &mut LinearTerms,
+    ) {
+        let mut none = |_: usize, _: usize, _: f64| {};
+        let coriolis = spin_matrix::<D>(at.rotation) * 2.0;
+        let nodes = [self.node, self.node + 1];
+        let mut whole = DMatrix::zeros(4 * D, 4 * D);
+        for (node, part, mass) in self.masses() {
+            let place = 2 * D * (node - nodes[0]) + D * part;
+            whole
+                .fixed_view_mut::<D, D>(place, place)
+                .copy_from(&(coriolis * mass));
+        }
+        let by_rates = NodeBlocks::new(&nodes, whole);
+        let mut blocks = NodeBlocks::new(&[self.node], DMatrix::zeros(2 * D, 2 * D));
+        blocks.add_turned(&by_rates, maps, at.motion.pair());
+        blocks.add(at.assembly, &mut terms.stiffness, &mut none);
+        let by_rates = by_rates.pulled(maps, at.motion.x);
+        by_rates.add(at.assembly, &mut terms.damping, &mut none);
+    }
+}
