@@ -13,6 +13,7 @@ mod jacobian;
 mod layout;
 mod line;
 mod linearized;
+mod loaded_line;
 mod lumped;
 mod map;
 mod marker;
@@ -42,6 +43,7 @@ pub use frame::{
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use linearized::{ElementTangent, LinearTerms, LinearizationPoint};
+pub use loaded_line::{LinePoint, LoadedLine, PANELS};
 pub use lumped::{LumpedMass, RigidRod};
 pub use map::{Rotations, ScratchVectors};
 pub use marker::{Marker, Partial, block_of};

@@ -1,9 +1,9 @@
 //! From the description of a mechanism to the product's system.
 
-use flexbody::bodies::{Bodies, LineChain, LumpedMass, Marker, Node};
+use flexbody::bodies::{Bodies, LineChain, LoadedLine, LumpedMass, Marker, Node};
 use flexbody::system::joints::{JointEquations, Primitive};
 use flexbody::system::loads::{
-    AppliedLoad, DistributedForce, Force, JointSpring, LineLoad, LoadedLine, Moment, Spring,
+    AppliedLoad, DistributedForce, Force, JointSpring, LineLoad, Moment, Spring,
 };
 use flexbody::system::{
     Angle, Attachment, BuildError, Coordinate, Drive, DrivenSystem, Evaluation, NotAssembled,

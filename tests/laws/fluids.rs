@@ -1,11 +1,9 @@
 //! Fluids along cables in random states: damping by differences, power.
 
-use flexbody::bodies::{Node, NodeBlock};
+use flexbody::bodies::{LoadedLine, Node, NodeBlock};
 use flexbody::math::quadrature::GAUSS_5;
 use flexbody::math::space::Vector;
-use flexbody::system::loads::{
-    AppliedLoad, Fluid, FluidSegment, ForceElement as _, LineLoad, LoadedLine,
-};
+use flexbody::system::loads::{AppliedLoad, Fluid, FluidSegment, ForceElement as _, LineLoad};
 use flexbody::system::{Instant, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

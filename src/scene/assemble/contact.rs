@@ -1,13 +1,14 @@
 //! Contacts of markers and of bodies with surfaces.
 
 use super::{Builder, unit};
+use crate::bodies::PANELS;
 use crate::bodies::{Marker, RigidRod};
 use crate::elements::Element;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
 use crate::scene::description::Surface;
 use crate::scene::resolved::{Cable, ContactBody, Form, ResolvedContact};
-use crate::system::loads::{self, AppliedLoad, ContactPoint, PANELS};
+use crate::system::loads::{self, AppliedLoad, ContactPoint};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn contact(&self, contact: &ResolvedContact<'_>) -> AppliedLoad<D> {

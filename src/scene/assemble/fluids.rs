@@ -1,12 +1,13 @@
 //! Fluids along bodies, and the mass that moves along with these.
 
 use super::{Builder, loads::uniform};
+use crate::bodies::{LoadedLine, PANELS};
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
 use crate::scene::Error;
 use crate::scene::description::SectionNumbers;
 use crate::scene::resolved::{Cable, Form, LoadKind, Resolved, ResolvedFluid};
-use crate::system::loads::{self, AppliedLoad, FluidSegment, LoadedLine, PANELS};
+use crate::system::loads::{self, AppliedLoad, FluidSegment};
 
 impl Resolved<'_> {
     /// Mass of all fluids that move along with a body at a section, kg/m.

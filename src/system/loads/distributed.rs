@@ -1,29 +1,19 @@
 //! A dead force per reference length of a cable or a rod.
 
 use super::line_load::LineLoad;
-use super::{ForceElement, Instant, PANELS};
+use super::{ForceElement, Instant};
 use crate::bodies::winch::{PaidOut, longer_by};
-use crate::bodies::{LineChain, Node, RigidRod};
-use crate::elements::Element;
-use crate::elements::shape::{self, Values, weights};
+use crate::bodies::{LoadedLine, Node};
+use crate::elements::shape::{self, Values};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
 use crate::system::signal::Signal;
 
-/// Line that a load is distributed along.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LoadedLine {
-    /// A chain.
-    Chain(usize),
-    /// A rod.
-    Rod(RigidRod),
-}
-
 /// A distributed force.
 #[derive(Clone, Debug)]
 pub struct DistributedForce<const D: usize = 2> {
-    /// Line that the force acts along. Its segments are the elements of a chain, or [`PANELS`] equal parts of a rod.
+    /// Line that the force acts along.
     pub on: LoadedLine,
     /// Components, N/m.
     pub density: LineLoad<D>,
@@ -37,10 +27,7 @@ impl<const D: usize> DistributedForce<D> {
 
     /// The cable, if a winch pays it out.
     fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
-        match self.on {
-            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.bodies.lines())),
-            LoadedLine::Rod(_) => None,
-        }
+        self.on.paid_out(at.bodies, at.drives)
     }
 
     fn longer_by<N: Number>(&self, at: Instant<'_, D, N>) -> N {
@@ -57,29 +44,6 @@ impl<const D: usize> DistributedForce<D> {
         self.density.changing(at, segment).map(|load| load * longer)
     }
 
-    /// First node of the body that it acts on.
-    pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
-        match self.on {
-            LoadedLine::Chain(chain) => chains[chain].first_node(),
-            LoadedLine::Rod(rod) => rod.node,
-        }
-    }
-
-    /// Forces on the nodes of a load of one N/m along every axis, on position and direction: on a chain the integrals of its
-    /// shape functions; on a rod in the middle.
-    fn each(&self, chains: &[LineChain<D>], mut add: impl FnMut(usize, [f64; 2])) {
-        let chain = match self.on {
-            LoadedLine::Chain(chain) => &chains[chain],
-            LoadedLine::Rod(rod) => return add(rod.node, [rod.length, 0.0]),
-        };
-        for (j, element) in chain.elements().iter().enumerate() {
-            let weights = shape::integrals(1.0, element.length());
-            let [a, b] = chain.nodes(j);
-            add(a, [weights[0], weights[1]]);
-            add(b, [weights[2], weights[3]]);
-        }
-    }
-
     /// Forces on the nodes of what changes along the body, Gauss point by point, and what they are on position and direction.
     fn each_changing<N: Number>(
         &self,
@@ -89,27 +53,10 @@ impl<const D: usize> DistributedForce<D> {
         if !self.density.changes() {
             return;
         }
-        let chain = match self.on {
-            LoadedLine::Chain(chain) => &at.bodies.lines()[chain],
-            LoadedLine::Rod(rod) => {
-                for panel in 0..PANELS {
-                    let values = self.values(at, panel);
-                    for (point, load) in GAUSS_5.iter().zip(&values) {
-                        let part = rod.length / PANELS as f64;
-                        let arm = (panel as f64 + point.at) * part - 0.5 * rod.length;
-                        let weight = point.weight * part;
-                        add(rod.node, [weight, weight * arm], load);
-                    }
-                }
-                return;
-            }
-        };
-        for (j, element) in chain.elements().iter().enumerate() {
-            let [a, b] = chain.nodes(j);
-            let values = self.values(at, j);
-            for (weights, load) in weights(element.length()).iter().zip(&values) {
-                add(a, [weights[0], weights[1]], load);
-                add(b, [weights[2], weights[3]], load);
+        for segment in 0..self.on.segments(at.bodies) {
+            for (point, load) in self.values(at, segment).iter().enumerate() {
+                let point = self.on.point(at.bodies, segment, point);
+                point.for_each_node(|node, weights| add(node, weights, load));
             }
         }
     }
@@ -123,7 +70,7 @@ impl<const D: usize> DistributedForce<D> {
                 sum += load.dot(&Vector::from(field[node][k])) * N::of(weight);
             }
         };
-        self.each(at.bodies.lines(), |node, weights| add(node, weights, &load));
+        (self.on).for_each_integral(at.bodies, |node, weights| add(node, weights, &load));
         self.each_changing(at, add);
         sum
     }
@@ -157,7 +104,7 @@ impl<const D: usize> ForceElement<D> for DistributedForce<D> {
                 }
             }
         };
-        self.each(at.bodies.lines(), |node, weights| add(node, weights, &load));
+        (self.on).for_each_integral(at.bodies, |node, weights| add(node, weights, &load));
         self.each_changing(at, add);
     }
 
@@ -175,7 +122,7 @@ impl<const D: usize> ForceElement<D> for DistributedForce<D> {
         first: usize,
         segment: usize,
     ) -> Option<Values<D, N>> {
-        let is_on = self.density.changes() && self.first_node(at.bodies.lines()) == first;
+        let is_on = self.density.changes() && self.on.first_node(at.bodies) == first;
         is_on.then(|| self.values(at, segment))
     }
 

@@ -13,12 +13,10 @@
 use crate::elements::shape::Values;
 use nalgebra::SMatrix;
 
-use super::distributed::LoadedLine;
 use super::line_load::LineLoad;
-use super::{Add, ForceElement, Instant, PANELS};
+use super::{Add, ForceElement, Instant};
 use crate::bodies::winch::{PaidOut, longer_by};
-use crate::bodies::{Bodies, LineChain, Node, no_block};
-use crate::elements::{Element, shape};
+use crate::bodies::{Bodies, LinePoint, LoadedLine, Node, no_block};
 use crate::math::function::Function;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
@@ -39,7 +37,7 @@ pub struct FluidSegment {
 /// A fluid along a body.
 #[derive(Clone, Debug)]
 pub struct Fluid<const D: usize = 2> {
-    /// Line that the fluid acts on. Its segments are the elements of a chain, or [`PANELS`] equal parts of a rod.
+    /// Line that the fluid acts on.
     pub on: LoadedLine,
     /// Coefficients at the Gauss points of all segments, one segment after another.
     pub strips: Vec<FluidSegment>,
@@ -52,26 +50,6 @@ pub struct Fluid<const D: usize = 2> {
     pub carried: (Vector<D>, [f64; 3]),
     /// Part of the force that acts.
     pub fraction: f64,
-}
-
-/// A Gauss point: the nodes that it lies between, twice the same of a rod; what position and slope are of theirs; and the length that it
-/// stands for, m.
-struct FluidPoint {
-    nodes: [usize; 2],
-    position: [f64; 4],
-    slope: [f64; 4],
-    weight: f64,
-}
-
-impl FluidPoint {
-    /// The sum of nodal vectors with weights.
-    fn sum<const D: usize, N: Number>(&self, weights: &[f64; 4], x: &[Node<D, N>]) -> Vector<D, N> {
-        let mut sum = Vector::zeros();
-        for (k, weight) in weights.iter().enumerate() {
-            sum += Vector::from(x[self.nodes[k / 2]][k % 2]) * N::of(*weight);
-        }
-        sum
-    }
 }
 
 /// The velocity of the fluid past a place: along the tangent, a unit vector, and across it.
@@ -129,40 +107,6 @@ impl<const D: usize> Fluid<D> {
         self.strips.len() / GAUSS_5.len()
     }
 
-    /// First node of the body that it streams past.
-    pub(in crate::system) fn first_node(&self, chains: &[LineChain<D>]) -> usize {
-        match self.on {
-            LoadedLine::Chain(chain) => chains[chain].first_node(),
-            LoadedLine::Rod(rod) => rod.node,
-        }
-    }
-
-    fn place(&self, chains: &[LineChain<D>], segment: usize, point: usize) -> FluidPoint {
-        let point = GAUSS_5[point];
-        match self.on {
-            LoadedLine::Chain(chain) => {
-                let chain = &chains[chain];
-                let length = chain.elements()[segment].length();
-                FluidPoint {
-                    nodes: chain.nodes(segment),
-                    position: shape::values(point.at, length).into(),
-                    slope: shape::slopes(point.at, length).into(),
-                    weight: point.weight * length,
-                }
-            }
-            LoadedLine::Rod(rod) => {
-                let part = rod.length / PANELS as f64;
-                let arm = (segment as f64 + point.at) * part - 0.5 * rod.length;
-                FluidPoint {
-                    nodes: [rod.node; 2],
-                    position: [1.0, arm, 0.0, 0.0],
-                    slope: [0.0, 1.0, 0.0, 0.0],
-                    weight: point.weight * part,
-                }
-            }
-        }
-    }
-
     /// The current at the Gauss points of a segment by what its components are: their values or their rates.
     fn current<N: Number>(&self, segment: usize, of: impl Fn(&Signal) -> N + Copy) -> Values<D, N> {
         let uniform: Vector<D, N> = self.current.uniform.each_ref().map(of).into();
@@ -176,7 +120,7 @@ impl<const D: usize> Fluid<D> {
     fn flow<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        (place, (segment, xi)): (&FluidPoint, (usize, f64)),
+        (place, (segment, xi)): (&LinePoint, (usize, f64)),
         (current, paid_out): (Vector<D, N>, Option<&PaidOut<'_, D, N>>),
     ) -> Flow<D, N> {
         let (velocity, rate) = self.carried;
@@ -208,17 +152,14 @@ impl<const D: usize> Fluid<D> {
         &self,
         at: Instant<'_, D, N>,
         segment: usize,
-        mut call: impl FnMut(&FluidPoint, &Flow<D, N>, &FluidSegment, Vector<D, N>),
+        mut call: impl FnMut(&LinePoint, &Flow<D, N>, &FluidSegment, Vector<D, N>),
     ) {
         let current = self.current(segment, |signal| signal.value(at));
         let rates = self.current(segment, |signal| signal.rate(at));
-        let paid_out = match self.on {
-            LoadedLine::Chain(_) => at.paid_out(self.first_node(at.bodies.lines())),
-            LoadedLine::Rod(_) => None,
-        };
+        let paid_out = self.on.paid_out(at.bodies, at.drives);
         for (point, (current, rate)) in current.into_iter().zip(rates).enumerate() {
             let strip = &self.strips[GAUSS_5.len() * segment + point];
-            let place = self.place(at.bodies.lines(), segment, point);
+            let place = self.on.point(at.bodies, segment, point);
             let on = (&place, (segment, GAUSS_5[point].at));
             let flow = self.flow(at, on, (current, paid_out.as_ref()));
             let force = flow.drag(strip.drag) + rate * N::of(strip.inert)
@@ -253,15 +194,9 @@ impl<const D: usize> Fluid<D> {
 impl<const D: usize> ForceElement<D> for Fluid<D> {
     /// Nodes of its segments.
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        match self.on {
-            LoadedLine::Chain(chain) => {
-                let segments = 0..self.segments();
-                segments
-                    .map(|j| bodies.lines()[chain].nodes(j).to_vec())
-                    .collect()
-            }
-            LoadedLine::Rod(rod) => vec![vec![rod.node]; self.segments()],
-        }
+        let segments = 0..self.segments();
+        let nodes = segments.map(|j| self.on.nodes(bodies, j).to_vec());
+        nodes.collect()
     }
 
     /// Adds its forces on a segment.
@@ -359,7 +294,7 @@ impl<const D: usize> ForceElement<D> for Fluid<D> {
         first: usize,
         segment: usize,
     ) -> Option<Values<D, N>> {
-        (self.first_node(at.bodies.lines()) == first).then(|| self.values(at, segment))
+        (self.on.first_node(at.bodies) == first).then(|| self.values(at, segment))
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {

@@ -19,7 +19,7 @@ mod table_spring;
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
 pub use contact::{Contact, ContactPoint, ContactSurface};
 pub use convective_inertia::ConvectiveInertia;
-pub use distributed::{DistributedForce, LoadedLine};
+pub use distributed::DistributedForce;
 pub use distributed_moment::DistributedMoment;
 pub use fluid::{Fluid, FluidSegment};
 pub use force::Force;
@@ -38,9 +38,6 @@ use crate::bodies::{Bodies, Node};
 use crate::elements::shape::Values;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-
-/// Even parts of a body that does not bend in which what changes along it is integrated.
-pub const PANELS: usize = 8;
 
 /// Load on bodies.
 ///

@@ -7,14 +7,13 @@ use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
 use super::section::integral;
-use crate::bodies::{Marker, RigidRod};
+use crate::bodies::{Marker, PANELS, RigidRod};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, carried, moment};
 use crate::system::System;
 use crate::system::end::Attachment;
 use crate::system::loads::ForceElement as _;
-use crate::system::loads::PANELS;
 
 /// Part of the length of a rod within which what acts is at one place.
 const ROUNDOFF: f64 = 1e-9;

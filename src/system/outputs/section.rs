@@ -180,7 +180,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut sum = Vector::zeros();
         for load in &system.loads {
             if let AppliedLoad::DistributedForce(load) = load
-                && load.first_node(system.bodies.lines()) == first
+                && load.on.first_node(&system.bodies) == first
             {
                 sum += load.uniform(at);
             }
