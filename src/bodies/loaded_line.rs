@@ -30,7 +30,7 @@ pub struct LinePoint {
     pub nodes: [usize; 2],
     /// Weights of position and direction of both nodes in its position.
     pub position: [f64; 4],
-    /// The same in its slope.
+    /// Weights of position and direction of both nodes in its slope.
     pub slope: [f64; 4],
     /// Length that it stands for, m.
     pub weight: f64,

@@ -7,6 +7,7 @@ mod assembly;
 mod body;
 mod chain;
 mod connectivity;
+mod drawn;
 mod elimination;
 mod frame;
 mod jacobian;
@@ -36,6 +37,7 @@ pub use connectivity::{
     Cluster, ConnectivityRow, Dependent, Node, RANK_TOLERANCE, add_node, carried_node,
     largest_turn, map_node, no_node, product, tied_with,
 };
+pub use drawn::LineStance;
 pub use elimination::Elimination;
 pub use frame::{
     AngularAccelerations, Axes, AxisMotion, Derivative, NodeKind, RENEWED, RigidBodyFrame,

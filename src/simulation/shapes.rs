@@ -6,7 +6,7 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::bodies::{LineChain, Marker, Node, axes_at, combined};
+use crate::bodies::{LineStance, Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId};
 use crate::system::{Evaluation, State, System};
@@ -208,8 +208,7 @@ impl<const D: usize> Engine<D> {
         let of = |body: usize| {
             let bends = bodies.line(body);
             let bends = bends.map(|chain| values.elastic_displacement(system, chain, nodes));
-            let is_rod = bodies.rod(bodies.ranges[body].start).is_some();
-            bends.or(is_rod.then_some(0.0))
+            bends.or(bodies.is_along_line(body).then_some(0.0))
         };
         (0..bodies.ranges.len()).filter_map(of).collect()
     }
@@ -277,21 +276,12 @@ pub(super) fn drawn<const D: usize>(quantity: Quantity, assembled: &Assembled<D>
 
 /// How a body stands.
 fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) -> Pose {
-    let (system, bodies) = (&assembled.system, assembled.system.bodies());
-    if let Some(chain) = bodies.line(body) {
-        return chain_pose(system, chain, x);
+    let bodies = assembled.system.bodies();
+    if let Some(LineStance { nodes, axes }) = bodies.line_stance(body, x) {
+        return Pose { nodes, axes };
     }
     let first = bodies.ranges[body].start;
-    let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
-    let [position, slope] = [vector(first, 0), vector(first, 1)];
-    if let Some(rod) = bodies.rod(first) {
-        let way = Vector3::from(slope) * (0.5 * rod.length);
-        let ends = [-way, way].map(|way| (Vector3::from(position) + way).into());
-        return Pose {
-            nodes: ends.map(|end| [end, slope]).into(),
-            axes: Vec::new(),
-        };
-    }
+    let [position, slope] = [0, 1].map(|part| components(&Vector::from(x[first][part])));
     if bodies.rigid_at(first).is_none() {
         return Pose {
             nodes: vec![[position, slope]],
@@ -308,48 +298,14 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     }
 }
 
-fn chain_pose<const D: usize>(system: &System<D>, chain: &LineChain<D>, x: &[Node<D>]) -> Pose {
-    let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
-    let nodes = chain.range().map(|node| [0, 1].map(|k| vector(node, k)));
-    let mut axes = Vec::new();
-    if let Some(sections) = system.bodies().sections(chain) {
-        for element in 0..sections.count() {
-            let ends = sections.at(element, x).axes;
-            // Every element tells of both its ends; its first is the last of the one before.
-            axes.extend_from_slice(&ends[usize::from(element > 0)..]);
-        }
-    }
-    Pose {
-        nodes: nodes.collect(),
-        axes,
-    }
-}
-
 fn outlines<const D: usize>(
     system: &System<D>,
     x: &[Node<D>],
     parts: &dyn Fn(usize) -> u32,
 ) -> Vec<Vec<[f64; 3]>> {
-    let first = |body: usize| system.bodies().ranges[body].start;
-    let mut found: Vec<Vec<[f64; 3]>> = (0..system.bodies().ranges.len())
-        .map(|body| vec![components(&Vector::from(x[first(body)][0]))])
-        .collect();
-    for chain in system.bodies().lines() {
-        let parts = parts(chain.elements().len());
-        let along = |part: u32| chain.length() * f64::from(part) / f64::from(parts);
-        if let Some(body) = system.bodies().body_from(chain.first_node()) {
-            let place = |part| Marker::along(body, chain, along(part)).position(x);
-            found[body] = (0..=parts).map(|part| components(&place(part))).collect();
-        }
-    }
-    for rod in system.bodies().rods() {
-        if let Some(body) = system.bodies().body_from(rod.node) {
-            let ends = [-0.5, 0.5].map(|part| [part * rod.length, 0.0]);
-            let ends = ends.map(|end| Marker::rigid(body, rod.node, end).position(x));
-            found[body] = ends.iter().map(components).collect();
-        }
-    }
-    found
+    let bodies = system.bodies();
+    let of = |body: usize| bodies.outline(body, x, parts);
+    (0..bodies.ranges.len()).map(of).collect()
 }
 
 #[cfg(test)]
