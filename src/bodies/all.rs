@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use super::body::{BodyPart, each};
 use super::connectivity::Node;
-use super::frame::{NodeKind, RigidBodyFrame, RotationMaps};
+use super::frame::{RigidBodyFrame, SectionFrame};
+use super::nodes::{NodeKind, NodeOwner};
 use super::winch::PaidOut;
 use super::{LineChain, LumpedMass, Marker, RigidRod, RodChain, Winch};
 use crate::math::jet::Number;
@@ -26,8 +27,12 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) masses: Vec<LumpedMass>,
     /// Straight rigid bodies whose sections are read.
     pub(super) rods: Vec<RigidRod>,
-    /// Rigid bodies of space, and frames of sections in space.
-    pub(super) frames: RotationMaps,
+    /// Rigid bodies of space.
+    pub(super) rigid: Vec<RigidBodyFrame>,
+    /// What every node belongs to, `[nodes]`.
+    pub(super) owners: Vec<NodeOwner>,
+    /// Number of frames that a state holds: of rigid bodies of space, then of sections.
+    pub(super) frame_count: usize,
     /// Whether a winch pays out any of the lines.
     pub(super) pays_out: bool,
 }
@@ -36,7 +41,7 @@ impl<const D: usize> Bodies<D> {
     /// Whether nothing has axes of its own, no rigid body of space and no rod: known when compiling for the plane.
     #[inline(always)]
     pub fn has_no_frames(&self) -> bool {
-        D == 2 || self.frames.is_empty()
+        D == 2 || self.frame_count == 0
     }
 
     /// Whether nodal coordinates are those that are integrated: no rotations and no cable of changing length.
@@ -111,17 +116,22 @@ impl<const D: usize> Bodies<D> {
 
     /// Number of frames that a state holds: of rigid bodies of space, then of sections.
     pub fn frame_count(&self) -> usize {
-        self.frames.count()
+        self.frame_count
     }
 
     /// Number of sections whose moments are forces of their own: those of space.
     pub fn moments(&self) -> usize {
-        self.frames.carried().len()
+        self.frame_count - self.rigid.len()
+    }
+
+    /// Frames of sections in space, body by body.
+    pub(super) fn section_frames(&self) -> impl Iterator<Item = &SectionFrame> {
+        self.sections.iter().flat_map(RodChain::section_frames)
     }
 
     /// Rigid bodies of space.
     pub fn rigid(&self) -> &[RigidBodyFrame] {
-        self.frames.list()
+        &self.rigid
     }
 
     /// The body with this first node. Bodies stand in the order of their nodes.

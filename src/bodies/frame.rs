@@ -27,11 +27,8 @@ mod turn;
 use nalgebra::{Matrix3, Vector3};
 
 use super::connectivity::Node;
-use super::map::Rotations;
-use super::marker::Marker;
 use crate::math::jet::Number;
-use crate::math::rotation::{Quaternion, axes, normalized, quaternion};
-use crate::math::space::{Vector, components, is_nothing, vector};
+use crate::math::space::{components, vector};
 
 pub(super) use body::unplaced;
 pub use derivatives::{AngularAccelerations, AxisMotion};
@@ -50,6 +47,8 @@ pub type Axes<N = f64> = [Vector3<N>; 3];
 pub struct RigidBodyFrame {
     /// Index of the first node. The second node follows it.
     pub node: usize,
+    /// Index among the rigid bodies of space.
+    pub(super) index: usize,
     /// Mass, kg.
     pub mass: f64,
     /// Principal moments of inertia, kg m^2; zero about the axis of a thin rod.
@@ -97,6 +96,17 @@ fn set_axes_at<const D: usize, N: Number>(node: usize, axes: &Axes<N>, x: &mut [
 }
 
 impl RigidBodyFrame {
+    /// With its first node, mass (kg) and principal moments of inertia (kg m^2). A system finds where its rotations are.
+    pub fn new(node: usize, mass: f64, moments: [f64; 3]) -> Self {
+        Self {
+            node,
+            index: 0,
+            mass,
+            moments,
+            places: [None; 3],
+        }
+    }
+
     /// Returns the axes of the body, or their rates where `x` holds rates.
     pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         axes_at(self.node, x)
@@ -196,280 +206,5 @@ impl RigidBodyFrame {
     pub fn read(&self, q: &[f64]) -> Vector3<f64> {
         let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| q[at] / scale);
         self.places.map(value).into()
-    }
-}
-
-/// Meaning of the two vectors of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NodeKind {
-    /// A position and a direction.
-    Point,
-    /// Two axes.
-    Axes,
-    /// Neither: numbers inside an element.
-    Inner,
-}
-
-/// Stands for no frame in [`RotationMaps::of_node`].
-const NO_FRAME: usize = usize::MAX;
-
-/// The rigid bodies of a system in space, and the frames that its rods carry; none in the plane, so that what is asked of them
-/// there is nothing when it is compiled (`D == 2`).
-#[derive(Clone, Debug, Default)]
-pub struct RotationMaps {
-    list: Vec<RigidBodyFrame>,
-    carried: Vec<SectionFrame>,
-    /// For every node its body, or after those its carried frame, and whether it is the second node of that.
-    of_node: Vec<Option<(usize, bool)>>,
-}
-
-impl RotationMaps {
-    /// For these bodies and carried frames, among so many nodes, of which these are inside elements, and these hold directions of
-    /// planar sections.
-    pub fn new(
-        list: Vec<RigidBodyFrame>,
-        carried: Vec<SectionFrame>,
-        nodes: (
-            usize,
-            impl Iterator<Item = usize>,
-            impl Iterator<Item = usize>,
-        ),
-    ) -> Self {
-        let (nodes, inner, planar) = nodes;
-        let mut of_node = vec![None; nodes];
-        inner.for_each(|node| of_node[node] = Some((NO_FRAME, false)));
-        planar.for_each(|node| of_node[node] = Some((NO_FRAME, true)));
-        let firsts = list.iter().map(|frame| frame.node);
-        let firsts = firsts.chain(carried.iter().map(|frame| frame.node));
-        for (index, first) in firsts.enumerate() {
-            of_node[first] = Some((index, false));
-            of_node[first + 1] = Some((index, true));
-        }
-        Self {
-            list,
-            carried,
-            of_node,
-        }
-    }
-
-    /// How many there are: bodies, then carried ones, in the order of the state's.
-    pub fn count(&self) -> usize {
-        self.list.len() + self.carried.len()
-    }
-
-    /// The bodies.
-    pub fn list(&self) -> &[RigidBodyFrame] {
-        &self.list
-    }
-
-    /// Adds a rigid body. [`Bodies::complete`](super::Bodies::complete) finds its nodes.
-    pub fn push(&mut self, frame: RigidBodyFrame) {
-        self.list.push(frame);
-    }
-
-    /// The bodies, to be changed.
-    pub fn list_mut(&mut self) -> &mut [RigidBodyFrame] {
-        &mut self.list
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.list.is_empty() && self.carried.is_empty()
-    }
-
-    /// The body that a node belongs to, and whether it is its second node.
-    #[inline(always)]
-    pub fn of_node<const D: usize>(&self, node: usize) -> Option<(&RigidBodyFrame, bool)> {
-        if D == 2 || self.list.is_empty() {
-            return None;
-        }
-        let (index, is_second) = self.of_node[node]?;
-        Some((self.list.get(index)?, is_second))
-    }
-
-    /// Which body of [`Self::list`] a node is the first of.
-    pub fn body_of(&self, node: usize) -> Option<usize> {
-        let of = self.of_node.get(node).copied().flatten();
-        let index = of
-            .filter(|(_, is_second)| !is_second)
-            .map(|(index, _)| index);
-        index.filter(|index| *index < self.list.len())
-    }
-
-    /// Axes at coordinates over the nodes, which hold rotations before.
-    pub fn place<const D: usize>(
-        &self,
-        from: &[Quaternion],
-        rotations: &mut Rotations,
-        x: &mut [Node<D>],
-    ) {
-        if D == 2 {
-            return;
-        }
-        self.place_carried(&from[self.list.len()..], &mut rotations.sections, x);
-        for ((frame, from), turn) in self.list.iter().zip(from).zip(&mut rotations.rigid) {
-            turn.rotation = components(&x[frame.node][1].into()).into();
-            frame.set_axes(&axes(&turn.quaternion(from)), x);
-        }
-    }
-
-    /// Rates of axes, whose places hold rates of rotations before.
-    pub fn place_rates<const D: usize>(
-        &self,
-        x: &[Node<D>],
-        rotations: &mut Rotations,
-        v: &mut [Node<D>],
-    ) {
-        if D == 2 {
-            return;
-        }
-        self.place_carried_rates(x, &mut rotations.sections, v);
-        for (frame, turn) in self.list.iter().zip(&mut rotations.rigid) {
-            turn.rate = components(&v[frame.node][1].into()).into();
-            turn.spin = turn.spin_of(&turn.rate);
-            frame.set_axes(&turned(&frame.axes(x), &turn.spin), v);
-        }
-    }
-
-    /// Changes of axes to first order, whose places hold small rotations about them before.
-    pub fn place_changes<const D: usize, N: Number>(
-        &self,
-        x: &[Node<D, N>],
-        dx: &mut [Node<D, N>],
-    ) {
-        if D == 2 {
-            return;
-        }
-        self.place_carried_changes(x, dx);
-        for frame in &self.list {
-            let turn = components(&dx[frame.node][1].into()).into();
-            frame.set_axes(&turned(&frame.axes(x), &turn), dx);
-        }
-    }
-
-    /// Adds to accelerations of axes what their spins alone ask for: `w x (w x e)`.
-    pub fn add_centripetal<const D: usize, N: Number>(
-        &self,
-        (x, v): (&[Node<D, N>], &[Node<D, N>]),
-        a: &mut [Node<D, N>],
-    ) {
-        if D == 2 {
-            return;
-        }
-        self.add_carried_centripetal((x, v), a);
-        for frame in &self.list {
-            let by_spin = turned(&frame.axes(v), &frame.spin(x, v));
-            let sum = frame.axes(a);
-            frame.set_axes(&std::array::from_fn(|k| sum[k] + by_spin[k]), a);
-        }
-    }
-
-    /// Pulls forces on position and direction of a marker back to the coordinates of its body: forces and moments per
-    /// node, passed to `term`. Returns false if the marker is on no body with a frame.
-    #[inline(always)]
-    pub fn pull_marker<const D: usize, N: Number>(
-        &self,
-        marker: &Marker<N>,
-        forces: [&Vector<D, N>; 2],
-        x: &[Node<D, N>],
-        term: &mut impl FnMut(usize, &Node<D, N>),
-    ) -> bool {
-        if D == 2 || self.is_empty() || !marker.is_framed() {
-            return false;
-        }
-        let axes = axes_at(marker.nodes[0], x);
-        let along = |force: &Vector<D, N>| {
-            let force = Vector3::from(components(force));
-            Vector3::new(
-                axes[0].dot(&force),
-                axes[1].dot(&force),
-                axes[2].dot(&force),
-            )
-        };
-        let [point, direction] = marker.components();
-        let mut moment = point.cross(&along(forces[0]));
-        if !is_nothing(forces[1]) {
-            moment += direction.cross(&along(forces[1]));
-        }
-        let force = (*forces[0]).into();
-        match self.carried_of::<D>(marker.nodes[0]) {
-            Some((frame, _)) => Self::pull_on_carried(frame, (&force, &moment), x, term),
-            None => term(
-                marker.nodes[0],
-                &[force, vector::<D, N>(moment.into()).into()],
-            ),
-        }
-        true
-    }
-
-    /// Forces over the nodes become those on centres of mass and moments along axes; with the spins of `v`, less what
-    /// these ask for.
-    pub fn pull_back<const D: usize, N: Number>(
-        &self,
-        (x, v): (&[Node<D, N>], Option<&[Node<D, N>]>),
-        f: &mut [Node<D, N>],
-    ) {
-        if D == 2 {
-            return;
-        }
-        self.pull_carried(x, f);
-        for frame in &self.list {
-            let mut moment = RigidBodyFrame::moment(&frame.axes(x), &frame.axes(f));
-            if let Some(v) = v {
-                moment += frame.gyroscopic(&frame.spin(x, v));
-            }
-            f[frame.node][1] = vector::<D, N>(moment.into()).into();
-            f[frame.node + 1] = [[N::of(0.0); D]; 2];
-        }
-    }
-
-    /// Frames at nodal coordinates.
-    pub fn frames_at<const D: usize>(&self, x: &[Node<D>], frames: &mut [Quaternion]) {
-        let nodes = self.list.iter().map(|frame| frame.node);
-        let nodes = nodes.chain(self.carried.iter().map(|frame| frame.node));
-        for (node, at) in nodes.zip(frames) {
-            *at = normalized(quaternion(&axes_at(node, x)));
-        }
-    }
-
-    /// For every body its first node, its frame, and the quaternion at coordinates on the same side of it.
-    pub fn quaternions<'a>(
-        &'a self,
-        frames: &'a mut [Quaternion],
-        q: &'a [f64],
-    ) -> impl Iterator<Item = (usize, &'a mut Quaternion, Quaternion)> {
-        (self.list.iter().zip(frames)).map(|(frame, from)| {
-            let now = normalized(frame.turn(q).quaternion(from));
-            (frame.node, from, now)
-        })
-    }
-
-    /// Returns the meaning of the two vectors of a node.
-    pub fn kind(&self, node: usize) -> NodeKind {
-        match self.of_node.get(node).copied().flatten() {
-            Some((NO_FRAME, false)) => NodeKind::Inner,
-            Some((_, true)) => NodeKind::Axes,
-            _ => NodeKind::Point,
-        }
-    }
-
-    /// Whether a node belongs to a frame or is inside an element: rows between its numbers are none that joints see.
-    pub fn holds(&self, node: usize) -> bool {
-        let of = self.of_node.get(node).copied().flatten();
-        of.is_some_and(|of| of != (NO_FRAME, true))
-    }
-
-    /// Whether a node is the first of a frame, which its axes begin in.
-    pub fn has_axes(&self, node: usize) -> bool {
-        self.kind(node) == NodeKind::Point && self.holds(node)
-    }
-
-    /// The place of the frame that a node belongs to, in the order of the state's.
-    pub fn index_of(&self, node: usize) -> Option<usize> {
-        self.of_node
-            .get(node)
-            .copied()
-            .flatten()
-            .map(|(index, _)| index)
     }
 }

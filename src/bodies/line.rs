@@ -6,7 +6,6 @@ use super::LineChain;
 use super::assembly::{Assembly, Links, no_block};
 use super::body::{BodyPart, Momentum, NodalMotion};
 use super::connectivity::{Node, no_node};
-use super::frame::RotationMaps;
 use super::linearized::{ElementTangent, LinearTerms, LinearizationPoint};
 use super::probe::Nodes;
 use super::stages::RotatingNodes;
@@ -49,7 +48,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     fn add_mass_times(
         &self,
         axes: &SMatrix<f64, D, D>,
-        _at: (&RotationMaps, &[Node<D>]),
+        _x: &[Node<D>],
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
@@ -72,7 +71,6 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     fn add_force(
         &self,
         motion: NodalMotion<'_, D>,
-        _maps: &RotationMaps,
         (f, _): (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
         let longer = self.length_now(motion.drives).longer();
@@ -82,7 +80,6 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     fn add_force_of<N: Number>(
         &self,
         motion: NodalMotion<'_, D, N>,
-        _maps: &RotationMaps,
         (f, _): (&mut [Node<D, N>], &mut [[N; 3]]),
     ) {
         let longer = self.length_now(motion.drives).longer();
@@ -93,7 +90,6 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     fn add_tangent(
         &self,
         motion: NodalMotion<'_, D>,
-        _maps: &RotationMaps,
         assembly: &Assembly<D>,
         [stiffness, damping]: [&mut Matrix<f64>; 2],
     ) {
@@ -118,7 +114,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
         }
     }
 
-    fn kinetic_beside<N: Number>(&self, motion: NodalMotion<'_, D, N>, _maps: &RotationMaps) -> N {
+    fn kinetic_beside<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
         let of =
             |winch: &super::Winch<D>| winch.kinetic(self, motion.pair(), &winch.now(motion.drives));
         self.winch().map_or(N::of(0.0), of)
@@ -134,17 +130,12 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
         }
     }
 
-    fn dissipation<N: Number>(&self, motion: NodalMotion<'_, D, N>, _maps: &RotationMaps) -> N {
+    fn dissipation<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
         let longer = self.length_now(motion.drives).longer();
         LineChain::dissipation(self, motion.pair(), longer)
     }
 
-    fn add_momentum<N: Number>(
-        &self,
-        motion: NodalMotion<'_, D, N>,
-        _maps: &RotationMaps,
-        sum: &mut Momentum<D, N>,
-    ) {
+    fn add_momentum<N: Number>(&self, motion: NodalMotion<'_, D, N>, sum: &mut Momentum<D, N>) {
         let paid_out = self.winch().map(|winch| (winch, winch.now(motion.drives)));
         for (j, element) in self.elements().iter().enumerate() {
             let at: Nodal<D, N> = self.element(j, motion.x);
@@ -169,12 +160,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
         (longer - N::of(1.0)) * N::of(LineChain::mass(self))
     }
 
-    fn linearize(
-        &self,
-        at: &mut LinearizationPoint<'_, D>,
-        _maps: &RotationMaps,
-        terms: &mut LinearTerms,
-    ) {
+    fn linearize(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         if at.rotation == [0.0; 3] {
             return;
         }
@@ -191,12 +177,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     }
 
     /// Damped elements are differentiated where they move: what damping adds to stiffness there is not symmetric.
-    fn linearize_elements(
-        &self,
-        at: &mut LinearizationPoint<'_, D>,
-        _maps: &RotationMaps,
-        terms: &mut LinearTerms,
-    ) {
+    fn linearize_elements(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         let is_damped = LineChain::is_damped(self) && !at.at_rest;
         let moves = is_damped && at.motion.v.iter().any(|v| *v != no_node());
         terms.is_damped |= is_damped;

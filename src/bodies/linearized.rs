@@ -16,6 +16,8 @@ use crate::math::sparse::{General, Matrix};
 
 /// Where bodies are linearized.
 pub struct LinearizationPoint<'a, const D: usize> {
+    /// Bodies that are linearized.
+    pub bodies: &'a Bodies<D>,
     /// Configuration and rates.
     pub motion: NodalMotion<'a, D>,
     /// Whether all rates are taken as zero and damping is left out.
@@ -129,29 +131,19 @@ impl<const D: usize> Bodies<D> {
             let [stiffness, _] = &mut terms.symmetric;
             self.add_centrifugal(at.rotation, at.motion.x, at.assembly, stiffness);
         }
-        each!(self, |body| BodyPart::linearize(
-            body,
-            at,
-            &self.frames,
-            terms
-        ));
+        each!(self, |body| BodyPart::linearize(body, at, terms));
         terms.settle(at.assembly);
     }
 
     /// Adds stiffness and damping of elements.
     pub fn linearize_elements(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
-        each!(self, |body| BodyPart::linearize_elements(
-            body,
-            at,
-            &self.frames,
-            terms
-        ));
+        each!(self, |body| BodyPart::linearize_elements(body, at, terms));
         terms.settle(at.assembly);
     }
 
     /// Takes derivatives over a few nodes to those by what is integrated: rotations replace axes.
     pub fn pulled(&self, blocks: NodeBlocks, x: &[Node<D>]) -> NodeBlocks {
-        blocks.pulled(&self.frames, x)
+        blocks.pulled(self, x)
     }
 
     /// Adds to derivatives by what is integrated what those by rates make of axes that rotate: their rates change where they are rotated.
@@ -161,7 +153,7 @@ impl<const D: usize> Bodies<D> {
         motion: NodalMotion<'_, D>,
         blocks: &mut NodeBlocks,
     ) {
-        blocks.add_turned(by_rates, &self.frames, motion.pair());
+        blocks.add_turned(by_rates, self, motion.pair());
     }
 
     /// Adds the stiffness of the centrifugal force at a rotation of the frame of the scene, rad/s: the square of its matrix times the mass.
@@ -175,11 +167,7 @@ impl<const D: usize> Bodies<D> {
         let spin = spin_matrix::<D>(rotation);
         let axes = spin * spin;
         each!(self, |body| BodyPart::add_mass_times(
-            body,
-            &axes,
-            (&self.frames, x),
-            assembly,
-            matrix
+            body, &axes, x, assembly, matrix
         ));
     }
 }

@@ -6,7 +6,6 @@ use super::Marker;
 use super::assembly::{Assembly, Links};
 use super::body::{BodyPart, Momentum, NodalMotion};
 use super::connectivity::{Node, no_node};
-use super::frame::RotationMaps;
 use super::linearized::{LinearTerms, LinearizationPoint};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
@@ -64,7 +63,7 @@ impl<const D: usize> BodyPart<D> for LumpedMass {
     fn add_mass_times(
         &self,
         axes: &SMatrix<f64, D, D>,
-        _at: (&RotationMaps, &[Node<D>]),
+        _x: &[Node<D>],
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
@@ -94,12 +93,7 @@ impl<const D: usize> BodyPart<D> for LumpedMass {
         *sum += at.norm_squared() * N::of(self.moved()) + on.norm_squared() * N::of(self.inertia);
     }
 
-    fn add_momentum<N: Number>(
-        &self,
-        motion: NodalMotion<'_, D, N>,
-        _maps: &RotationMaps,
-        sum: &mut Momentum<D, N>,
-    ) {
+    fn add_momentum<N: Number>(&self, motion: NodalMotion<'_, D, N>, sum: &mut Momentum<D, N>) {
         let marker = self.marker.lift();
         let (m, j) = (N::of(self.moved()), N::of(self.inertia));
         let (at, d) = (marker.position(motion.x), marker.direction(motion.x));
@@ -121,12 +115,7 @@ impl<const D: usize> BodyPart<D> for LumpedMass {
         N::of(0.0)
     }
 
-    fn linearize(
-        &self,
-        at: &mut LinearizationPoint<'_, D>,
-        _maps: &RotationMaps,
-        terms: &mut LinearTerms,
-    ) {
+    fn linearize(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         if at.rotation == [0.0; 3] {
             return;
         }

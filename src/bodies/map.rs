@@ -22,8 +22,8 @@ impl Rotations {
     /// Without any rotation.
     pub fn of<const D: usize>(bodies: &Bodies<D>) -> Self {
         Self {
-            rigid: vec![RotationIncrement::default(); bodies.frames.list().len()],
-            sections: vec![SectionFrameState::default(); bodies.frames.carried().len()],
+            rigid: vec![RotationIncrement::default(); bodies.rigid.len()],
+            sections: vec![SectionFrameState::default(); bodies.moments()],
         }
     }
 
@@ -58,7 +58,7 @@ impl<const D: usize> Bodies<D> {
         x: &mut [Node<D>],
     ) {
         self.lengthen(drives, x);
-        self.frames.place(from, rotations, x);
+        each!(self, |body| BodyPart::place(body, from, rotations, x));
     }
 
     /// Takes rates of what is integrated, which `v` holds before, to nodal rates at coordinates `x`.
@@ -71,7 +71,7 @@ impl<const D: usize> Bodies<D> {
         v: &mut [Node<D>],
     ) {
         self.lengthen_rates(drives, x, v);
-        self.frames.place_rates(x, rotations, v);
+        each!(self, |body| BodyPart::place_rates(body, x, rotations, v));
     }
 
     /// Takes small changes of what is integrated, of rotations about the axes, which `dx` holds before, to changes of nodal coordinates.
@@ -83,13 +83,13 @@ impl<const D: usize> Bodies<D> {
         dx: &mut [Node<D, N>],
     ) {
         self.shorten(drives, dx);
-        self.frames.place_changes(x, dx);
+        each!(self, |body| BodyPart::place_changes(body, x, dx));
     }
 
     /// Adds to nodal accelerations what follows from positions and rates alone.
     #[inline(always)]
     pub fn add_bias<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
-        self.frames.add_centripetal(motion.pair(), a);
+        each!(self, |body| BodyPart::add_centripetal(body, motion, a));
         self.add_lengthened(motion, a);
     }
 
@@ -103,17 +103,10 @@ impl<const D: usize> Bodies<D> {
         f: &mut [Node<D, N>],
     ) {
         self.shorten(motion.drives, f);
-        self.frames.pull_back((motion.x, Some(motion.v)), f);
-        for (frame, torque) in self.frames.carried().iter().zip(torques) {
-            let moment = f[frame.node][1].iter_mut().zip(torque);
-            moment.for_each(|(sum, torque)| *sum += *torque);
-        }
-        each!(self, |body| BodyPart::add_gyroscopic(
-            body,
-            motion,
-            &self.frames,
-            f
-        ));
+        let rates = (motion.x, Some(motion.v));
+        each!(self, |body| BodyPart::pull_back(body, rates, f));
+        each!(self, |body| BodyPart::add_torques(body, torques, f));
+        each!(self, |body| BodyPart::add_gyroscopic(body, motion, f));
     }
 
     /// Takes second derivatives by two nodes back to what is integrated, and hands on the blocks.
@@ -135,7 +128,7 @@ impl<const D: usize> Bodies<D> {
         if self.has_no_frames() {
             return add(a, b, block);
         }
-        self.frames.pull_block((a, b), block, x, add);
+        self.rotate_block((a, b), block, x, add);
     }
 
     /// Converts changes of `q` between spins of bodies and sections, or their derivatives, and rotations from the frames that the state
@@ -152,12 +145,14 @@ impl<const D: usize> Bodies<D> {
         if self.has_no_frames() {
             return;
         }
-        self.frames.convert(order, &at.rigid, q);
-        if self.frames.carried().is_empty() {
+        each!(self, |body| BodyPart::<D>::convert(body, order, at, q));
+        if !self.has_section_frames() {
             return;
         }
         elimination.expand(q, y, nodal);
-        self.frames.turn_carried(order, &at.sections, nodal, y);
+        each!(self, |body| BodyPart::convert_free(
+            body, order, at, nodal, y
+        ));
         elimination.coordinates_of(y);
         q.copy_from_slice(y);
     }
@@ -166,7 +161,7 @@ impl<const D: usize> Bodies<D> {
     /// stiffer than they are inert. Inertia of all others is linear in `q`.
     pub fn keep_stage(&self, now: &Rotations, stage: &mut Rotations) {
         let kept = stage.sections.iter_mut().zip(&now.sections);
-        for ((kept, now), frame) in kept.zip(self.frames.carried()) {
+        for ((kept, now), frame) in kept.zip(self.section_frames()) {
             if frame.has_shear {
                 *kept = *now;
             }
@@ -175,17 +170,23 @@ impl<const D: usize> Bodies<D> {
 
     /// Whether sections have frames that follow lines: their rotations depend on positions.
     pub fn has_section_frames(&self) -> bool {
-        !self.frames.carried().is_empty()
+        self.moments() > 0
     }
 
     /// Largest rotation of rigid bodies in the coordinates `q`, rad.
     pub fn largest_rotation(&self, q: &[f64]) -> f64 {
-        self.frames.largest(q)
+        let mut largest = 0.0;
+        each!(self, |body| largest =
+            f64::max(largest, BodyPart::<D>::rotation_in(body, q)));
+        largest
     }
 
     /// Largest rotation of a section from the frame that the state holds, rad.
     pub fn largest_section_rotation(&self, at: &Rotations) -> f64 {
-        self.frames.largest_carry(&at.sections)
+        let mut largest = 0.0;
+        each!(self, |body| largest =
+            f64::max(largest, BodyPart::<D>::rotation_at(body, at)));
+        largest
     }
 
     /// Rotations of sections begin at zero anew: `frames` become what they are at coordinates `x`. Coordinates and rates are over the free
@@ -194,13 +195,18 @@ impl<const D: usize> Bodies<D> {
         &self,
         (x, at): (&[Node<D>], &Rotations),
         frames: &mut [Quaternion],
-        free: [&mut [f64]; 2],
+        [q, v]: [&mut [f64]; 2],
     ) {
-        self.frames.renew_carried((x, &at.sections), frames, free);
+        each!(self, |body| BodyPart::renew_free(
+            body,
+            (x, at),
+            frames,
+            [&mut *q, &mut *v]
+        ));
     }
 
     /// Rotations of rigid bodies begin at zero anew: `frames` become what they are, and rates in `v` spins.
     pub fn renew_rigid(&self, frames: &mut [Quaternion], q: &mut [f64], v: &mut [f64]) {
-        self.frames.renew(frames, q, v);
+        each!(self, |body| BodyPart::<D>::renew(body, frames, q, v));
     }
 }

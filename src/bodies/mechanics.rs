@@ -1,6 +1,6 @@
 //! Inertia, internal forces and their tangents of all bodies.
 
-use super::assembly::Assembly;
+use super::assembly::{Assembly, NodeBlock};
 use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, carried_node, no_node};
 use super::{Bodies, RodChain};
@@ -33,12 +33,9 @@ impl<const D: usize> Bodies<D> {
         self.add_inertia(1.0, dx, momentum);
         let motion = (x, dx);
         each!(self, |body| BodyPart::add_spin_momentum(
-            body,
-            motion,
-            &self.frames,
-            momentum
+            body, motion, momentum
         ));
-        self.frames.pull_back((x, None), momentum);
+        each!(self, |body| BodyPart::pull_back(body, (x, None), momentum));
     }
 
     /// Returns the forces of gravity on the nodes, N, `[nodes]`.
@@ -67,7 +64,7 @@ impl<const D: usize> Bodies<D> {
         }
         torques.fill([0.0; 3]);
         each!(self, |body| {
-            dissipated += BodyPart::add_force(body, motion, &self.frames, (&mut *f, &mut *torques));
+            dissipated += BodyPart::add_force(body, motion, (&mut *f, &mut *torques));
         });
         dissipated
     }
@@ -86,7 +83,7 @@ impl<const D: usize> Bodies<D> {
         torques.fill([N::of(0.0); 3]);
         if is_elastic {
             each!(self, |body| {
-                BodyPart::add_force_of(body, motion, &self.frames, (&mut *f, &mut *torques));
+                BodyPart::add_force_of(body, motion, (&mut *f, &mut *torques));
             });
         }
     }
@@ -105,11 +102,7 @@ impl<const D: usize> Bodies<D> {
         }
         self.add_inertia(-1.0, other, f);
         each!(self, |body| BodyPart::add_frame_spin(
-            body,
-            motion,
-            rotation,
-            &self.frames,
-            f
+            body, motion, rotation, f
         ));
     }
 
@@ -123,7 +116,7 @@ impl<const D: usize> Bodies<D> {
     ) {
         each!(self, |body| {
             let matrices = [&mut *stiffness, &mut *damping];
-            BodyPart::add_tangent(body, motion, &self.frames, assembly, matrices);
+            BodyPart::add_tangent(body, motion, assembly, matrices);
         });
     }
 
@@ -135,9 +128,12 @@ impl<const D: usize> Bodies<D> {
         assembly: &Assembly<D>,
         stiffness: &mut Matrix<f64>,
     ) {
-        self.frames.for_each_geometric(forces, x, |a, b, block| {
+        let mut add = |a: usize, b: usize, block: &NodeBlock<D>| {
             assembly.add(a, b, block, stiffness);
-        });
+        };
+        each!(self, |body| BodyPart::for_each_geometric(
+            body, forces, x, &mut add
+        ));
     }
 
     /// Power of a force on an element of sections, W.
@@ -147,7 +143,7 @@ impl<const D: usize> Bodies<D> {
         (element, force): (usize, &Force<N>),
         motion: NodalMotion<'_, D, N>,
     ) -> N {
-        sections.power_of((element, force), motion.pair(), &self.frames)
+        sections.power_of((element, force), motion.pair())
     }
 
     /// Force residual of an element of sections at coordinates, rates and accelerations: elastic and damping forces minus the inertia forces
@@ -158,7 +154,7 @@ impl<const D: usize> Bodies<D> {
         orders: [&[Node<D, N>]; 3],
         rotation: [f64; 3],
     ) -> Force<N> {
-        sections.lack(element, orders, (rotation, &self.frames))
+        sections.lack(element, orders, rotation)
     }
 
     /// Returns the mass over the free coordinates.

@@ -40,8 +40,8 @@ pub use connectivity::{
 pub use drawn::LineStance;
 pub use elimination::Elimination;
 pub use frame::{
-    AngularAccelerations, Axes, AxisMotion, Derivative, NodeKind, RENEWED, RigidBodyFrame,
-    RotationMaps, SectionFrame, axes_at, combined, spin_at, turned, turning_block,
+    AngularAccelerations, Axes, AxisMotion, Derivative, RENEWED, RigidBodyFrame, SectionFrame,
+    axes_at, combined, spin_at, turned, turning_block,
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use linearized::{ElementTangent, LinearTerms, LinearizationPoint};
@@ -49,6 +49,7 @@ pub use loaded_line::{LinePoint, LoadedLine, PANELS};
 pub use lumped::{LumpedMass, RigidRod};
 pub use map::{Rotations, ScratchVectors};
 pub use marker::{Marker, Partial, block_of};
+pub use nodes::NodeKind;
 pub use probe::{NodeBlocks, Nodes, Probe, SKEW};
 pub use rod_chain::{RodChain, carried_nodes, middle, planar_axes, turn_inner, untwisted};
 pub use stages::{RotatingNodes, STAGES};

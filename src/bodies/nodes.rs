@@ -2,39 +2,112 @@
 
 use nalgebra::Vector3;
 
-use super::body::NodalMotion;
+use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, add_node, no_node};
-use super::frame::NodeKind;
+use super::frame::axes_at;
 use super::marker::Marker;
-use super::{Bodies, Elimination};
+use super::{Bodies, Elimination, RodChain};
 use crate::math::jet::Number;
-use crate::math::rotation::Quaternion;
-use crate::math::space::{Vector, components, vector};
+use crate::math::rotation::{Quaternion, normalized, quaternion};
+use crate::math::space::{Vector, components, is_nothing, vector};
+
+/// Meaning of the two vectors of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeKind {
+    /// A position and a direction.
+    Point,
+    /// Two axes.
+    Axes,
+    /// Neither: numbers inside an element.
+    Inner,
+}
+
+/// What a node belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum NodeOwner {
+    /// A position and a direction that are coordinates themselves.
+    #[default]
+    Own,
+    /// Numbers inside an element.
+    Inner,
+    /// The direction of a section in the plane.
+    Direction,
+    /// A rigid body of space, by index, and whether this is its second node.
+    Rigid(usize, bool),
+    /// A section frame, by the index of the sections of its body and its own there, and whether this is its second node.
+    Section(usize, usize, bool),
+}
 
 impl<const D: usize> Bodies<D> {
+    /// What a node belongs to.
+    #[inline(always)]
+    pub(super) fn owner(&self, node: usize) -> NodeOwner {
+        self.owners.get(node).copied().unwrap_or_default()
+    }
+
+    /// Finds what nodes belong to.
+    pub(super) fn find_owners(&mut self) {
+        let mut owners = vec![NodeOwner::Own; self.reference.len()];
+        for (index, chain) in self.sections.iter().enumerate() {
+            chain
+                .inner()
+                .for_each(|node| owners[node] = NodeOwner::Inner);
+            for (k, (node, _)) in chain.frames().enumerate() {
+                if D == 2 {
+                    owners[node] = NodeOwner::Direction;
+                } else {
+                    owners[node] = NodeOwner::Section(index, k, false);
+                    owners[node + 1] = NodeOwner::Section(index, k, true);
+                }
+            }
+        }
+        for (index, frame) in self.rigid.iter().enumerate() {
+            owners[frame.node] = NodeOwner::Rigid(index, false);
+            owners[frame.node + 1] = NodeOwner::Rigid(index, true);
+        }
+        self.owners = owners;
+    }
+
     /// Returns the meaning of the two vectors of a node.
     pub fn kind(&self, node: usize) -> NodeKind {
-        self.frames.kind(node)
+        match self.owner(node) {
+            NodeOwner::Own | NodeOwner::Rigid(_, false) | NodeOwner::Section(.., false) => {
+                NodeKind::Point
+            }
+            NodeOwner::Direction | NodeOwner::Rigid(_, true) | NodeOwner::Section(.., true) => {
+                NodeKind::Axes
+            }
+            NodeOwner::Inner => NodeKind::Inner,
+        }
     }
 
     /// Whether a node belongs to a frame or is inside an element: rows between its numbers are none that joints see.
     pub fn holds(&self, node: usize) -> bool {
-        self.frames.holds(node)
+        !matches!(self.owner(node), NodeOwner::Own | NodeOwner::Direction)
     }
 
     /// Whether a node is the first of a frame, which its axes begin in.
     pub fn has_axes(&self, node: usize) -> bool {
-        self.frames.has_axes(node)
+        self.kind(node) == NodeKind::Point && self.holds(node)
     }
 
     /// The place of the frame that a node belongs to, in the order of the state's.
     pub fn frame_index(&self, node: usize) -> Option<usize> {
-        self.frames.index_of(node)
+        match self.owner(node) {
+            NodeOwner::Rigid(index, _) => Some(index),
+            NodeOwner::Section(chain, k, _) => {
+                Some(self.rigid.len() + self.sections[chain].first_section() + k)
+            }
+            _ => None,
+        }
     }
 
     /// The rigid body of space, among all of them, that a node is the first of.
     pub fn rigid_at(&self, node: usize) -> Option<usize> {
-        self.frames.body_of(node)
+        match self.owner(node) {
+            NodeOwner::Rigid(index, false) => Some(index),
+            _ => None,
+        }
     }
 
     /// Pulls forces on position and direction of a marker back to the coordinates of its body: forces and moments by node, passed to `term`.
@@ -46,20 +119,39 @@ impl<const D: usize> Bodies<D> {
         x: &[Node<D, N>],
         term: &mut impl FnMut(usize, &Node<D, N>),
     ) {
-        if (self.frames).pull_marker(marker, [position, direction], x, term) {
+        if self.has_no_frames() || !marker.is_framed() {
+            let [a, b] = marker.forces(*position, *direction);
+            term(a.0, &a.1);
+            if !marker.is_nodal() {
+                term(b.0, &b.1);
+            }
             return;
         }
-        let [a, b] = marker.forces(*position, *direction);
-        term(a.0, &a.1);
-        if !marker.is_nodal() {
-            term(b.0, &b.1);
+        let node = marker.nodes[0];
+        let axes = axes_at(node, x);
+        let along = |force: &Vector<D, N>| {
+            let force = Vector3::from(components(force));
+            Vector3::from_fn(|k, _| axes[k].dot(&force))
+        };
+        let [arm, own] = marker.components();
+        let mut moment = arm.cross(&along(position));
+        if !is_nothing(direction) {
+            moment += own.cross(&along(direction));
+        }
+        let force = (*position).into();
+        match self.owner(node) {
+            NodeOwner::Section(chain, k, _) => {
+                let frame = self.sections[chain].frame(k);
+                frame.pull_marker((&force, &moment), x, term);
+            }
+            _ => term(node, &[force, vector::<D, N>(moment.into()).into()]),
         }
     }
 
     /// Takes forces on nodes back to what is integrated, without what rates ask for.
     pub fn pull_back<N: Number>(&self, drives: &[[N; 3]], x: &[Node<D, N>], f: &mut [Node<D, N>]) {
         self.shorten(drives, f);
-        self.frames.pull_back((x, None), f);
+        each!(self, |body| BodyPart::pull_back(body, (x, None), f));
     }
 
     /// For every rigid body of space its first node, its frame, and the quaternion at coordinates on the same side of it.
@@ -68,7 +160,10 @@ impl<const D: usize> Bodies<D> {
         frames: &'a mut [Quaternion],
         q: &'a [f64],
     ) -> impl Iterator<Item = (usize, &'a mut Quaternion, Quaternion)> {
-        self.frames.quaternions(frames, q)
+        (self.rigid.iter().zip(frames)).map(|(frame, from)| {
+            let now = normalized(frame.increment(q).quaternion(from));
+            (frame.node, from, now)
+        })
     }
 
     /// Sets the frames of a state to those at nodal coordinates `x`. Frames that the ground holds stand as in `described`, and so become in
@@ -79,23 +174,29 @@ impl<const D: usize> Bodies<D> {
         x: &mut [Node<D>],
         frames: &mut [Quaternion],
     ) {
-        self.frames.keep_held(described, x);
-        self.frames.frames_at(x, frames);
+        for frame in self.section_frames().filter(|frame| frame.is_held()) {
+            frame.set_axes(&frame.axes(described), x);
+        }
+        let nodes = self.rigid.iter().map(|frame| frame.node);
+        let nodes = nodes.chain(self.section_frames().map(|frame| frame.node));
+        for (node, at) in nodes.zip(frames) {
+            *at = normalized(quaternion(&axes_at(node, x)));
+        }
     }
 
     /// Takes over all axes of `described` nodes.
     pub fn take_axes(&self, described: &[Node<D>], x: &mut [Node<D>]) {
-        for frame in self.frames.list() {
+        for frame in &self.rigid {
             frame.set_axes(&frame.axes(described), x);
         }
-        for frame in self.frames.carried() {
+        for frame in self.section_frames() {
             x[frame.node..][..2].copy_from_slice(&described[frame.node..][..2]);
         }
     }
 
     /// Sets what nodes of rigid bodies hold besides the centre of mass to zero in their second node, which holds axes alone.
     pub fn clear_axes(&self, x: &mut [Node<D>]) {
-        for frame in self.frames.list() {
+        for frame in &self.rigid {
             x[frame.node + 1] = no_node();
         }
     }
@@ -103,7 +204,7 @@ impl<const D: usize> Bodies<D> {
     /// For every node how far a rigid body of space reaches from it by its radius of gyration, `[nodes]`, m.
     pub fn gyrations(&self) -> Vec<f64> {
         let mut arms = vec![0.0; self.reference.len()];
-        for frame in self.frames.list() {
+        for frame in &self.rigid {
             arms[frame.node] = frame.gyration();
         }
         arms
@@ -117,7 +218,7 @@ impl<const D: usize> Bodies<D> {
             unit[1][axis] = moment;
             unit
         };
-        for frame in self.frames.list_mut() {
+        for frame in &mut self.rigid {
             for axis in (0..3).filter(|axis| frame.moments[*axis] > 0.0) {
                 let unit = turned(axis, frame.moments[axis]);
                 let moved = elimination.reduce_node(frame.node, &unit, &mut y);
@@ -125,7 +226,8 @@ impl<const D: usize> Bodies<D> {
             }
         }
         let assembly = &elimination.assembly;
-        for frame in self.frames.carried_mut() {
+        let sections = self.sections.iter_mut();
+        for frame in sections.flat_map(RodChain::section_frames_mut) {
             for axis in 0..frame.turns() {
                 assembly.restrict_node(frame.node, &turned(axis, 1.0), &mut y);
                 let mut range = assembly.range_of(frame.node);
@@ -138,21 +240,21 @@ impl<const D: usize> Bodies<D> {
 
     /// Largest angular velocity, rad/s, of thin rods, whose spin about themselves nothing tells, and of sections.
     pub fn largest_spin(&self, motion: NodalMotion<'_, D>) -> f64 {
-        let thin = self.frames.list().iter().filter(|frame| frame.is_thin());
+        let thin = self.rigid.iter().filter(|frame| frame.is_thin());
         let spins = thin.map(|frame| frame.spin(motion.x, motion.v).norm());
         spins.fold(self.largest_section_spin(motion), f64::max)
     }
 
     /// Largest angular velocity of sections, rad/s.
     pub fn largest_section_spin(&self, motion: NodalMotion<'_, D>) -> f64 {
-        let sections = self.frames.carried().iter();
+        let sections = self.section_frames();
         let spins = sections.map(|frame| frame.velocity(motion.x, motion.v).norm());
         spins.fold(0.0, f64::max)
     }
 
     /// Adds minus the product of the rate of inertia over axes that stand still with a displacement in `q` to forces on it.
     pub fn subtract_inertia_rate(&self, motion: NodalMotion<'_, D>, unit: &[f64], y: &mut [f64]) {
-        for frame in self.frames.list() {
+        for frame in &self.rigid {
             let spin = frame.spin(motion.x, motion.v);
             frame.add_moment(&-(frame.inertia_rate(&spin) * frame.read(unit)), y);
         }
@@ -167,7 +269,8 @@ impl<const D: usize> Bodies<D> {
         term: &Node<D>,
         rate: &mut Node<D>,
     ) {
-        if let Some((frame, _)) = self.frames.of_node::<D>(node) {
+        if let NodeOwner::Rigid(index, _) = self.owner(node) {
+            let frame = &self.rigid[index];
             let spin = frame.spin(motion.x, motion.v);
             let moment = components(&term[1].into());
             let along = Vector3::from(moment).cross(&spin);

@@ -2,9 +2,9 @@
 
 use nalgebra::DMatrix;
 
+use super::Bodies;
 use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::{Node, map_node};
-use super::frame::RotationMaps;
 use crate::elements;
 use crate::math::jet::Jet;
 use crate::math::sparse::General;
@@ -96,11 +96,11 @@ impl NodeBlocks {
     }
 
     /// Transforms the matrix to the coordinates of bodies at this configuration: rotations replace axes.
-    pub fn pulled<const D: usize>(self, frames: &RotationMaps, x: &[Node<D>]) -> Self {
-        if frames.is_empty() {
+    pub fn pulled<const D: usize>(self, bodies: &Bodies<D>, x: &[Node<D>]) -> Self {
+        if bodies.has_no_frames() {
             return self;
         }
-        let (nodes, change) = self.changes(|node| frames.partials(node, x));
+        let (nodes, change) = self.changes(|node| bodies.partials(node, x));
         Self {
             whole: change.transpose() * self.whole * change,
             nodes,
@@ -112,14 +112,14 @@ impl NodeBlocks {
     pub fn add_turned<const D: usize>(
         &mut self,
         by_rates: &Self,
-        frames: &RotationMaps,
+        bodies: &Bodies<D>,
         (x, v): (&[Node<D>], &[Node<D>]),
     ) {
-        if frames.is_empty() {
+        if bodies.has_no_frames() {
             return;
         }
-        let (nodes, change) = by_rates.changes(|node| frames.partials(node, x));
-        let (_, turned) = by_rates.changes(|node| frames.partials_of_rates(node, x, v));
+        let (nodes, change) = by_rates.changes(|node| bodies.partials(node, x));
+        let (_, turned) = by_rates.changes(|node| bodies.partials_of_rates(node, x, v));
         debug_assert_eq!(nodes, self.nodes);
         self.whole += change.transpose() * &by_rates.whole * turned;
     }

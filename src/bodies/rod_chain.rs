@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 
 use super::assembly::{NodeBlock, no_block};
 use super::connectivity::{Node, no_node};
-use super::frame::{RotationMaps, SectionFrame, axes_at, combined};
+use super::frame::{SectionFrame, axes_at, combined};
 use super::marker::Marker;
 use crate::elements::beam::{At, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::section::{SectionElement, SpinInertia};
@@ -62,22 +62,24 @@ pub struct RodChain {
     inner: usize,
     /// Nodes of a frame: 2, in the plane 1.
     stride: usize,
+    /// Section frames, in space.
+    section_frames: Vec<SectionFrame>,
     /// Index of the first section frame among those of the system.
-    carried: usize,
+    first_section: usize,
     is_damped: bool,
 }
 
 impl RodChain {
     /// Along the line from node `line` on, whose nodes those of its frames follow and then those inside its elements; each element with its
-    /// inertia against spins. So many frames are carried before its own.
+    /// inertia against spins. `first_section` frames of other sections come before its own.
     pub fn new<const D: usize>(
         elements: Vec<(SectionElement, SpinInertia)>,
         line: usize,
-        carried: usize,
+        first_section: usize,
     ) -> Self {
         let (nodes, stride) = (elements.len() + 1, D - 1);
         let turns = elements.first().map_or(1, |(section, _)| section.turns());
-        Self {
+        let mut made = Self {
             parts: if D == 2 { plane::PARTS } else { 0..turns },
             is_damped: elements.iter().any(|(section, _)| section.is_damped()),
             line,
@@ -86,8 +88,30 @@ impl RodChain {
             stride,
             packs: packs(&elements),
             elements,
-            carried,
+            section_frames: Vec::new(),
+            first_section,
+        };
+        if D > 2 {
+            let has_shear = made.has_shear();
+            let frame = |(node, line)| SectionFrame::new(node, line, has_shear);
+            made.section_frames = made.frames().map(frame).collect();
         }
+        made
+    }
+
+    /// Index of its first section frame among those of all bodies.
+    pub(super) fn first_section(&self) -> usize {
+        self.first_section
+    }
+
+    /// Its section frames, in space.
+    pub fn section_frames(&self) -> &[SectionFrame] {
+        &self.section_frames
+    }
+
+    /// Its section frames, to be changed.
+    pub(super) fn section_frames_mut(&mut self) -> &mut [SectionFrame] {
+        &mut self.section_frames
     }
 
     /// The nodes of element `j`: line and frame at both ends, then that inside.
@@ -96,7 +120,7 @@ impl RodChain {
         [a[0], a[1], b[0], b[1], self.inner + j]
     }
 
-    /// First nodes of its carried frames, and the nodes of the line that they are at.
+    /// First nodes of its section frames, and the nodes of the line that they are at.
     pub fn frames(&self) -> impl Iterator<Item = (usize, usize)> {
         (0..=self.elements.len()).map(|k| (self.frames + self.stride * k, self.line + k))
     }
@@ -204,12 +228,11 @@ impl RodChain {
         &self,
         j: usize,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
     ) -> Rates<N> {
         let [a, fa, b, fb, inner] = self.nodes(j);
         let spin = |k: usize, node: usize| match D {
             2 => plane::spin(&x[node][1], &v[node][1]),
-            _ => self.frame(k, frames).spin(x, v),
+            _ => self.frame(k).spin(x, v),
         };
         Rates {
             e: ends([a, b], v),
@@ -219,8 +242,8 @@ impl RodChain {
     }
 
     /// Returns the section frame at a node.
-    fn frame<'a>(&self, k: usize, frames: &'a RotationMaps) -> &'a SectionFrame {
-        &frames.carried()[self.carried + k]
+    pub(super) fn frame(&self, k: usize) -> &SectionFrame {
+        &self.section_frames[k]
     }
 
     /// Coordinates inside its elements, and where they stand in their nodes.

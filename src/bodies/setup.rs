@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::assembly::Links;
 use super::body::{BodyPart, each};
 use super::connectivity::Node;
-use super::frame::{RigidBodyFrame, RotationMaps, SectionFrame};
+use super::frame::RigidBodyFrame;
 use super::stages::RotatingNodes;
 use super::{Bodies, LineChain, LumpedMass, RigidRod, RodChain, Winch};
 use crate::math::space::Vector;
@@ -46,9 +46,10 @@ impl<const D: usize> Bodies<D> {
         self.rods.push(rod);
     }
 
-    /// Adds a rigid body of space. [`Self::complete`] finds its nodes.
+    /// Adds a rigid body of space.
     pub fn add_rigid(&mut self, frame: RigidBodyFrame) {
-        self.frames.push(frame);
+        let index = self.rigid.len();
+        self.rigid.push(RigidBodyFrame { index, ..frame });
     }
 
     /// Puts a line on a winch at its last end or its first one. The driven coordinate is the length that has been paid out, m.
@@ -72,27 +73,17 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
-    /// Number of section frames.
-    pub fn section_frames(&self) -> usize {
+    /// Number of sections at nodes of lines.
+    pub fn section_count(&self) -> usize {
         self.sections.iter().map(|chain| chain.count() + 1).sum()
     }
 
-    /// Finds the frames of sections, and which nodes have frames. To be called when all bodies are there.
+    /// Finds what nodes belong to. To be called when all bodies are there.
     pub fn complete(&mut self) {
-        let chains = || self.sections.iter();
-        let carried = chains().filter(|_| D > 2);
-        let carried =
-            carried.flat_map(|chain| chain.frames().map(|frame| (chain.has_shear(), frame)));
-        let carried = carried.map(|(has_shear, (node, line))| SectionFrame {
-            node,
-            line,
-            has_shear,
-            places: [None; 3],
-        });
-        let inner = chains().flat_map(RodChain::inner);
-        let planar = chains().filter(|_| D == 2).flat_map(RodChain::axes_nodes);
-        let nodes = (self.reference.len(), inner, planar);
-        self.frames = RotationMaps::new(self.frames.list().to_vec(), carried.collect(), nodes);
+        self.find_owners();
+        let mut count = 0;
+        each!(self, |body| count += BodyPart::<D>::frame_count(body));
+        self.frame_count = count;
     }
 
     /// Puts the reference where nothing has rotated and nothing is twisted: into nodes of frames and inside elements.

@@ -24,7 +24,7 @@ impl<const D: usize> Bodies<D> {
     pub fn kinetic<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
         let mut energy = self.quadratic(motion.v, |v| v);
         each!(self, |body| energy +=
-            BodyPart::kinetic_beside(body, motion, &self.frames));
+            BodyPart::kinetic_beside(body, motion));
         energy
     }
 
@@ -32,7 +32,7 @@ impl<const D: usize> Bodies<D> {
     pub fn centrifugal<N: Number>(&self, rotation: [f64; 3], x: &[Node<D, N>]) -> N {
         let mut energy = self.quadratic(x, |v| spun(rotation, v));
         each!(self, |body| energy +=
-            BodyPart::frame_spin_energy(body, x, rotation, &self.frames));
+            BodyPart::frame_spin_energy(body, x, rotation));
         energy
     }
 
@@ -67,8 +67,7 @@ impl<const D: usize> Bodies<D> {
     /// Power that damping in bodies dissipates, W.
     pub fn dissipation<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
         let mut power = N::of(0.0);
-        each!(self, |body| power +=
-            BodyPart::dissipation(body, motion, &self.frames));
+        each!(self, |body| power += BodyPart::dissipation(body, motion));
         power
     }
 
@@ -92,12 +91,7 @@ impl<const D: usize> Bodies<D> {
             linear: Vector::zeros(),
             angular: Vector3::zeros(),
         };
-        each!(self, |body| BodyPart::add_momentum(
-            body,
-            motion,
-            &self.frames,
-            &mut sum
-        ));
+        each!(self, |body| BodyPart::add_momentum(body, motion, &mut sum));
         (sum.linear, sum.angular.into())
     }
 

@@ -426,12 +426,7 @@ impl Mechanism {
             .bodies
             .iter()
             .enumerate()
-            .map(|(i, body)| RigidBodyFrame {
-                node: 2 * i,
-                mass: body.mass,
-                moments: body.moments.into(),
-                places: [None; 3],
-            });
+            .map(|(i, body)| RigidBodyFrame::new(2 * i, body.mass, body.moments.into()));
         let mut bodies = Bodies::new(
             self.nodes(|body| (body.center, body.axes)),
             (0..count).map(|i| 2 * i..2 * i + 2).collect(),

@@ -2,15 +2,18 @@
 
 use nalgebra::{DMatrix, SMatrix, Vector3};
 
-use super::{RigidBodyFrame, RotationMaps, turning_block};
+use super::tangent::transformed;
+use super::{Derivative, RigidBodyFrame, turned, turning_block};
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
 use crate::bodies::linearized::{LinearTerms, LinearizationPoint};
+use crate::bodies::map::Rotations;
 use crate::bodies::probe::NodeBlocks;
 use crate::bodies::setup::NodeNumber;
 use crate::math::jet::Number;
-use crate::math::space::{Vector, spin_matrix};
+use crate::math::rotation::{Quaternion, axes, normalized};
+use crate::math::space::{Vector, components, spin_matrix, vector};
 use crate::math::sparse::Matrix;
 
 /// Coordinates of both nodes where the body has not rotated.
@@ -51,6 +54,90 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         owners[self.node + 1] = [self.node; 2];
     }
 
+    fn frame_count(&self) -> usize {
+        1
+    }
+
+    fn place(&self, from: &[Quaternion], rotations: &mut Rotations, x: &mut [Node<D>]) {
+        let turn = &mut rotations.rigid[self.index];
+        turn.rotation = components(&x[self.node][1].into()).into();
+        self.set_axes(&axes(&turn.quaternion(&from[self.index])), x);
+    }
+
+    fn place_rates(&self, x: &[Node<D>], rotations: &mut Rotations, v: &mut [Node<D>]) {
+        let turn = &mut rotations.rigid[self.index];
+        turn.rate = components(&v[self.node][1].into()).into();
+        turn.spin = turn.spin_of(&turn.rate);
+        self.set_axes(&turned(&self.axes(x), &turn.spin), v);
+    }
+
+    fn place_changes<N: Number>(&self, x: &[Node<D, N>], dx: &mut [Node<D, N>]) {
+        let turn = components(&dx[self.node][1].into()).into();
+        self.set_axes(&turned(&self.axes(x), &turn), dx);
+    }
+
+    /// `w x (w x e)` of each axis.
+    fn add_centripetal<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
+        let by_spin = turned(&self.axes(motion.v), &self.spin(motion.x, motion.v));
+        let sum = self.axes(a);
+        self.set_axes(&std::array::from_fn(|k| sum[k] + by_spin[k]), a);
+    }
+
+    fn pull_back<N: Number>(
+        &self,
+        (x, v): (&[Node<D, N>], Option<&[Node<D, N>]>),
+        f: &mut [Node<D, N>],
+    ) {
+        let mut moment = RigidBodyFrame::moment(&self.axes(x), &self.axes(f));
+        if let Some(v) = v {
+            moment += self.gyroscopic(&self.spin(x, v));
+        }
+        f[self.node][1] = vector::<D, N>(moment.into()).into();
+        f[self.node + 1] = [[N::of(0.0); D]; 2];
+    }
+
+    fn convert(&self, order: Derivative, at: &Rotations, q: &mut [f64]) {
+        let turn = &at.rigid[self.index];
+        let mut spin = self.read(q);
+        let converted = match order {
+            Derivative::First => {
+                self.complete(turn, &mut spin, false);
+                turn.rate_of(&spin)
+            }
+            Derivative::Second => {
+                self.complete(turn, &mut spin, true);
+                turn.second_of(&spin)
+            }
+            Derivative::Back => turn.spin_of(&spin),
+        };
+        self.write(&converted, q);
+    }
+
+    fn rotation_in(&self, q: &[f64]) -> f64 {
+        self.read(q).norm()
+    }
+
+    /// Frames become what they are, of unit length, and rates spins.
+    fn renew(&self, frames: &mut [Quaternion], q: &mut [f64], v: &mut [f64]) {
+        let mut turn = self.increment(q);
+        turn.spin = turn.spin_of(&self.read(v));
+        let from = &mut frames[self.index];
+        *from = normalized(turn.quaternion(from));
+        self.write(&Vector3::zeros(), q);
+        self.write(&turn.spin, v);
+    }
+
+    fn for_each_geometric(
+        &self,
+        f: &[Node<D>],
+        x: &[Node<D>],
+        add: &mut impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        let turned = self.geometric(f, x);
+        let block = turning_block(&((turned + turned.transpose()) * 0.5));
+        add(self.node, self.node, &block);
+    }
+
     fn add_mass(&self, assembly: &Assembly<D>, mass: &mut Matrix<f64>) {
         let mut block = no_block();
         for axis in 0..D {
@@ -63,7 +150,7 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
     fn add_mass_times(
         &self,
         axes: &SMatrix<f64, D, D>,
-        (maps, x): (&RotationMaps, &[Node<D>]),
+        x: &[Node<D>],
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
@@ -72,9 +159,13 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
             for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
                 block[part][r][part][c] = mass * axes[(r, c)];
             }
-            maps.pull_block((node, node), &block, x, |a, b, block| {
-                assembly.add(a, b, block, matrix);
-            });
+            let partial = self.partial(node != self.node, x);
+            assembly.add(
+                self.node,
+                self.node,
+                &transformed(&block, &partial, &partial),
+                matrix,
+            );
         }
     }
 
@@ -101,12 +192,7 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         }
     }
 
-    fn add_momentum<N: Number>(
-        &self,
-        motion: NodalMotion<'_, D, N>,
-        _maps: &RotationMaps,
-        sum: &mut Momentum<D, N>,
-    ) {
+    fn add_momentum<N: Number>(&self, motion: NodalMotion<'_, D, N>, sum: &mut Momentum<D, N>) {
         for (node, part, mass) in self.masses() {
             let [at, rate] = [motion.x, motion.v].map(|of| Vector::from(of[node][part]));
             let is_center = (node, part) == (self.node, 0);
@@ -127,16 +213,11 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
     /// Geometric stiffness of forces on the axes, gyroscopic moments, and the Coriolis force in a frame that rotates. Small rotations are
     /// measured about axes fixed in the frame of the scene, those of the body at the instant. With the angular momentum `L = J w` the moment
     /// is `J p'' + (w J - J w - L) p'`; each vector stands for the matrix of its cross product.
-    fn linearize(
-        &self,
-        at: &mut LinearizationPoint<'_, D>,
-        maps: &RotationMaps,
-        terms: &mut LinearTerms,
-    ) {
+    fn linearize(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         let mut none = |_: usize, _: usize, _: f64| {};
         let (node, (x, v)) = ((self.node, self.node), at.motion.pair());
         let spin = self.spin(x, v);
-        let mut turned = RotationMaps::geometric(self, at.forces, x);
+        let mut turned = self.geometric(at.forces, x);
         if spin == Vector3::zeros() {
             // At rest without the moment that speeds the body up, which is none in equilibrium.
             turned = (turned + turned.transpose()) * 0.5;
@@ -150,7 +231,7 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
             (at.assembly).add_block(node, &block, &mut terms.damping, &mut none);
         }
         if at.rotation != [0.0; 3] {
-            self.linearize_coriolis(at, maps, terms);
+            self.linearize_coriolis(at, terms);
         }
     }
 }
@@ -160,7 +241,6 @@ impl RigidBodyFrame {
     fn linearize_coriolis<const D: usize>(
         &self,
         at: &LinearizationPoint<'_, D>,
-        maps: &RotationMaps,
         terms: &mut LinearTerms,
     ) {
         let mut none = |_: usize, _: usize, _: f64| {};
@@ -175,9 +255,9 @@ impl RigidBodyFrame {
         }
         let by_rates = NodeBlocks::new(&nodes, whole);
         let mut blocks = NodeBlocks::new(&[self.node], DMatrix::zeros(2 * D, 2 * D));
-        blocks.add_turned(&by_rates, maps, at.motion.pair());
+        blocks.add_turned(&by_rates, at.bodies, at.motion.pair());
         blocks.add(at.assembly, &mut terms.stiffness, &mut none);
-        let by_rates = by_rates.pulled(maps, at.motion.x);
+        let by_rates = by_rates.pulled(at.bodies, at.motion.x);
         by_rates.add(at.assembly, &mut terms.damping, &mut none);
     }
 }

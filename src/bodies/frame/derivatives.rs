@@ -31,8 +31,8 @@ impl AngularAccelerations {
     pub fn of<const D: usize>(bodies: &Bodies<D>) -> Self {
         let zero = Jet::from_re(0.0);
         Self {
-            rigid: vec![Vector3::from_element(zero); bodies.frames.list().len()],
-            sections: vec![[zero; 3]; bodies.frames.carried().len()],
+            rigid: vec![Vector3::from_element(zero); bodies.rigid.len()],
+            sections: vec![[zero; 3]; bodies.moments()],
         }
     }
 }
@@ -50,12 +50,12 @@ fn add_parts(k: usize, sum: &mut Axes<Jet>, by_rate: &Axes<Jet>, by_spin: &Axes<
 impl<const D: usize> Bodies<D> {
     /// Sets the values of angular accelerations, which stand in the places of rotations in `found`.
     pub fn set_angular_accelerations(&self, found: &[Node<D>], to: &mut AngularAccelerations) {
-        for (frame, rate) in self.frames.list().iter().zip(&mut to.rigid) {
+        for (frame, rate) in self.rigid.iter().zip(&mut to.rigid) {
             for (rate, value) in rate.iter_mut().zip(&found[frame.node][1]) {
                 rate.re = *value;
             }
         }
-        for (frame, rate) in self.frames.carried().iter().zip(&mut to.sections) {
+        for (frame, rate) in self.section_frames().zip(&mut to.sections) {
             for (rate, value) in rate.iter_mut().zip(&found[frame.node][1]) {
                 rate.re = *value;
             }
@@ -74,7 +74,7 @@ impl<const D: usize> Bodies<D> {
             acceleration,
         }: AxisMotion<'_, D>,
     ) {
-        for (frame, spin_rate) in self.frames.list().iter().zip(&mut angular.rigid) {
+        for (frame, spin_rate) in self.rigid.iter().zip(&mut angular.rigid) {
             for (rate, value) in spin_rate.iter_mut().zip(&found[frame.node][1]) {
                 set_part(rate, k, *value);
             }
@@ -83,7 +83,7 @@ impl<const D: usize> Bodies<D> {
             add_parts(k, &mut sum, &by_rate, &frame.axes(bias));
             frame.set_axes(&sum, acceleration);
         }
-        for (frame, spin_rate) in self.frames.carried().iter().zip(&mut angular.sections) {
+        for (frame, spin_rate) in self.section_frames().zip(&mut angular.sections) {
             for (rate, value) in spin_rate.iter_mut().zip(&found[frame.node][1]) {
                 set_part(rate, k, *value);
             }

@@ -14,7 +14,7 @@
 use nalgebra::Vector3;
 
 use super::shear_rotation::ShearRotation;
-use super::{Axes, RotationMaps, axes_at, combined, set_axes_at, spin_at, turned};
+use super::{Axes, axes_at, combined, set_axes_at, spin_at, turned};
 use crate::bodies::connectivity::Node;
 use crate::bodies::stages::rotated;
 use crate::math::jet::Number;
@@ -82,7 +82,7 @@ impl SectionFrameState {
     }
 
     /// How far it has turned, rad: as a whole or about the tangent.
-    fn size(&self, frame: &SectionFrame) -> f64 {
+    pub fn size(&self, frame: &SectionFrame) -> f64 {
         if frame.has_shear {
             return self.shear_rotation.size();
         }
@@ -109,6 +109,16 @@ fn turned_by<N: Number>(axes: &Axes<N>, velocity: &Vector3<N>) -> Axes<N> {
 }
 
 impl SectionFrame {
+    /// At a node of a line, with its own first node. A system finds where its rotations are.
+    pub fn new(node: usize, line: usize, has_shear: bool) -> Self {
+        Self {
+            node,
+            line,
+            has_shear,
+            places: [None; 3],
+        }
+    }
+
     /// Returns the axes of the section, or their rates where `x` holds rates.
     pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         axes_at(self.node, x)
@@ -243,247 +253,181 @@ impl SectionFrame {
     }
 }
 
-impl RotationMaps {
-    /// Returns the section frames of rods and beams.
-    pub fn carried(&self) -> &[SectionFrame] {
-        &self.carried
-    }
-
-    /// Returns mutable access to the section frames.
-    pub fn carried_mut(&mut self) -> &mut [SectionFrame] {
-        &mut self.carried
-    }
-
-    /// Frames that the ground holds stand as in other nodes.
-    pub fn keep_held<const D: usize>(&self, nodes: &[Node<D>], x: &mut [Node<D>]) {
-        for frame in self
-            .carried
-            .iter()
-            .filter(|frame| frame.places[0].is_none())
-        {
-            frame.set_axes(&frame.axes(nodes), x);
-        }
-    }
-
-    /// Whether any of them has a shear rotation.
-    pub fn shear_rotation(&self) -> bool {
-        self.carried.iter().any(|frame| frame.has_shear)
-    }
-
-    /// The carried frame that a node belongs to, and whether it is its second node.
-    pub(in crate::bodies) fn carried_of<const D: usize>(
-        &self,
-        node: usize,
-    ) -> Option<(&SectionFrame, bool)> {
-        if D == 2 || self.carried.is_empty() {
-            return None;
-        }
-        let (index, is_second) = self.of_node[node]?;
-        let carried = self.carried.get(index.checked_sub(self.list.len())?)?;
-        Some((carried, is_second))
+impl SectionFrame {
+    /// Whether the ground holds it.
+    pub fn is_held(&self) -> bool {
+        self.places[0].is_none()
     }
 
     /// Axes at coordinates over the nodes, which hold rotations before.
-    pub(super) fn place_carried<const D: usize>(
+    pub fn place<const D: usize>(
         &self,
-        from: &[Quaternion],
-        carries: &mut [SectionFrameState],
+        from: &Quaternion,
+        carry: &mut SectionFrameState,
         x: &mut [Node<D>],
     ) {
-        for ((frame, from), carry) in self.carried.iter().zip(from).zip(carries) {
-            let slope = frame.slope(x);
-            x[frame.node][0] = x[frame.line][0];
-            if frame.has_shear {
-                let rotation = part(&x[frame.node], 1);
-                let (shear_rotation, axes) = ShearRotation::placed(from, slope, rotation);
-                carry.shear_rotation = shear_rotation;
-                set_axes_at(frame.node, &axes, x);
-                continue;
-            }
-            let [tangent, second, _] = axes(from);
-            let (t, stretch) = (slope / slope.norm(), slope.norm());
-            let rotation = x[frame.node][1][0];
-            let base = rotated(&tangent, &t, &second);
-            let second = base * rotation.cos() + t.cross(&base) * rotation.sin();
-            *carry = SectionFrameState {
-                from: tangent,
-                tangent: t,
-                stretch,
-                rotation,
-                ..SectionFrameState::default()
-            };
-            set_axes_at(frame.node, &[t, second, t.cross(&second)], x);
+        let slope = self.slope(x);
+        x[self.node][0] = x[self.line][0];
+        if self.has_shear {
+            let rotation = part(&x[self.node], 1);
+            let (shear_rotation, axes) = ShearRotation::placed(from, slope, rotation);
+            carry.shear_rotation = shear_rotation;
+            return self.set_axes(&axes, x);
         }
+        let [tangent, second, _] = axes(from);
+        let (t, stretch) = (slope / slope.norm(), slope.norm());
+        let rotation = x[self.node][1][0];
+        let base = rotated(&tangent, &t, &second);
+        let second = base * rotation.cos() + t.cross(&base) * rotation.sin();
+        *carry = SectionFrameState {
+            from: tangent,
+            tangent: t,
+            stretch,
+            rotation,
+            ..SectionFrameState::default()
+        };
+        self.set_axes(&[t, second, t.cross(&second)], x);
     }
 
     /// Rates of axes, whose places hold rates of rotations before.
-    pub(super) fn place_carried_rates<const D: usize>(
+    pub fn place_rates<const D: usize>(
         &self,
         x: &[Node<D>],
-        carries: &mut [SectionFrameState],
+        carry: &mut SectionFrameState,
         v: &mut [Node<D>],
     ) {
-        for (frame, carry) in self.carried.iter().zip(carries) {
-            let rate = frame.slope(v);
-            v[frame.node][0] = v[frame.line][0];
-            if frame.has_shear {
-                carry
-                    .shear_rotation
-                    .set_rates(rate, part(&v[frame.node], 1));
-                let axes = frame.turned(x, v, carry.shear_rotation.spin.into());
-                set_axes_at(frame.node, &axes, v);
-                continue;
-            }
-            carry.stretching = carry.tangent.dot(&rate) / carry.stretch;
-            carry.rate = rate / carry.stretch - carry.tangent * carry.stretching;
-            carry.spin = v[frame.node][1][0] - carry.by_tangent().dot(&carry.rate);
-            let axes = frame.turned(x, v, [carry.spin, 0.0, 0.0]);
-            set_axes_at(frame.node, &axes, v);
+        let rate = self.slope(v);
+        v[self.node][0] = v[self.line][0];
+        if self.has_shear {
+            let rotation_rate = part(&v[self.node], 1);
+            carry.shear_rotation.set_rates(rate, rotation_rate);
+            let axes = self.turned(x, v, carry.shear_rotation.spin.into());
+            return self.set_axes(&axes, v);
         }
+        carry.stretching = carry.tangent.dot(&rate) / carry.stretch;
+        carry.rate = rate / carry.stretch - carry.tangent * carry.stretching;
+        carry.spin = v[self.node][1][0] - carry.by_tangent().dot(&carry.rate);
+        let axes = self.turned(x, v, [carry.spin, 0.0, 0.0]);
+        self.set_axes(&axes, v);
     }
 
     /// Changes of axes to first order, whose places hold small rotations before: along them, of rods about the tangents.
-    pub(super) fn place_carried_changes<const D: usize, N: Number>(
+    pub fn place_changes<const D: usize, N: Number>(
         &self,
         x: &[Node<D, N>],
         dx: &mut [Node<D, N>],
     ) {
-        for frame in &self.carried {
-            let small: Vector3<N> = part(&dx[frame.node], 1);
-            let axes = frame.turned(x, dx, small.into());
-            set_axes_at(frame.node, &axes, dx);
-            dx[frame.node][0] = dx[frame.line][0];
-        }
+        let small: Vector3<N> = part(&dx[self.node], 1);
+        let axes = self.turned(x, dx, small.into());
+        self.set_axes(&axes, dx);
+        dx[self.node][0] = dx[self.line][0];
     }
 
     /// Adds to accelerations of axes what rates alone ask for.
-    pub(super) fn add_carried_centripetal<const D: usize, N: Number>(
+    pub fn add_centripetal<const D: usize, N: Number>(
         &self,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         a: &mut [Node<D, N>],
     ) {
-        for frame in &self.carried {
-            let spin = frame.spin(x, v);
-            if frame.has_shear {
-                let by_spin = turned(&frame.axes(v), &spin.into());
-                let sum = frame.axes(a);
-                let sum = std::array::from_fn(|k| sum[k] + by_spin[k]);
-                set_axes_at(frame.node, &sum, a);
-                continue;
-            }
-            let (slope, rate, spin) = (frame.slope(x), frame.slope(v), spin[0]);
-            let square = slope.norm_squared();
-            let velocity = angular(&slope, &rate, spin);
-            let turn = slope.cross(&rate) / square;
-            let tangent_rate = turn.cross(&slope) / square.sqrt();
-            let change = tangent_rate * spin - turn * (N::of(2.0) * slope.dot(&rate) / square);
-            let (axes, rates, mut sum) = (frame.axes(x), frame.axes(v), frame.axes(a));
-            for k in 0..3 {
-                sum[k] += velocity.cross(&rates[k]) + change.cross(&axes[k]);
-            }
-            set_axes_at(frame.node, &sum, a);
+        let spin = self.spin(x, v);
+        if self.has_shear {
+            let by_spin = turned(&self.axes(v), &spin.into());
+            let sum = self.axes(a);
+            let sum = std::array::from_fn(|k| sum[k] + by_spin[k]);
+            return self.set_axes(&sum, a);
         }
+        let (slope, rate, spin) = (self.slope(x), self.slope(v), spin[0]);
+        let square = slope.norm_squared();
+        let velocity = angular(&slope, &rate, spin);
+        let turn = slope.cross(&rate) / square;
+        let tangent_rate = turn.cross(&slope) / square.sqrt();
+        let change = tangent_rate * spin - turn * (N::of(2.0) * slope.dot(&rate) / square);
+        let (axes, rates, mut sum) = (self.axes(x), self.axes(v), self.axes(a));
+        for k in 0..3 {
+            sum[k] += velocity.cross(&rates[k]) + change.cross(&axes[k]);
+        }
+        self.set_axes(&sum, a);
     }
 
     /// Forces over the nodes become those on lines, and moments about tangents.
-    pub(super) fn pull_carried<const D: usize, N: Number>(
-        &self,
-        x: &[Node<D, N>],
-        f: &mut [Node<D, N>],
-    ) {
-        for frame in &self.carried {
-            let axes = frame.axes(x);
-            let moment = super::RigidBodyFrame::moment(&axes, &frame.axes(f));
-            let on_center = f[frame.node][0];
-            f[frame.node] = [[N::of(0.0); D]; 2];
-            f[frame.node + 1] = [[N::of(0.0); D]; 2];
-            let stretch = frame.slope(x).norm_squared().sqrt();
-            let mut add = |node: usize, part: usize, force: [N; D]| {
-                for (sum, force) in f[node][part].iter_mut().zip(force) {
-                    *sum += force;
-                }
-            };
-            add(frame.line, 0, on_center);
-            frame.add_moment::<D, N>(&axes, &moment, stretch, &mut add);
-        }
+    pub fn pull_back<const D: usize, N: Number>(&self, x: &[Node<D, N>], f: &mut [Node<D, N>]) {
+        let axes = self.axes(x);
+        let moment = super::RigidBodyFrame::moment(&axes, &self.axes(f));
+        let on_center = f[self.node][0];
+        f[self.node] = [[N::of(0.0); D]; 2];
+        f[self.node + 1] = [[N::of(0.0); D]; 2];
+        let stretch = self.slope(x).norm_squared().sqrt();
+        let mut add = |node: usize, part: usize, force: [N; D]| {
+            for (sum, force) in f[node][part].iter_mut().zip(force) {
+                *sum += force;
+            }
+        };
+        add(self.line, 0, on_center);
+        self.add_moment::<D, N>(&axes, &moment, stretch, &mut add);
     }
 
     /// Pulls a force on the position of a marker and a moment along the axes of its section frame back to nodal
     /// coordinates, passed to `term`.
-    pub(super) fn pull_on_carried<const D: usize, N: Number>(
-        frame: &SectionFrame,
+    pub fn pull_marker<const D: usize, N: Number>(
+        &self,
         (force, moment): (&[N; D], &Vector3<N>),
         x: &[Node<D, N>],
         term: &mut impl FnMut(usize, &Node<D, N>),
     ) {
         let zero = [N::of(0.0); D];
-        let stretch = frame.slope(x).norm_squared().sqrt();
-        term(frame.line, &[*force, zero]);
-        frame.add_moment::<D, N>(&frame.axes(x), moment, stretch, &mut |node, _, by| {
+        let stretch = self.slope(x).norm_squared().sqrt();
+        term(self.line, &[*force, zero]);
+        self.add_moment::<D, N>(&self.axes(x), moment, stretch, &mut |node, _, by| {
             term(node, &[zero, by]);
         });
     }
 
-    /// Adds to what stands among free coordinates for rotations, small rotations about tangents or derivatives of spins, what the same
-    /// derivatives of slopes make of them; `dx` are those over the nodes.
-    pub fn turn_carried<const D: usize>(
+    /// Adds to its rotations among free coordinates, small rotations about tangents or derivatives of spins, what the same derivatives of
+    /// slopes make of them; `dx` are those over the nodes.
+    pub fn convert<const D: usize>(
         &self,
         order: Derivative,
-        carries: &[SectionFrameState],
+        carry: &SectionFrameState,
         dx: &[Node<D>],
         y: &mut [f64],
     ) {
-        for (frame, carry) in self.carried.iter().zip(carries) {
-            let slope = frame.slope(dx);
-            if frame.has_shear {
-                let spin = frame.read(y);
-                let changed = match order {
-                    Derivative::First => carry.shear_rotation.change_of(&spin, &slope),
-                    Derivative::Second => carry.shear_rotation.second_of(&spin, &slope),
-                    Derivative::Back => carry.shear_rotation.spin_of(&spin, &slope),
-                };
-                frame.write(&changed, y);
-                continue;
-            }
-            let Some((at, scale)) = frame.places[0] else {
-                continue;
+        let slope = self.slope(dx);
+        if self.has_shear {
+            let spin = self.read(y);
+            let changed = match order {
+                Derivative::First => carry.shear_rotation.change_of(&spin, &slope),
+                Derivative::Second => carry.shear_rotation.second_of(&spin, &slope),
+                Derivative::Back => carry.shear_rotation.spin_of(&spin, &slope),
             };
-            y[at] += scale
-                * match order {
-                    Derivative::First => carry.rate_of(0.0, &slope),
-                    Derivative::Second => carry.second_of(0.0, &slope),
-                    Derivative::Back => -carry.rate_of(0.0, &slope),
-                };
+            return self.write(&changed, y);
         }
+        let Some((at, scale)) = self.places[0] else {
+            return;
+        };
+        y[at] += scale
+            * match order {
+                Derivative::First => carry.rate_of(0.0, &slope),
+                Derivative::Second => carry.second_of(0.0, &slope),
+                Derivative::Back => -carry.rate_of(0.0, &slope),
+            };
     }
 
-    /// The largest turn of a carried frame from that of the state, rad.
-    pub fn largest_carry(&self, carries: &[SectionFrameState]) -> f64 {
-        let frames = self.carried.iter().zip(carries);
-        let sizes = frames.map(|(frame, carry)| carry.size(frame));
-        sizes.fold(0.0, f64::max)
-    }
-
-    /// Rotations of carried frames begin at zero anew: the frames of the state become those at these coordinates; what is in `q`
+    /// Its rotation begins at zero anew: the frame of the state becomes the one at these coordinates; what is in `q`
     /// and in `v`, both over the free coordinates, stands for nothing and for spins.
-    pub fn renew_carried<const D: usize>(
+    pub fn renew<const D: usize>(
         &self,
-        (x, carries): (&[Node<D>], &[SectionFrameState]),
-        frames: &mut [Quaternion],
+        (x, carry): (&[Node<D>], &SectionFrameState),
+        from: &mut Quaternion,
         [q, v]: [&mut [f64]; 2],
     ) {
-        let frames = &mut frames[self.list.len()..];
-        for ((frame, carry), from) in self.carried.iter().zip(carries).zip(frames) {
-            let axes = frame.axes(x);
-            *from = normalized(quaternion_near(&axes, from));
-            if frame.has_shear {
-                frame.write(&Vector3::zeros(), q);
-                frame.write(&carry.shear_rotation.rate_anew(&axes), v);
-                continue;
-            }
-            if let Some((at, scale)) = frame.places[0] {
-                (q[at], v[at]) = (0.0, scale * carry.spin);
-            }
+        let axes = self.axes(x);
+        *from = normalized(quaternion_near(&axes, from));
+        if self.has_shear {
+            self.write(&Vector3::zeros(), q);
+            return self.write(&carry.shear_rotation.rate_anew(&axes), v);
+        }
+        if let Some((at, scale)) = self.places[0] {
+            (q[at], v[at]) = (0.0, scale * carry.spin);
         }
     }
 }

@@ -3,9 +3,11 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::section_frame::angular;
-use super::{Axes, RigidBodyFrame, RotationMaps, SectionFrame, axes_at, turned};
+use super::{Axes, RigidBodyFrame, SectionFrame, axes_at, turned};
+use crate::bodies::Bodies;
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
+use crate::bodies::nodes::NodeOwner;
 
 /// The block of a node whose second vector stands for a rotation.
 pub fn turning_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
@@ -28,7 +30,7 @@ fn add_scaled<const D: usize>(factor: f64, from: &Node<D>, to: &mut Node<D>) {
 }
 
 /// `A^T K B`.
-fn transformed<const D: usize>(
+pub(super) fn transformed<const D: usize>(
     block: &NodeBlock<D>,
     by_a: &NodeBlock<D>,
     by_b: &NodeBlock<D>,
@@ -58,10 +60,79 @@ fn add_transposed<const D: usize>(block: &mut NodeBlock<D>) {
     }
 }
 
-impl RotationMaps {
-    /// Second derivatives by nodal coordinates become those by the coordinates of bodies, added pair by pair of the nodes that
-    /// have these; what a pair of nodes has both ways that stand for one is in it.
-    pub fn pull_block<const D: usize>(
+/// Stiffness that forces on axes add where these rotate, along them: `sum (E_i.F_i) I - F_i E_i^T`, symmetric where the forces have no
+/// moment.
+fn geometric(axes: &Axes, forces: &Axes) -> Matrix3<f64> {
+    let along = Matrix3::from_fn(|i, j| forces[j].dot(&axes[i]));
+    Matrix3::from_diagonal_element(along.trace()) - along
+}
+
+/// Derivatives of a node by the coordinates of the nodes that have them.
+pub(in crate::bodies) type Partials<const D: usize> = [Option<(usize, NodeBlock<D>)>; 2];
+
+impl RigidBodyFrame {
+    /// Derivatives of the vectors of its first or second node by its coordinates.
+    pub(in crate::bodies) fn partial<const D: usize>(
+        &self,
+        is_second: bool,
+        x: &[Node<D>],
+    ) -> NodeBlock<D> {
+        let mut partial = no_block();
+        let axes = self.axes(x);
+        for turn in 0..D {
+            let [a, b, c] = turned(&axes, &Vector3::ith(turn, 1.0));
+            let changes = if is_second {
+                [b, c]
+            } else {
+                [Vector3::zeros(), a]
+            };
+            for (part, change) in changes.iter().enumerate() {
+                for axis in 0..D {
+                    partial[part][axis][1][turn] = change[axis];
+                }
+            }
+            if !is_second {
+                partial[0][turn][0][turn] = 1.0;
+            }
+        }
+        partial
+    }
+
+    /// Derivatives of the rates of these vectors by rotations about its axes as they stand: `E_i x v`.
+    pub(in crate::bodies) fn partial_of_rates<const D: usize>(
+        &self,
+        is_second: bool,
+        x: &[Node<D>],
+        v: &[Node<D>],
+    ) -> NodeBlock<D> {
+        let mut partial = no_block();
+        let (axes, [a, b, c]) = (self.axes(x), self.axes(v));
+        for (turn, about) in axes.iter().enumerate().take(D) {
+            let rates = if is_second {
+                [b, c]
+            } else {
+                [Vector3::zeros(), a]
+            };
+            for (part, rate) in rates.iter().enumerate() {
+                let change = about.cross(rate);
+                for axis in 0..D {
+                    partial[part][axis][1][turn] = change[axis];
+                }
+            }
+        }
+        partial
+    }
+
+    /// Stiffness that forces over the nodes on its axes add where it rotates, along its axes.
+    pub fn geometric<const D: usize>(&self, f: &[Node<D>], x: &[Node<D>]) -> Matrix3<f64> {
+        geometric(&self.axes(x), &self.axes(f))
+    }
+}
+
+impl<const D: usize> Bodies<D> {
+    /// Second derivatives by nodal coordinates become those by what is integrated, added pair by pair of the nodes that have these; what a
+    /// pair of nodes has both ways that stand for one is in it.
+    pub(in crate::bodies) fn rotate_block(
         &self,
         (a, b): (usize, usize),
         block: &NodeBlock<D>,
@@ -85,132 +156,69 @@ impl RotationMaps {
         }
     }
 
-    /// Derivatives of a node's vectors by the coordinates of the nodes that have them: one node, but for carried frames.
-    pub fn partials<const D: usize>(
-        &self,
-        node: usize,
-        x: &[Node<D>],
-    ) -> [Option<(usize, NodeBlock<D>)>; 2] {
-        if let Some(partials) = self.partials_of_carried(node, x) {
-            return partials.map(Some);
-        }
-        let mut partial = no_block();
-        let Some((frame, is_second)) = self.of_node::<D>(node) else {
-            for (i, k) in entries::<D>() {
-                partial[i][k][i][k] = 1.0;
+    /// Derivatives of a node's vectors by the coordinates of the nodes that have them: one node, but for section frames.
+    pub(in crate::bodies) fn partials(&self, node: usize, x: &[Node<D>]) -> Partials<D> {
+        match self.owner(node) {
+            NodeOwner::Rigid(index, is_second) => {
+                let frame = &self.rigid[index];
+                [Some((frame.node, frame.partial(is_second, x))), None]
             }
-            return [Some((node, partial)), None];
-        };
-        let axes = frame.axes(x);
-        for turn in 0..D {
-            let [a, b, c] = turned(&axes, &Vector3::ith(turn, 1.0));
-            let changes = if is_second {
-                [b, c]
-            } else {
-                [Vector3::zeros(), a]
-            };
-            for (part, change) in changes.iter().enumerate() {
-                for axis in 0..D {
-                    partial[part][axis][1][turn] = change[axis];
+            NodeOwner::Section(chain, k, is_second) => {
+                let frame = self.sections[chain].frame(k);
+                frame.partials(is_second, x).map(Some)
+            }
+            _ => {
+                let mut partial = no_block();
+                for (i, k) in entries::<D>() {
+                    partial[i][k][i][k] = 1.0;
                 }
-            }
-            if !is_second {
-                partial[0][turn][0][turn] = 1.0;
+                [Some((node, partial)), None]
             }
         }
-        [Some((frame.node, partial)), None]
     }
 
-    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand: `E_i x v`; of carried
-    /// frames at rest, nothing.
-    pub fn partials_of_rates<const D: usize>(
+    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand; of section frames, which are
+    /// linearized at rest, nothing.
+    pub(in crate::bodies) fn partials_of_rates(
         &self,
         node: usize,
         x: &[Node<D>],
         v: &[Node<D>],
-    ) -> [Option<(usize, NodeBlock<D>)>; 2] {
-        let mut partial = no_block();
-        if let Some((frame, _)) = self.carried_of::<D>(node) {
-            return [frame.line, frame.node].map(|owner| Some((owner, partial)));
-        }
-        let Some((frame, is_second)) = self.of_node::<D>(node) else {
-            return [Some((node, partial)), None];
-        };
-        let (axes, [a, b, c]) = (frame.axes(x), frame.axes(v));
-        for (turn, about) in axes.iter().enumerate().take(D) {
-            let rates = if is_second {
-                [b, c]
-            } else {
-                [Vector3::zeros(), a]
-            };
-            for (part, rate) in rates.iter().enumerate() {
-                let change = about.cross(rate);
-                for axis in 0..D {
-                    partial[part][axis][1][turn] = change[axis];
-                }
+    ) -> Partials<D> {
+        match self.owner(node) {
+            NodeOwner::Rigid(index, is_second) => {
+                let frame = &self.rigid[index];
+                [
+                    Some((frame.node, frame.partial_of_rates(is_second, x, v))),
+                    None,
+                ]
             }
+            NodeOwner::Section(chain, k, _) => {
+                let frame = self.sections[chain].frame(k);
+                [frame.line, frame.node].map(|owner| Some((owner, no_block())))
+            }
+            _ => [Some((node, no_block())), None],
         }
-        [Some((frame.node, partial)), None]
     }
+}
 
-    /// Calls with the geometric stiffness of forces over the nodes on axes, symmetric, pair by pair of nodes that have coordinates.
+impl SectionFrame {
+    /// Calls with the stiffness that forces on its axes add where it rotates, over the coordinates of the line's node and its
+    /// rotations, pair by pair of nodes. Of a rotation `a + p t` with `a = t x du / |u|` the second order is
+    /// `p (a x t) / 2 - a (t.du) / |u|`.
     pub fn for_each_geometric<const D: usize>(
         &self,
         f: &[Node<D>],
         x: &[Node<D>],
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
-        for frame in &self.list {
-            let turned = Self::geometric(frame, f, x);
+        if self.has_shear {
+            let (axes, forces) = (self.axes(x), axes_at(self.node, f));
+            let turned = geometric(&axes, &forces);
             let block = turning_block(&((turned + turned.transpose()) * 0.5));
-            add(frame.node, frame.node, &block);
+            return add(self.node, self.node, &block);
         }
-        for frame in &self.carried {
-            Self::geometric_of_carried(frame, f, x, &mut add);
-        }
-    }
-
-    /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,
-    /// symmetric where the forces have no moment.
-    pub fn geometric<const D: usize>(
-        frame: &RigidBodyFrame,
-        f: &[Node<D>],
-        x: &[Node<D>],
-    ) -> Matrix3<f64> {
-        Self::geometric_at(&frame.axes(x), &frame.axes(f))
-    }
-
-    fn geometric_at(axes: &Axes, forces: &Axes) -> Matrix3<f64> {
-        let along = Matrix3::from_fn(|i, j| forces[j].dot(&axes[i]));
-        Matrix3::from_diagonal_element(along.trace()) - along
-    }
-
-    /// [`RotationMaps::partials`] of a node of a carried frame.
-    pub(super) fn partials_of_carried<const D: usize>(
-        &self,
-        node: usize,
-        x: &[Node<D>],
-    ) -> Option<[(usize, NodeBlock<D>); 2]> {
-        let (frame, is_second) = self.carried_of::<D>(node)?;
-        Some(frame.partials(is_second, x))
-    }
-
-    /// Stiffness that forces on the axes of a carried frame add where it turns, over the coordinates of the line's node and its
-    /// rotations, pair by pair of nodes. Of a rotation `a + p t` with `a = t x du / |u|` the second order is
-    /// `p (a x t) / 2 - a (t.du) / |u|`.
-    pub fn geometric_of_carried<const D: usize>(
-        frame: &SectionFrame,
-        f: &[Node<D>],
-        x: &[Node<D>],
-        mut add: impl FnMut(usize, usize, &NodeBlock<D>),
-    ) {
-        if frame.has_shear {
-            let (axes, forces) = (frame.axes(x), axes_at(frame.node, f));
-            let turned = Self::geometric_at(&axes, &forces);
-            let block = turning_block(&((turned + turned.transpose()) * 0.5));
-            return add(frame.node, frame.node, &block);
-        }
-        let (axes, forces, slope) = (frame.axes(x), axes_at(frame.node, f), frame.slope(x));
+        let (axes, forces, slope) = (self.axes(x), axes_at(self.node, f), self.slope(x));
         let (stretch, t) = (slope.norm(), axes[0]);
         // Over small rotations in global components: sum (E.F) I - (F E^T + E F^T) / 2.
         let mut turning = Matrix3::zeros();
@@ -236,14 +244,12 @@ impl RotationMaps {
             both[1][0][1][r] = mixed[r];
         }
         turn[1][0][1][0] = on_turn;
-        let (a, b) = (frame.line, frame.node);
+        let (a, b) = (self.line, self.node);
         add(a, a, &line);
         add(b, a, &both);
         add(b, b, &turn);
     }
-}
 
-impl SectionFrame {
     /// Derivatives of one of its nodes' vectors by the coordinates of the line's node and by its rotation.
     fn partials<const D: usize>(
         &self,

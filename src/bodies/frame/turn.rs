@@ -3,9 +3,9 @@
 
 use nalgebra::Vector3;
 
-use super::{Derivative, RigidBodyFrame, RotationMaps};
+use super::RigidBodyFrame;
 use crate::math::jet::Number;
-use crate::math::rotation::{Quaternion, normalized, product};
+use crate::math::rotation::{Quaternion, product};
 
 /// How a body has turned from the frame that the state holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,7 +30,7 @@ pub(super) fn rate_of<N: Number>(p: &Vector3<N>, spin: &Vector3<N>) -> Vector3<N
 
 impl RotationIncrement {
     /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body turned.
-    pub(super) fn quaternion(&self, from: &Quaternion) -> Quaternion {
+    pub(in crate::bodies) fn quaternion(&self, from: &Quaternion) -> Quaternion {
         let half = self.rotation * 0.5;
         product(from, &[1.0, half.x, half.y, half.z])
     }
@@ -46,7 +46,7 @@ impl RotationIncrement {
     }
 
     /// Second derivative of the rotation, of angular accelerations along the body's axes.
-    fn second_of(&self, spin_rate: &Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn second_of(&self, spin_rate: &Vector3<f64>) -> Vector3<f64> {
         let (p, rate, spin) = (self.rotation, self.rate, self.spin);
         let by_rate = rate.cross(&spin) * 0.5 + rate * (0.25 * p.dot(&spin));
         self.rate_of(spin_rate) + by_rate + p * (0.25 * rate.dot(&spin))
@@ -55,7 +55,12 @@ impl RotationIncrement {
 
 impl RigidBodyFrame {
     /// The spin, or rate of it, about axes without inertia, for which the rotation about them stays zero.
-    fn complete(&self, turn: &RotationIncrement, spin: &mut Vector3<f64>, by_rate: bool) {
+    pub(super) fn complete(
+        &self,
+        turn: &RotationIncrement,
+        spin: &mut Vector3<f64>,
+        by_rate: bool,
+    ) {
         let (p, w) = (turn.rotation, turn.spin);
         for k in (0..3).filter(|k| self.places[*k].is_none()) {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
@@ -68,57 +73,18 @@ impl RigidBodyFrame {
     }
 
     /// How it has turned at these coordinates.
-    pub(super) fn turn(&self, q: &[f64]) -> RotationIncrement {
+    pub(in crate::bodies) fn increment(&self, q: &[f64]) -> RotationIncrement {
         RotationIncrement {
             rotation: self.read(q),
             ..RotationIncrement::default()
         }
     }
 
-    fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
+    pub(super) fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
         for (place, value) in self.places.iter().zip(rotation) {
             if let Some((at, scale)) = place {
                 q[*at] = value * scale;
             }
-        }
-    }
-}
-
-impl RotationMaps {
-    /// Converts changes of `q` between small rotations about axes, or angular velocities and their derivatives, and rotations from the frames
-    /// that the state holds.
-    pub fn convert(&self, order: Derivative, turns: &[RotationIncrement], q: &mut [f64]) {
-        for (frame, turn) in self.list.iter().zip(turns) {
-            let mut spin = frame.read(q);
-            let converted = match order {
-                Derivative::First => {
-                    frame.complete(turn, &mut spin, false);
-                    turn.rate_of(&spin)
-                }
-                Derivative::Second => {
-                    frame.complete(turn, &mut spin, true);
-                    turn.second_of(&spin)
-                }
-                Derivative::Back => turn.spin_of(&spin),
-            };
-            frame.write(&converted, q);
-        }
-    }
-
-    /// The largest rotation in coordinates, rad.
-    pub fn largest(&self, q: &[f64]) -> f64 {
-        let sizes = self.list.iter().map(|frame| frame.read(q).norm());
-        sizes.fold(0.0, f64::max)
-    }
-
-    /// Rotations begin at zero anew: the frames become what they are, of unit length, and rates spins.
-    pub fn renew(&self, frames: &mut [Quaternion], q: &mut [f64], v: &mut [f64]) {
-        for (frame, from) in self.list.iter().zip(frames) {
-            let mut turn = frame.turn(q);
-            turn.spin = turn.spin_of(&frame.read(v));
-            *from = normalized(turn.quaternion(from));
-            frame.write(&Vector3::zeros(), q);
-            frame.write(&turn.spin, v);
         }
     }
 }

@@ -5,17 +5,19 @@ use nalgebra::DMatrix;
 use super::loaded::add_moment;
 use super::turning::along;
 use super::{RodChain, plane, untwisted};
-use crate::bodies::assembly::{Assembly, Links, no_block};
+use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{RotationMaps, combined, unplaced};
+use crate::bodies::frame::{Derivative, combined, unplaced};
 use crate::bodies::linearized::{ElementTangent, LinearTerms, LinearizationPoint};
+use crate::bodies::map::Rotations;
 use crate::bodies::probe::Nodes;
 use crate::bodies::setup::NodeNumber;
 use crate::bodies::stages::RotatingNodes;
 use crate::elements::beam::VELOCITIES;
 use crate::elements::rod::Tangent;
 use crate::math::jet::Number;
+use crate::math::rotation::Quaternion;
 use crate::math::sparse::Matrix;
 
 impl<const D: usize> BodyPart<D> for RodChain {
@@ -91,6 +93,93 @@ impl<const D: usize> BodyPart<D> for RodChain {
         held.for_each(|node| rotating.still[node] = true);
     }
 
+    fn frame_count(&self) -> usize {
+        self.section_frames.len()
+    }
+
+    fn place(&self, from: &[Quaternion], rotations: &mut Rotations, x: &mut [Node<D>]) {
+        let from = &from[rotations.rigid.len() + self.first_section..];
+        let states = &mut rotations.sections[self.first_section..];
+        for ((frame, from), state) in self.section_frames.iter().zip(from).zip(states) {
+            frame.place(from, state, x);
+        }
+    }
+
+    fn place_rates(&self, x: &[Node<D>], rotations: &mut Rotations, v: &mut [Node<D>]) {
+        let states = &mut rotations.sections[self.first_section..];
+        for (frame, state) in self.section_frames.iter().zip(states) {
+            frame.place_rates(x, state, v);
+        }
+    }
+
+    fn place_changes<N: Number>(&self, x: &[Node<D, N>], dx: &mut [Node<D, N>]) {
+        for frame in &self.section_frames {
+            frame.place_changes(x, dx);
+        }
+    }
+
+    fn add_centripetal<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
+        for frame in &self.section_frames {
+            frame.add_centripetal(motion.pair(), a);
+        }
+    }
+
+    fn pull_back<N: Number>(
+        &self,
+        (x, _): (&[Node<D, N>], Option<&[Node<D, N>]>),
+        f: &mut [Node<D, N>],
+    ) {
+        for frame in &self.section_frames {
+            frame.pull_back(x, f);
+        }
+    }
+
+    fn add_torques<N: Number>(&self, torques: &[[N; 3]], f: &mut [Node<D, N>]) {
+        let torques = torques.iter().skip(self.first_section);
+        for (frame, torque) in self.section_frames.iter().zip(torques) {
+            let moment = f[frame.node][1].iter_mut().zip(torque);
+            moment.for_each(|(sum, torque)| *sum += *torque);
+        }
+    }
+
+    fn convert_free(&self, order: Derivative, at: &Rotations, nodal: &[Node<D>], y: &mut [f64]) {
+        let states = &at.sections[self.first_section..];
+        for (frame, state) in self.section_frames.iter().zip(states) {
+            frame.convert(order, state, nodal, y);
+        }
+    }
+
+    fn rotation_at(&self, at: &Rotations) -> f64 {
+        let frames = self.section_frames.iter();
+        let states = &at.sections[self.first_section..];
+        let sizes = frames.zip(states).map(|(frame, state)| state.size(frame));
+        sizes.fold(0.0, f64::max)
+    }
+
+    fn renew_free(
+        &self,
+        (x, at): (&[Node<D>], &Rotations),
+        frames: &mut [Quaternion],
+        [q, v]: [&mut [f64]; 2],
+    ) {
+        let from = &mut frames[at.rigid.len() + self.first_section..];
+        let states = &at.sections[self.first_section..];
+        for ((frame, state), from) in self.section_frames.iter().zip(states).zip(from) {
+            frame.renew((x, state), from, [&mut *q, &mut *v]);
+        }
+    }
+
+    fn for_each_geometric(
+        &self,
+        f: &[Node<D>],
+        x: &[Node<D>],
+        add: &mut impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        for frame in &self.section_frames {
+            frame.for_each_geometric(f, x, &mut *add);
+        }
+    }
+
     fn add_mass(&self, assembly: &Assembly<D>, mass: &mut Matrix<f64>) {
         let turns: Vec<_> = self.parts.clone().map(|k| (k, (1, k))).collect();
         let inside: Vec<_> = self.inside().collect();
@@ -112,16 +201,11 @@ impl<const D: usize> BodyPart<D> for RodChain {
         }
     }
 
-    fn add_spin_momentum(
-        &self,
-        motion: (&[Node<D>], &[Node<D>]),
-        maps: &RotationMaps,
-        momentum: &mut [Node<D>],
-    ) {
+    fn add_spin_momentum(&self, motion: (&[Node<D>], &[Node<D>]), momentum: &mut [Node<D>]) {
         for j in 0..self.elements.len() {
-            let [a, inner, b] = self.momenta(j, motion, maps);
+            let [a, inner, b] = self.momenta(j, motion);
             for (k, moment) in [(j, a), (j + 1, b)].into_iter().filter(|_| D > 2) {
-                add_moment(self.frame(k, maps).node, &moment, motion.0, momentum);
+                add_moment(self.frame(k).node, &moment, motion.0, momentum);
             }
             for (k, (part, axis)) in self.inside() {
                 momentum[self.inner + j][part][axis] += inner[k];
@@ -130,26 +214,18 @@ impl<const D: usize> BodyPart<D> for RodChain {
     }
 
     #[inline(always)]
-    fn add_force(
-        &self,
-        motion: NodalMotion<'_, D>,
-        maps: &RotationMaps,
-        out: (&mut [Node<D>], &mut [[f64; 3]]),
-    ) -> f64 {
-        RodChain::add_force(self, motion.pair(), maps, out)
+    fn add_force(&self, motion: NodalMotion<'_, D>, out: (&mut [Node<D>], &mut [[f64; 3]])) -> f64 {
+        RodChain::add_force(self, motion.pair(), out)
     }
 
     fn add_force_of<N: Number>(
         &self,
         motion: NodalMotion<'_, D, N>,
-        maps: &RotationMaps,
         (force, moments): (&mut [Node<D, N>], &mut [[N; 3]]),
     ) {
         for (j, (section, _)) in self.elements.iter().enumerate() {
             let at = self.at(j, motion.x);
-            let rates = section
-                .is_damped()
-                .then(|| self.rates(j, motion.pair(), maps));
+            let rates = section.is_damped().then(|| self.rates(j, motion.pair()));
             let (of_element, _) = section.force(&at, rates.as_ref());
             let [a, first, b, last, inner] = self.nodes(j);
             for (k, vector) in of_element.e.iter().enumerate() {
@@ -164,7 +240,7 @@ impl<const D: usize> BodyPart<D> for RodChain {
                     plane::turn(&motion.x[node][1], &moment, &mut force[node][1]);
                     continue;
                 }
-                for (sum, m) in moments[self.carried + j + k].iter_mut().zip(moment) {
+                for (sum, m) in moments[self.first_section + j + k].iter_mut().zip(moment) {
                     *sum += m;
                 }
             }
@@ -175,14 +251,9 @@ impl<const D: usize> BodyPart<D> for RodChain {
     }
 
     #[inline(always)]
-    fn add_gyroscopic<N: Number>(
-        &self,
-        motion: NodalMotion<'_, D, N>,
-        maps: &RotationMaps,
-        f: &mut [Node<D, N>],
-    ) {
+    fn add_gyroscopic<N: Number>(&self, motion: NodalMotion<'_, D, N>, f: &mut [Node<D, N>]) {
         let pair = motion.pair();
-        self.for_each_momentum(pair, maps, |frame, momentum| {
+        self.for_each_momentum(pair, |frame, momentum| {
             frame.add_gyroscopic(momentum, pair, f);
         });
     }
@@ -191,12 +262,11 @@ impl<const D: usize> BodyPart<D> for RodChain {
         &self,
         motion: NodalMotion<'_, D, N>,
         rotation: [f64; 3],
-        maps: &RotationMaps,
         f: &mut [Node<D, N>],
     ) {
         // In the plane directions of sections have inertia as other directions have.
         for j in (0..self.count()).filter(|_| D > 2) {
-            let force = self.turning(j, motion.pair(), rotation, maps);
+            let force = self.turning(j, motion.pair(), rotation);
             self.add_load(j, &force, motion.x, f);
         }
     }
@@ -205,17 +275,16 @@ impl<const D: usize> BodyPart<D> for RodChain {
     fn add_tangent(
         &self,
         motion: NodalMotion<'_, D>,
-        maps: &RotationMaps,
         assembly: &Assembly<D>,
         matrices: [&mut Matrix<f64>; 2],
     ) {
-        RodChain::add_tangent(self, motion.pair(), maps, assembly, matrices);
+        RodChain::add_tangent(self, motion.pair(), assembly, matrices);
     }
 
-    fn kinetic_beside<N: Number>(&self, motion: NodalMotion<'_, D, N>, maps: &RotationMaps) -> N {
+    fn kinetic_beside<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
         let mut sum = N::of(0.0);
         for j in 0..self.elements.len() {
-            let rates = self.rates(j, motion.pair(), maps);
+            let rates = self.rates(j, motion.pair());
             let momenta = self.momenta_of(j, &rates);
             let rates = [rates.spin[0], rates.inner, rates.spin[1]];
             for place in self.massive() {
@@ -226,15 +295,10 @@ impl<const D: usize> BodyPart<D> for RodChain {
         sum * N::of(0.5)
     }
 
-    fn frame_spin_energy<N: Number>(
-        &self,
-        x: &[Node<D, N>],
-        rotation: [f64; 3],
-        maps: &RotationMaps,
-    ) -> N {
+    fn frame_spin_energy<N: Number>(&self, x: &[Node<D, N>], rotation: [f64; 3]) -> N {
         let mut sum = N::of(0.0);
         for j in (0..self.count()).filter(|_| D > 2) {
-            let spin = [j, j + 1].map(|k| along(self.frame(k, maps), rotation, x));
+            let spin = [j, j + 1].map(|k| along(self.frame(k), rotation, x));
             let [first, _, last] = self.momenta_of_spins(j, spin);
             let pairs = [first, last].into_iter().flatten();
             let terms = pairs.zip(spin.into_iter().flatten());
@@ -255,64 +319,48 @@ impl<const D: usize> BodyPart<D> for RodChain {
         }
     }
 
-    fn dissipation<N: Number>(&self, motion: NodalMotion<'_, D, N>, maps: &RotationMaps) -> N {
+    fn dissipation<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
         let mut sum = N::of(0.0);
         for (j, (section, _)) in self.elements.iter().enumerate() {
             if section.is_damped() {
-                let rates = self.rates(j, motion.pair(), maps);
+                let rates = self.rates(j, motion.pair());
                 sum += section.force(&self.at(j, motion.x), Some(&rates)).1;
             }
         }
         sum
     }
 
-    fn add_momentum<N: Number>(
-        &self,
-        motion: NodalMotion<'_, D, N>,
-        maps: &RotationMaps,
-        sum: &mut Momentum<D, N>,
-    ) {
-        self.for_each_momentum(motion.pair(), maps, |frame, momentum| {
+    fn add_momentum<N: Number>(&self, motion: NodalMotion<'_, D, N>, sum: &mut Momentum<D, N>) {
+        self.for_each_momentum(motion.pair(), |frame, momentum| {
             sum.angular += combined(&frame.axes(motion.x), &momentum.into());
         });
         if D == 2 {
-            sum.angular[2] += self.planar_momentum(motion.pair(), maps);
+            sum.angular[2] += self.planar_momentum(motion.pair());
         }
     }
 
     /// Geometric stiffness of forces on section axes, which rotate, and what a frame of the scene that rotates adds to the inertia of spins.
-    fn linearize(
-        &self,
-        at: &mut LinearizationPoint<'_, D>,
-        maps: &RotationMaps,
-        terms: &mut LinearTerms,
-    ) {
+    fn linearize(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         if D == 2 {
             return;
         }
         let [stiffness, _] = &mut terms.symmetric;
-        for k in 0..=self.count() {
-            let frame = self.frame(k, maps);
-            RotationMaps::geometric_of_carried(frame, at.forces, at.motion.x, |a, b, block| {
+        for frame in &self.section_frames {
+            frame.for_each_geometric(at.forces, at.motion.x, |a, b, block| {
                 at.assembly.add(a, b, block, stiffness);
             });
         }
         if at.rotation != [0.0; 3] {
-            self.linearize_frame_spin(at, maps, terms);
+            self.linearize_frame_spin(at, terms);
         }
     }
 
-    fn linearize_elements(
-        &self,
-        at: &mut LinearizationPoint<'_, D>,
-        maps: &RotationMaps,
-        terms: &mut LinearTerms,
-    ) {
+    fn linearize_elements(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         let first = terms.elements.len();
         let matrix = |whole: &super::ElementMatrix, used: &[usize]| {
             DMatrix::from_fn(used.len(), used.len(), |r, c| whole[used[r]][used[c]])
         };
-        self.for_each_tangent(at.motion.pair(), maps, |kind, j, whole| {
+        self.for_each_tangent(at.motion.pair(), |kind, j, whole| {
             let (used, places) = self.velocities(j);
             match kind {
                 Tangent::Stiffness => terms.elements.push(ElementTangent {
@@ -332,7 +380,7 @@ impl<const D: usize> BodyPart<D> for RodChain {
         let mut unused = Matrix::zeros(at.assembly.pattern());
         let damping = if is_damped { damping } else { &mut unused };
         let matrices = [stiffness, damping];
-        RodChain::add_tangent(self, at.motion.pair(), maps, at.assembly, matrices);
+        RodChain::add_tangent(self, at.motion.pair(), at.assembly, matrices);
     }
 }
 
@@ -353,23 +401,22 @@ impl RodChain {
     fn linearize_frame_spin<const D: usize>(
         &self,
         at: &mut LinearizationPoint<'_, D>,
-        maps: &RotationMaps,
         terms: &mut LinearTerms,
     ) {
         let mut none = |_: usize, _: usize, _: f64| {};
         let rotation = at.rotation;
         for j in 0..self.count() {
             let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
-                let force = self.turning(j, (x, v), rotation, maps);
+                let force = self.turning(j, (x, v), rotation);
                 self.add_load(j, &force, x, f);
             };
             let nodes = self.all_nodes(j);
             let blocks = at.probe.differentiate(&nodes, false, &force);
-            let mut blocks = blocks.pulled(maps, at.motion.x);
+            let mut blocks = blocks.pulled(at.bodies, at.motion.x);
             let by_rates = at.probe.differentiate(&nodes, true, &force);
-            blocks.add_turned(&by_rates, maps, at.motion.pair());
+            blocks.add_turned(&by_rates, at.bodies, at.motion.pair());
             blocks.add(at.assembly, &mut terms.stiffness, &mut none);
-            let by_rates = by_rates.pulled(maps, at.motion.x);
+            let by_rates = by_rates.pulled(at.bodies, at.motion.x);
             by_rates.add(at.assembly, &mut terms.damping, &mut none);
         }
     }

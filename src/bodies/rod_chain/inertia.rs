@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{RodChain, part, plane};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{RotationMaps, SectionFrame};
+use crate::bodies::frame::SectionFrame;
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 
@@ -14,9 +14,8 @@ impl RodChain {
         &self,
         j: usize,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
     ) -> [[N; 3]; 3] {
-        self.momenta_of(j, &self.rates(j, motion, frames))
+        self.momenta_of(j, &self.rates(j, motion))
     }
 
     /// Returns the conjugate momenta of these velocities, N m s, as inertia times rates. For rates of velocities it
@@ -41,14 +40,13 @@ impl RodChain {
     pub fn for_each_momentum<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
         mut each: impl FnMut(&SectionFrame, [N; 3]),
     ) {
         // In the plane they are those of inertia at the nodes.
         for j in (0..self.elements.len()).filter(|_| D > 2) {
-            let [a, _, b] = self.momenta(j, motion, frames);
-            each(self.frame(j, frames), a);
-            each(self.frame(j + 1, frames), b);
+            let [a, _, b] = self.momenta(j, motion);
+            each(self.frame(j), a);
+            each(self.frame(j + 1), b);
         }
     }
 
@@ -56,9 +54,8 @@ impl RodChain {
     pub fn planar_momentum<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
     ) -> N {
-        let inside = |j: usize| self.momenta(j, motion, frames)[1][plane::PARTS.start];
+        let inside = |j: usize| self.momenta(j, motion)[1][plane::PARTS.start];
         (0..self.elements.len()).fold(N::of(0.0), |sum, j| sum + inside(j))
     }
 
@@ -83,15 +80,15 @@ impl RodChain {
         &self,
         j: usize,
         [x, v, a]: [&[Node<D, N>]; 3],
-        (rotation, frames): ([f64; 3], &RotationMaps),
+        rotation: [f64; 3],
     ) -> Force<N> {
         let (section, _) = &self.elements[j];
-        let rates = self.rates(j, (x, v), frames);
+        let rates = self.rates(j, (x, v));
         let mut force = section.force(&self.at(j, x), Some(&rates)).0;
         let [_, first, _, last, inner] = self.nodes(j);
         let spin = |k: usize, node: usize| match D {
             2 => plane::spin(&x[node][1], &a[node][1]),
-            _ => self.frame(k, frames).spin_rate(x, a),
+            _ => self.frame(k).spin_rate(x, a),
         };
         let changes = Rates {
             e: rates.e,
@@ -109,7 +106,7 @@ impl RodChain {
         if D == 2 {
             return force;
         }
-        let ends = [self.frame(j, frames), self.frame(j + 1, frames)];
+        let ends = [self.frame(j), self.frame(j + 1)];
         let [first, _, last] = self.momenta_of(j, &rates);
         for (k, (frame, momentum)) in ends.into_iter().zip([first, last]).enumerate() {
             let [slope, rate] = [x, v].map(|of| part(&of[frame.line], 1).into());
@@ -122,7 +119,7 @@ impl RodChain {
             on.iter_mut().zip(&asked).for_each(|(sum, f)| *sum += *f);
         }
         if rotation != [0.0; 3] {
-            force.add(&self.turning(j, (x, v), rotation, frames));
+            force.add(&self.turning(j, (x, v), rotation));
         }
         force
     }

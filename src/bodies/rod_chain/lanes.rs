@@ -6,7 +6,6 @@ use super::{AHEAD, RodChain, SpinInertia, plane};
 use crate::bodies::assembly::Assembly;
 use crate::bodies::chain::both;
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::RotationMaps;
 use crate::elements::ElementMotion;
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
@@ -44,7 +43,6 @@ impl RodChain {
     pub fn add_force<const D: usize>(
         &self,
         motion_of: (&[Node<D>], &[Node<D>]),
-        frames: &RotationMaps,
         out: (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
         let (mut place, mut rate) = (SectionNodePack::straight(), SectionNodePack::straight());
@@ -56,9 +54,9 @@ impl RodChain {
         };
         let (nodes, moments) = out;
         for Packed { elements, kernel } in &self.packs {
-            self.read(motion_of, None, elements, &mut place);
+            self.read(motion_of, false, elements, &mut place);
             if self.is_damped {
-                self.read(motion_of, Some(frames), elements, &mut rate);
+                self.read(motion_of, true, elements, &mut rate);
             }
             let motion = (&place, self.is_damped.then_some(&rate));
             power += match kernel {
@@ -75,11 +73,10 @@ impl RodChain {
     pub fn add_tangent<const D: usize>(
         &self,
         motion: (&[Node<D>], &[Node<D>]),
-        frames: &RotationMaps,
         assembly: &Assembly<D>,
         matrices: [&mut Matrix<f64>; 2],
     ) {
-        self.for_each_tangent(motion, frames, |kind, j, whole| {
+        self.for_each_tangent(motion, |kind, j, whole| {
             let matrix = &mut *matrices[kind as usize];
             self.for_each_block(j, whole, |row, column, block| {
                 assembly.add(row, column, block, matrix);
@@ -93,7 +90,6 @@ impl RodChain {
     pub fn for_each_tangent<const D: usize>(
         &self,
         motion_of: (&[Node<D>], &[Node<D>]),
-        frames: &RotationMaps,
         mut each: impl FnMut(Tangent, usize, &ElementMatrix),
     ) {
         let (mut place, mut rate) = (SectionNodePack::straight(), SectionNodePack::straight());
@@ -104,9 +100,9 @@ impl RodChain {
             .take(count)
         {
             for Packed { elements, kernel } in &self.packs {
-                self.read(motion_of, None, elements, &mut place);
+                self.read(motion_of, false, elements, &mut place);
                 if self.is_damped {
-                    self.read(motion_of, Some(frames), elements, &mut rate);
+                    self.read(motion_of, true, elements, &mut rate);
                 }
                 let motion = (&place, self.is_damped.then_some(&rate));
                 match kernel {
@@ -131,11 +127,11 @@ impl RodChain {
     fn read<const D: usize>(
         &self,
         (x, v): (&[Node<D>], &[Node<D>]),
-        frames: Option<&RotationMaps>,
+        are_rates: bool,
         elements: &Range<usize>,
         pack: &mut SectionNodePack,
     ) {
-        let from = if frames.is_some() { v } else { x };
+        let from = if are_rates { v } else { x };
         for (lane, k) in (elements.start..=elements.end).enumerate() {
             let node = &from[self.line + k];
             for d in 0..D.min(3) {
@@ -143,10 +139,10 @@ impl RodChain {
                 pack.line[1][d][lane] = node[1][d];
             }
             let frame = self.frames + self.stride * k;
-            if let Some(frames) = frames {
+            if are_rates {
                 let spin = match D {
                     2 => plane::spin(&x[frame][1], &v[frame][1]),
-                    _ => self.frame(k, frames).spin(x, v),
+                    _ => self.frame(k).spin(x, v),
                 };
                 for (to, spin) in pack.turn[0].iter_mut().zip(spin).take(self.parts.end) {
                     to[lane] = spin;
@@ -171,12 +167,12 @@ impl RodChain {
                 }
             }
         }
-        let ahead = if frames.is_some() { [0.0; 3] } else { AHEAD };
+        let ahead = if are_rates { [0.0; 3] } else { AHEAD };
         for (lane, j) in elements.clone().enumerate() {
             for (k, (part, axis)) in self.inside() {
                 pack.inner[k][lane] = from[self.inner + j][part][axis] - ahead[k];
             }
-            if D == 2 && frames.is_none() {
+            if D == 2 && !are_rates {
                 let [c, s, _] = plane::inner(&x[self.inner + j]);
                 (pack.inner[0][lane], pack.inner[1][lane]) = (c, s);
             }
@@ -204,7 +200,7 @@ impl RodChain {
                     plane::turn(&x[frame][1], &moment, &mut nodes[frame][1]);
                     continue;
                 }
-                let moment = moments[self.carried + j + end].iter_mut();
+                let moment = moments[self.first_section + j + end].iter_mut();
                 for (sum, m) in moment.zip(&f.moment[end]).take(self.turns()) {
                     *sum += m[lane];
                 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::{RodChain, plane};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{RigidBodyFrame, RotationMaps, axes_at};
+use crate::bodies::frame::{RigidBodyFrame, axes_at};
 use crate::elements::beam::{Force, Rates};
 use crate::elements::section::Vectors;
 use crate::math::jet::Number;
@@ -65,9 +65,8 @@ impl RodChain {
         &self,
         (j, force): (usize, &Force<N>),
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &RotationMaps,
     ) -> N {
-        product(force, &self.rates(j, motion, frames))
+        product(force, &self.rates(j, motion))
     }
 
     /// Work of a force on element `j` that stays what it is on the way between two places, J: exact for small turns.

@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 
 use super::RodChain;
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{RotationMaps, SectionFrame};
+use crate::bodies::frame::SectionFrame;
 use crate::elements::beam::{Force, Rates};
 use crate::math::jet::Number;
 
@@ -29,10 +29,9 @@ impl RodChain {
         j: usize,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         rotation: Rotation,
-        frames: &RotationMaps,
     ) -> Force<N> {
-        let rates = self.rates(j, (x, v), frames);
-        let ends = [j, j + 1].map(|k| self.frame(k, frames));
+        let rates = self.rates(j, (x, v));
+        let ends = [j, j + 1].map(|k| self.frame(k));
         let carried = ends.map(|frame| along(frame, rotation, x));
         let changes = [0, 1].map(|k| {
             if ends[k].has_shear {

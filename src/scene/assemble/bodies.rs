@@ -101,12 +101,8 @@ impl<const D: usize> Builder<'_, D> {
         let node = self.parts.bodies.reference.len();
         // What rounding left of the moment of a thin rod about itself is none.
         let rounded = |moment| if moment > 1e-9 * largest { moment } else { 0.0 };
-        self.parts.bodies.add_rigid(RigidBodyFrame {
-            node,
-            mass: solid.mass,
-            moments: solid.moments.map(rounded),
-            places: [None; 3],
-        });
+        let frame = RigidBodyFrame::new(node, solid.mass, solid.moments.map(rounded));
+        self.parts.bodies.add_rigid(frame);
         let center = vector::<D, f64>(body.point(solid.center.into())).into();
         let nodes = [[center, axis(0)], [axis(1), axis(2)]];
         self.parts.bodies.reference.extend(nodes);
@@ -176,7 +172,7 @@ impl<const D: usize> Builder<'_, D> {
             2 => line.iter().map(|[_, slope]| [[0.0; D], *slope]).collect(),
             _ => carried_nodes(&line, rod.first_axis(), (tangent, steps), twists),
         };
-        let carried = self.parts.bodies.section_frames();
+        let carried = self.parts.bodies.section_count();
         let length_of = |j: usize| (mesh[j + 1] - mesh[j]) * rod.shape.length();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {
             let length = length_of(j);

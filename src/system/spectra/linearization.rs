@@ -87,6 +87,7 @@ impl<const D: usize> System<D> {
             });
         }
         let mut at = LinearizationPoint {
+            bodies: &self.bodies,
             motion: work.kinematics.motion(),
             at_rest,
             rotation: self.rotation,
