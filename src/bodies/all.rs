@@ -29,7 +29,7 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) rods: Vec<RigidRod>,
     /// Rigid bodies of space.
     pub(super) rigid: Vec<RigidBodyFrame>,
-    /// What every node belongs to, `[nodes]`.
+    /// Owner of every node, `[nodes]`.
     pub(super) owners: Vec<NodeOwner>,
     /// Number of frames that a state holds: of rigid bodies of space, then of sections.
     pub(super) frame_count: usize,

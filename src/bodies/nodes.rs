@@ -22,7 +22,7 @@ pub enum NodeKind {
     Inner,
 }
 
-/// What a node belongs to.
+/// Owner of a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum NodeOwner {
     /// A position and a direction that are coordinates themselves.
@@ -39,13 +39,13 @@ pub(super) enum NodeOwner {
 }
 
 impl<const D: usize> Bodies<D> {
-    /// What a node belongs to.
+    /// Owner of a node.
     #[inline(always)]
     pub(super) fn owner(&self, node: usize) -> NodeOwner {
         self.owners.get(node).copied().unwrap_or_default()
     }
 
-    /// Finds what nodes belong to.
+    /// Finds the owners of all nodes.
     pub(super) fn find_owners(&mut self) {
         let mut owners = vec![NodeOwner::Own; self.reference.len()];
         for (index, chain) in self.sections.iter().enumerate() {

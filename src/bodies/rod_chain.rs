@@ -104,12 +104,12 @@ impl RodChain {
         self.first_section
     }
 
-    /// Its section frames, in space.
+    /// Section frames, in space.
     pub fn section_frames(&self) -> &[SectionFrame] {
         &self.section_frames
     }
 
-    /// Its section frames, to be changed.
+    /// Section frames, to be changed.
     pub(super) fn section_frames_mut(&mut self) -> &mut [SectionFrame] {
         &mut self.section_frames
     }

@@ -78,7 +78,7 @@ impl<const D: usize> Bodies<D> {
         self.sections.iter().map(|chain| chain.count() + 1).sum()
     }
 
-    /// Finds what nodes belong to. To be called when all bodies are there.
+    /// Finds the owners of nodes. To be called when all bodies are there.
     pub fn complete(&mut self) {
         self.find_owners();
         let mut count = 0;

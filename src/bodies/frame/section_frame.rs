@@ -412,7 +412,7 @@ impl SectionFrame {
             };
     }
 
-    /// Its rotation begins at zero anew: the frame of the state becomes the one at these coordinates; what is in `q`
+    /// Lets the rotation begin at zero anew: the frame of the state becomes the one at these coordinates; what is in `q`
     /// and in `v`, both over the free coordinates, stands for nothing and for spins.
     pub fn renew<const D: usize>(
         &self,
