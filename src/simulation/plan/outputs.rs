@@ -24,8 +24,10 @@ pub(super) enum Measure {
     Rate,
     /// Largest value of a force, a strain or an acceleration, which follows from the deformation of its body.
     Elastic,
-    /// Largest value of a frequency or of a sum over the scene.
+    /// Largest value of a sum over the scene.
     Sum,
+    /// Value of a natural frequency or of a part of an eigenvalue.
+    Spectrum,
 }
 
 /// Reference of the relative errors of an output.
@@ -37,14 +39,21 @@ pub enum RelativeTo {
     Body,
     /// A thousandth of the size of the scene, or of a natural force of it: nothing changes.
     Scene,
+    /// A thousandth of the absolute value of the eigenvalue that the output is a part of, or of the inverse of the length of
+    /// the experiment if that is more.
+    Eigenvalue,
 }
 
-/// An output with all its components.
+/// An output with all its components. Each natural frequency and each part of an eigenvalue is an output of its own, since a list
+/// of them is no vector.
 #[derive(Clone, Debug)]
 pub(super) struct OutputGroup {
+    /// Name of the output, with an index only if it is one of a list.
     pub name: String,
     /// Indices of its components among the computed variables.
     pub members: Vec<usize>,
+    /// Indices of the decay rate and the frequency of the eigenvalue that it is a part of. Empty for other outputs.
+    eigenvalue: Vec<usize>,
     pub measure: Measure,
     /// Unit, which like outputs share.
     unit: Option<Unit>,
@@ -101,16 +110,22 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Output
         let Some((measure, is_dynamic, counts)) = nature(variable.source) else {
             continue;
         };
-        let name = variable.name.split('[').next().unwrap_or_default();
-        let counts = wanted.iter().any(|of| of == name) || wanted.is_empty() && counts;
+        let list = without_index(&variable.name);
+        let counts = wanted.iter().any(|of| of == list) || wanted.is_empty() && counts;
+        let name = if measure == Measure::Spectrum {
+            &variable.name
+        } else {
+            list
+        };
         match groups.iter_mut().find(|group| group.name == name) {
             Some(group) => group.members.push(index),
             None => groups.push(OutputGroup {
                 name: name.to_owned(),
                 members: vec![index],
+                eigenvalue: parts_of_eigenvalue(variable.source, variables),
                 measure,
                 unit: variable.unit,
-                bodies: scene.bodies_read_by(name),
+                bodies: scene.bodies_read_by(list),
                 is_dynamic,
                 is_force: is_force(variable.source),
                 counts,
@@ -118,8 +133,10 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Output
         }
     }
     for (place, of) in wanted.iter().enumerate() {
-        if !groups.iter().any(|group| group.name == *of) {
-            let meant = did_you_mean(of, groups.iter().map(|group| group.name.as_str()));
+        let mut names = groups.iter().map(|group| without_index(&group.name));
+        if !names.any(|name| name == of) {
+            let names = groups.iter().map(|group| without_index(&group.name));
+            let meant = did_you_mean(of, names);
             let message =
                 format!("expected the name of an output, without an index, found \"{of}\"{meant}");
             return Err(Error::new(format!("accuracy.of[{place}]"), message));
@@ -133,6 +150,23 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Output
     Ok(groups)
 }
 
+/// The name of a variable without the index of a component or of a place in a list.
+fn without_index(name: &str) -> &str {
+    name.split('[').next().unwrap_or(name)
+}
+
+/// Indices, among the computed variables, of the decay rate and the frequency of the eigenvalue that a variable is a part of.
+/// Empty for other variables.
+fn parts_of_eigenvalue(source: Source, variables: &[Variable]) -> Vec<usize> {
+    let Source::Eigenvalue(number, _) = source else {
+        return Vec::new();
+    };
+    let computed = variables.iter().filter(|v| v.is_computed()).enumerate();
+    let is_part = |of: Source| matches!(of, Source::Eigenvalue(other, _) if other == number);
+    let parts = computed.filter(|(_, variable)| is_part(variable.source));
+    parts.map(|(index, _)| index).collect()
+}
+
 /// By what an output is measured, whether it follows from accelerations, and whether it counts where none are named;
 /// nothing of what is no output.
 fn nature(source: Source) -> Option<(Measure, bool, bool)> {
@@ -140,7 +174,7 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
     let quantity = match source {
         Source::Output(quantity) => quantity,
         Source::NaturalFrequency(_) | Source::Eigenvalue(..) => {
-            return Some((Measure::Sum, false, true));
+            return Some((Measure::Spectrum, false, true));
         }
         Source::Time | Source::Parameter(_) | Source::Input(_) => return None,
     };
@@ -242,6 +276,9 @@ pub(super) fn like(groups: &[OutputGroup], index: usize, sizes: &[f64]) -> f64 {
 pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, RelativeTo)> {
     let changes: Vec<f64> = groups.iter().map(|group| own(group, run)).collect();
     let scale = |(index, group): (usize, &OutputGroup)| {
+        if group.measure == Measure::Spectrum {
+            return of_eigenvalue(group, changes[index], run);
+        }
         let natural = group.members.iter().map(|m| run.natural[*m]);
         let natural = natural.fold(0.0, f64::max);
         let deformed = run.deformed.iter().copied().fold(0.0, f64::max);
@@ -257,6 +294,21 @@ pub(super) fn scales(groups: &[OutputGroup], run: &TrialRun) -> Vec<(f64, Relati
         }
     };
     groups.iter().enumerate().map(scale).collect()
+}
+
+/// Reference size of the errors of a natural frequency or of a part of an eigenvalue, whose value is `own`: parts that are zero, as
+/// decay rates without dampers and frequencies of rigid modes, are roundoff and have no size of their own.
+fn of_eigenvalue(group: &OutputGroup, own: f64, run: &TrialRun) -> (f64, RelativeTo) {
+    let parts = group.eigenvalue.iter().map(|part| run.rows[0][*part]);
+    let whole = norm(&parts.collect::<Vec<f64>>());
+    let length = run.times.last().copied().unwrap_or_default();
+    let slowest = if length > 0.0 { 1.0 / length } else { 0.0 };
+    let least = SMALLEST * whole.max(slowest);
+    if own < least {
+        (least, RelativeTo::Eigenvalue)
+    } else {
+        (own, RelativeTo::Own)
+    }
 }
 
 /// Compares an output between a run and a more accurate one. `limit` is the wanted relative error.
@@ -298,7 +350,7 @@ pub(super) fn shown(group: &OutputGroup, index: usize, run: &TrialRun) -> Option
             Some(deformed) if deformed > 0.0 => Some(deformed),
             _ => of_bodies(&run.moved),
         },
-        Measure::Sum => None,
+        Measure::Sum | Measure::Spectrum => None,
     };
     found.filter(|found| *found > ROUNDOFF * run.size)
 }

@@ -177,6 +177,12 @@ impl Plan {
                     "a thousandth of the largest change of like outputs of its body"
                 }
                 RelativeTo::Scene => "a thousandth of what is natural in the scene",
+                RelativeTo::Eigenvalue => {
+                    return Some(format!(
+                        "{}: it is nearly zero, its error is relative to a thousandth of the size of its eigenvalue, at least of 1 / stop time",
+                        output.name
+                    ));
+                }
             };
             Some(format!(
                 "{}: it hardly changes, its error is relative to {by}",

@@ -241,7 +241,9 @@ fn errors(outputs: &[Output], ran: &Ran, fine: &Ran) -> Vec<f64> {
     let errors = outputs.iter().map(|output| {
         let mut squares = Vec::new();
         for (name, exact) in &exact {
-            if name.split('[').next() != Some(&output.name) {
+            // Frequencies are listed one by one, components of a vector together.
+            let vector = name.split('[').next();
+            if *name != output.name && vector != Some(&output.name) {
                 continue;
             }
             let own = own.get(name).map_or(&[][..], Vec::as_slice);
