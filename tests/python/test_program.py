@@ -46,6 +46,17 @@ def test_errors_are_the_programs_own(program, swing, tmp_path):
         flexbody.simulate(tmp_path / "none.json")
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for the program is a script of sh")
+def test_progress_is_no_part_of_an_error(tmp_path, monkeypatch):
+    stand_in = tmp_path / "flexbody"
+    stand_in.write_text("#!/bin/sh\necho '... planning for 10 s' >&2\necho 'flexbody: no start' >&2\nexit 1\n")
+    stand_in.chmod(0o755)
+    monkeypatch.setenv(_program.PROGRAM, str(stand_in))
+    with pytest.raises(flexbody.Error) as told:
+        _program.run("plan")
+    assert str(told.value) == "no start"
+
+
 def test_scenes_become_pages(program, swing, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     page = flexbody.view(Scene.from_file(swing), open=False)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use flexbody::fmi2;
 use flexbody::simulation::{Simulation, check};
-use fmu_package::{prepared, shown};
+use fmu_package::{Progress, prepared, shown};
 
 use crate::icon;
 use crate::planning::{Within, planned};
@@ -50,7 +50,9 @@ pub fn describe(place: &Path, output: &Path, is_moving: bool, within: &Within) -
     let (scene, planned) = planned(place, within)?;
     // What contradicts itself, or has no start, is told here, not by the first master that runs it.
     check(&scene).map_err(|error| at(place, error))?;
+    let finding = Progress::spinner("finding the start {spinner}", "finding the start");
     let start = Simulation::new(scene.clone()).initialize(0.0);
+    drop(finding);
     start.map_err(|error| at(place, format!("start values: {error}")))?;
     let motion = if is_moving {
         viewing::motion(place, &scene)?

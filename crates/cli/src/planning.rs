@@ -2,12 +2,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::{Result, bail};
 use flexbody::scene::{Chosen, Scene, remarks};
 use flexbody::simulation::{self, Budget, Damped, Plan, Planned, Settles, TrialConditions};
-use indicatif::{ProgressBar, ProgressStyle};
+use fmu_package::Progress;
 
 use crate::inputs::{Inputs, signals};
 use crate::reading::{at, read};
@@ -112,17 +112,14 @@ fn planned_quietly(
         seconds: within.budget,
         is_over: &|| started.elapsed().as_secs_f64() >= within.budget,
     };
-    let bar = ProgressBar::new_spinner();
-    if let Ok(style) = ProgressStyle::with_template("planning {spinner} {msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(100));
+    let doing = format!("planning (budget {} s)", within.budget);
+    let bar = Progress::spinner("planning {spinner} {msg}", &doing);
     let found = simulation::plan_for(scene, given, &budget, &mut |run, elements, tolerance| {
         bar.set_message(format!(
             "run {run}: {elements} elements, tolerance {tolerance:e}"
         ));
     });
-    bar.finish_and_clear();
+    drop(bar);
     found.map_err(|error| at(path, error))
 }
 

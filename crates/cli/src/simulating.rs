@@ -9,8 +9,7 @@ use flexbody::simulation::{
     Causality, Doubtful, InputTable, NEARLY, RedundantNames, Report, Signals, Simulation, Singular,
     TrialConditions,
 };
-use fmu_package::bar;
-use indicatif::ProgressBar;
+use fmu_package::Progress;
 
 use crate::files::{Shapes, Sink, Table};
 use crate::inputs::{self, Inputs};
@@ -158,7 +157,9 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
     let signals =
         table.map(|(table, path)| signals(&mut simulation, &table, path, &set, stop_time));
     let signals = signals.transpose()?;
+    let finding = Progress::spinner("finding the start {spinner}", "finding the start");
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
+    drop(finding);
     started.map_err(|error| at(&arguments.scene, error))?;
     let redundant = simulation.redundant();
     for joint in &redundant.exactly {
@@ -281,7 +282,7 @@ impl Run {
         if let Some(shapes) = &mut self.shapes {
             shapes.sink.finish()?;
         }
-        bar.finish_and_clear();
+        drop(bar);
         self.cost.doubtful = simulation.doubtful();
         for doubtful in &self.cost.doubtful {
             eprintln!("flexbody: {doubtful}");
@@ -328,7 +329,8 @@ impl Run {
     }
 }
 
-/// A progress bar of steps.
-pub fn progress_bar(steps: u64) -> ProgressBar {
-    bar("simulating {bar:40} {percent:>3} %  {eta} left", steps)
+/// Progress of steps.
+pub fn progress_bar(steps: u64) -> Progress {
+    let template = "simulating {bar:40} {percent:>3} %  {eta} left";
+    Progress::bar(template, "simulating", steps, 0)
 }

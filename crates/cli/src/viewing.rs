@@ -127,7 +127,7 @@ fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
     let found = Recording::new(&scene, inputs.as_ref(), &Limits::PAGE, &mut |number, _| {
         bar.set_position(number);
     });
-    bar.finish_and_clear();
+    drop(bar);
     let recording = found.map_err(|error| at(file, error))?;
     if let Some(reason) = recording.stopped() {
         eprintln!("flexbody: {reason}");
@@ -145,6 +145,6 @@ pub fn motion(file: &Path, scene: &Scene) -> Result<String> {
     let section = page::motion(scene, inputs.as_ref(), &mut |number, _| {
         bar.set_position(number);
     });
-    bar.finish_and_clear();
+    drop(bar);
     Ok(section)
 }

@@ -8,7 +8,7 @@ mod progress;
 pub use archive::{Content, content, pack, read, write};
 pub use files::{Stage, destination, partial, prepared, shown, write_whole};
 pub use platform::Platform;
-pub use progress::{announced, bar};
+pub use progress::{Progress, announced, bar};
 
 /// The scene in an FMU.
 pub const SCENE: &str = "resources/scene.json";

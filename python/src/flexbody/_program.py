@@ -14,6 +14,8 @@ from flexbody._errors import Error
 
 # What the program prints before everything that it says.
 PREFIX = "flexbody: "
+# Lines of progress begin with this.
+PROGRESS = "... "
 NAME = "flexbody.exe" if os.name == "nt" else "flexbody"
 PRODUCT = Path(__file__).parent / "product"
 # Names the program where it does not lie in the package.
@@ -72,7 +74,7 @@ def run(*arguments, cwd=None):
         encoding="utf-8",
         errors="replace",
     )
-    said = result.stderr.strip()
+    said = "\n".join(line for line in result.stderr.strip().splitlines() if not line.startswith(PROGRESS))
     if result.returncode != 0:
         raise Error(said.removeprefix(PREFIX) or f"the program ended with {result.returncode}")
     for line in said.splitlines():

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, anyhow, bail};
 use flexbody::scene::Scene;
 use flexbody::simulation::Simulation;
-use fmu_package::{destination, shown};
+use fmu_package::{Progress, destination, shown};
 use serde_json::json;
 
 use crate::planning::{Within, planned};
@@ -137,9 +137,8 @@ pub fn sweep(arguments: &Sweep) -> Result<()> {
         );
     }
     let template = "sweeping {bar:40} {pos}/{len} runs  {eta} left";
-    let bar =
-        fmu_package::bar(template, count as u64).with_position((count - missing.len()) as u64);
-    bar.reset_eta();
+    let done = (count - missing.len()) as u64;
+    let bar = Progress::bar(template, "sweeping", count as u64, done);
     let mut take = |run: usize, found: Result<Series, String>| {
         bar.inc(1);
         journal.add(run, &Outcome::new(found, series.is_some()))
@@ -148,7 +147,7 @@ pub fn sweep(arguments: &Sweep) -> Result<()> {
         Some(address) => cluster::run(arguments, &common, address, &missing, &mut take)?,
         None => threads::run(&common, arguments.jobs, &missing, &mut take)?,
     }
-    bar.finish_and_clear();
+    drop(bar);
     let failed = table::write(&common, &mut journal, &output, series.as_deref())?;
     println!("wrote {}", shown(&output));
     if let Some(series) = &series {
