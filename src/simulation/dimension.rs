@@ -39,6 +39,7 @@ macro_rules! handed_on {
 handed_on! {
     fn initial_state([&mut] self, time: f64, inputs: &Inputs) -> Result<(State, Spectra), Error>;
     fn modes([&mut] self, state: &State, inputs: &[f64], count: usize) -> Result<Vec<Mode>, String>;
+    fn lowest_frequencies([&mut] self, state: &State, inputs: &[f64], count: usize) -> Result<Vec<f64>, String>;
     fn damping_along([&mut] self, state: &State, inputs: &[f64], ways: &[Vec<f64>]) -> Vec<f64>;
     fn way_to_rest([&mut] self, at: OperatingPoint<'_>) -> Option<f64>;
     fn slow_response([&mut] self, at: OperatingPoint<'_>, place: usize, of: &[Option<Quantity>]) -> Option<Vec<f64>>;

@@ -30,6 +30,7 @@ mod watch;
 pub use dimension::check;
 pub use fast::TooFast;
 pub use mesh::Unresolved;
+pub use modes::{FirstFrequencies, first_frequencies};
 pub use plan::{
     Budget, Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo,
     Settled, Settles, TrialConditions, courses, plan, plan_for,

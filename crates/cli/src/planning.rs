@@ -1,12 +1,15 @@
 //! `flexbody plan`, and what is done with scenes that leave numbers to the planner.
 
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, bail};
 use flexbody::scene::{Chosen, Scene, remarks};
-use flexbody::simulation::{self, Budget, Damped, Plan, Planned, Settles, TrialConditions};
+use flexbody::simulation::{
+    self, Budget, Damped, FirstFrequencies, Plan, Planned, Settles, TrialConditions,
+};
 use fmu_package::Progress;
 
 use crate::inputs::{Inputs, signals};
@@ -44,6 +47,11 @@ fn seconds(text: &str) -> Result<f64, String> {
         Err(expected())
     }
 }
+
+/// Number of natural frequencies that are printed beside a plan.
+const FREQUENCIES: usize = 5;
+/// Distance of the start from equilibrium, in sizes of the scene, from which on it is told beside natural frequencies.
+const REST: f64 = 0.01;
 
 /// Which scene, and where to write.
 #[derive(clap::Args)]
@@ -153,8 +161,14 @@ pub fn plan(arguments: &Planning) -> Result<()> {
         damping,
         numbers,
     } = &planned;
+    let finding = Progress::spinner(
+        "natural frequencies {spinner}",
+        "finding natural frequencies",
+    );
+    let frequencies = simulation::first_frequencies(&scene, &given, FREQUENCIES);
+    drop(finding);
     if let (Some(file), Some(plan)) = (&arguments.report, numbers) {
-        fs::write(file, json(plan)).map_err(|error| at(file, error))?;
+        fs::write(file, json(plan, &frequencies)).map_err(|error| at(file, error))?;
     }
     if let Some(file) = &arguments.courses {
         let written = courses.map_or(Ok(()), |table| fs::write(file, table.text));
@@ -164,10 +178,13 @@ pub fn plan(arguments: &Planning) -> Result<()> {
     match numbers {
         Some(plan) => {
             print!("{}", in_words(plan));
-            arguments.within.check(plan)?;
         }
         None if !elements.is_empty() || !damping.is_empty() => (),
         None => println!("nothing to plan: the scene gives numbers of elements and a tolerance"),
+    }
+    print!("\n{}", frequencies_in_words(&frequencies));
+    if let Some(plan) = numbers {
+        arguments.within.check(plan)?;
     }
     let Some(output) = &arguments.output else {
         return Ok(());
@@ -175,8 +192,12 @@ pub fn plan(arguments: &Planning) -> Result<()> {
     fs::write(output, scene.to_json()).map_err(|error| at(output, error))
 }
 
-/// The plan as a line of JSON. Names need no escapes.
-fn json(plan: &Plan) -> String {
+/// The plan as a line of JSON, with natural frequencies or `null`. Names need no escapes.
+fn json(plan: &Plan, frequencies: &Result<FirstFrequencies, String>) -> String {
+    let frequencies = match frequencies {
+        Ok(found) => format!("{:?}", found.frequencies),
+        Err(_) => "null".into(),
+    };
     let number = |value: Option<u32>| value.map_or("null".into(), |n| n.to_string());
     let bodies = plan.bodies.iter().map(|body| {
         let counts = [body.elements, body.fewest].map(number);
@@ -199,7 +220,7 @@ fn json(plan: &Plan) -> String {
     });
     format!(
         "{{\"error\": {:?}, \"tolerance\": {:?}, \"method\": \"{}\", \"runs\": {}, \"runs_cost\": {:?}, \
-         \"bodies\": [{}], \"outputs\": [{}]}}\n",
+         \"bodies\": [{}], \"outputs\": [{}], \"natural_frequencies\": {frequencies}}}\n",
         plan.error,
         plan.tolerance,
         plan.method,
@@ -208,6 +229,45 @@ fn json(plan: &Plan) -> String {
         bodies.collect::<Vec<_>>().join(", "),
         outputs.collect::<Vec<_>>().join(", ")
     )
+}
+
+/// Natural frequencies as a list of a terminal, or why there are none.
+fn frequencies_in_words(found: &Result<FirstFrequencies, String>) -> String {
+    let found = match found {
+        Ok(found) if found.frequencies.is_empty() => {
+            return "natural frequencies: none, nothing can move\n".into();
+        }
+        Ok(found) => found,
+        Err(reason) => return format!("natural frequencies: none ({reason})\n"),
+    };
+    let rows = found.frequencies.iter().enumerate().map(|(index, rate)| {
+        let hertz = if *rate < 0.0 {
+            "unstable".into()
+        } else {
+            significant(rate / TAU)
+        };
+        [(index + 1).to_string(), significant(*rate), hertz]
+    });
+    let mut text = "natural frequencies about the start, at rest and without dampers\n".to_owned();
+    text += &table(&["mode", "rad/s", "Hz"], rows.collect());
+    if let Some(from_rest) = found.from_rest.filter(|distance| *distance > REST) {
+        text += &format!(
+            "  the start is no equilibrium: it is {from_rest:.1e} of the size of the scene away from rest\n"
+        );
+    }
+    text
+}
+
+/// A number with five significant digits.
+fn significant(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if !(1e-3..1e6).contains(&value.abs()) {
+        return format!("{value:.4e}");
+    }
+    let decimals = (4.0 - value.abs().log10().floor()).max(0.0) as usize;
+    format!("{value:.decimals$}")
 }
 
 /// Elements that were chosen as a list of a terminal.

@@ -63,7 +63,7 @@ impl TrialConditions {
     ///
     /// # Errors
     /// A value that the simulation refuses.
-    pub(super) fn set(&self, simulation: &mut Simulation) -> Result<(), Refusal> {
+    pub(in crate::simulation) fn set(&self, simulation: &mut Simulation) -> Result<(), Refusal> {
         for (name, value) in &self.set {
             let place = simulation.variables().iter().position(|v| v.name == *name);
             if let Some(place) = place {
