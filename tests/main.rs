@@ -20,6 +20,7 @@ mod scenes;
 mod selection;
 mod steps;
 mod tidy;
+mod zeros;
 
 use std::path::{Path, PathBuf};
 
