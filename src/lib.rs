@@ -12,10 +12,11 @@
 //! | 4 | [`integrators`] | time stepping with error control |
 //! | 5 | [`scene`] | JSON to a validated scene to a system |
 //! | 6 | [`simulation`] | a scene with parameters and inputs, stepped in time |
-//! | 7 | [`view`] | a run as a picture that moves |
-//! | 8 | [`page`] | drawing of a scene, and the page that comes with a unit |
-//! | 9 | [`fmi`] | what all versions of FMI share: instance, lifecycle, states, logger |
-//! | 10 | [`fmi2`] | model description and C interface of FMI 2.0 |
+//! | 7 | [`picture`] | colours, and symbols of joints, springs, motions and loads as strokes |
+//! | 8 | [`view`] | a run as a picture that moves |
+//! | 9 | [`page`] | drawing of a scene, and the page that comes with a unit |
+//! | 10 | [`fmi`] | what all versions of FMI share: instance, lifecycle, states, logger |
+//! | 11 | [`fmi2`] | model description and C interface of FMI 2.0 |
 //!
 //! # Example
 //!
@@ -52,6 +53,7 @@ pub mod fmi2;
 pub mod integrators;
 pub mod math;
 pub mod page;
+pub mod picture;
 pub mod scene;
 pub mod simulation;
 pub mod system;

@@ -1,4 +1,4 @@
-//! Floor 9. What all versions of FMI share: an instance with its lifecycle, values and saved states, its logger, the
+//! Floor 10. What all versions of FMI share: an instance with its lifecycle, values and saved states, its logger, the
 //! guard around every call, and what is written alike. A version brings its functions, its names for things
 //! ([`Names`]) and its model description.
 

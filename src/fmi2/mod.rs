@@ -1,4 +1,4 @@
-//! Floor 10. FMI 2.0 for co-simulation: the model description and the C interface that a master calls. Everything in the
+//! Floor 11. FMI 2.0 for co-simulation: the model description and the C interface that a master calls. Everything in the
 //! package derives from the scene and its variables.
 
 pub mod abi;

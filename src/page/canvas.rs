@@ -3,6 +3,8 @@
 
 use std::fmt::Write;
 
+use crate::picture::{Style, palette};
+
 /// A point or a direction in pixels, y downwards.
 pub type Point = [f64; 2];
 
@@ -11,21 +13,6 @@ pub const LINE: f64 = 16.0;
 
 /// Height of a letter, and its mean width in the fonts that pages are read with, pixels.
 const LETTER: [f64; 2] = [13.0, 7.6];
-
-/// Halo that keeps texts legible on lines.
-const HALO: &str =
-    "stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
-
-/// How a shape is drawn.
-#[derive(Clone, Copy)]
-pub struct Style {
-    /// Colour of the line.
-    pub stroke: &'static str,
-    /// Width of the line, pixels.
-    pub width: f64,
-    /// Colour of the inside.
-    pub fill: &'static str,
-}
 
 /// An SVG image in the making.
 pub struct Canvas {
@@ -65,14 +52,14 @@ impl Canvas {
         )
     }
 
-    /// An open line, or a closed one.
-    pub fn polyline(&mut self, points: &[Point], closed: bool, style: Style) {
+    /// An open line; a closed one where it has an inside.
+    pub fn polyline(&mut self, points: &[Point], style: Style) {
         let mut data = String::new();
         for (index, point) in points.iter().enumerate() {
             let letter = if index == 0 { "M" } else { " L" };
             write(&mut data, format_args!("{letter}{}", pair(*point)));
         }
-        if closed {
+        if style.is_filled() {
             data.push_str(" Z");
         }
         let shape = format!("path d=\"{data}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
@@ -88,25 +75,6 @@ impl Canvas {
         );
     }
 
-    /// A straight arrow; its head ends at `to`.
-    pub fn arrow(&mut self, from: Point, to: Point, head: f64, style: Style) {
-        let along = direction([to[0] - from[0], to[1] - from[1]]);
-        self.polyline(&[from, moved(to, along, -head)], false, style);
-        self.head(to, along, head, style);
-    }
-
-    /// The head of an arrow that ends at `to`.
-    pub fn head(&mut self, to: Point, along: Point, size: f64, style: Style) {
-        let base = moved(to, along, -1.2 * size);
-        let corners = [0.5, -0.5].map(|side| moved(base, [-along[1], along[0]], side * size));
-        let solid = Style {
-            fill: style.stroke,
-            width: 0.0,
-            ..style
-        };
-        self.polyline(&[to, corners[0], corners[1]], true, solid);
-    }
-
     /// Lines of text with their colours, beside the point `at` and away from it towards `side`.
     pub fn texts(&mut self, at: Point, side: Point, lines: &[(&str, &str)]) {
         let (anchor, above) = anchor(side);
@@ -115,9 +83,11 @@ impl Canvas {
             // A third of its size lower, a letter is centred on the line.
             let y = at[1] + LINE * (number as f64 - above * last) + 4.5;
             let (x, y, text) = (pixels(at[0]), pixels(y), escape(text));
+            // A halo keeps it legible on lines.
             let line = format_args!(
-                "  <text x=\"{x}\" y=\"{y}\" font-family=\"sans-serif\" font-size=\"13\" \
-                 text-anchor=\"{anchor}\" fill=\"{colour}\" {HALO}>{text}</text>\n"
+                "  <text x=\"{x}\" y=\"{y}\" font-family=\"sans-serif\" font-size=\"13\" text-anchor=\"{anchor}\" fill=\"{colour}\" \
+                 stroke=\"{}\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\">{text}</text>\n",
+                palette::PAPER
             );
             write(&mut self.body, line);
         }

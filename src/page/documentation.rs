@@ -6,6 +6,7 @@ use super::number::{number, rounded};
 use super::parts::parts;
 use super::plan::plan;
 use super::table::{code, row, table};
+use crate::picture::palette;
 use crate::scene::{Body, InitialState, Integrator, Model, Scene, Spin, Strain};
 use crate::simulation::{Causality, Planned, Variable, variables};
 
@@ -56,9 +57,10 @@ pub fn documentation(
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}\
+         <title>{title}</title>\n<style>\n{}{STYLE}</style>\n</head>\n<body>\n<main>\n{}\
          <footer>Written by Flexbody {}; \
          <a href=\"licenses/license.txt\">licenses</a> of what this FMU holds.</footer>\n</main>\n</body>\n</html>\n",
+        palette::style_sheet(),
         sections.concat(),
         env!("CARGO_PKG_VERSION")
     )

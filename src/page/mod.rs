@@ -1,4 +1,4 @@
-//! Floor 8. What a scene looks like on paper: its drawing, and the page that comes with a unit. The words of
+//! Floor 9. What a scene looks like on paper: its drawing, and the page that comes with a unit. The words of
 //! a standard are given to the page ([`Interface`]); nothing else of FMI is known here.
 
 mod canvas;
@@ -8,7 +8,6 @@ mod moving;
 mod number;
 mod parts;
 mod plan;
-mod symbols;
 mod table;
 
 pub use documentation::{Interface, documentation};

@@ -119,7 +119,7 @@ fn outputs(plan: &Plan) -> String {
 
 /// Lists what a plan does not keep, in red.
 fn missed(text: &str) -> String {
-    format!("<strong style=\"color: #b00020\">{text}</strong>")
+    format!("<strong style=\"color: var(--warning)\">{text}</strong>")
 }
 
 fn costs(plan: &Plan) -> String {

@@ -2,9 +2,10 @@
 
 use crate::math::function::Function;
 use crate::math::space::spins;
+use crate::picture::known_actions;
 use crate::scene::{
-    self, Along, ConstraintOwnerId, ContactBody, Input, InputKind, LoadId, LoadKind, LoadTarget,
-    MarkerId, MotionKind, PortKind, Resolved, ResolvedContact,
+    self, Along, ConstraintOwnerId, ContactBody, LoadId, LoadKind, LoadTarget, MarkerId,
+    MotionKind, Resolved, ResolvedContact,
 };
 use crate::simulation::{Error, Quantity, Simulation};
 use crate::system::Signal;
@@ -55,25 +56,8 @@ enum Origin<'a> {
 /// Everything that acts in a scene.
 pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<MovingAction<'a>> {
     let dimension = resolved.scene.dimension;
-    let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Action { action, .. } => Some((load.name, action)),
-        _ => None,
-    });
-    let of_input = |input: &'a Input<'a>, name: Option<&'a str>| match &input.kind {
-        InputKind::Action(action) => Some((name.unwrap_or(action.kind.words()[0]), action)),
-        InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
-    };
-    let inputs = resolved.inputs.iter();
-    let inputs = inputs.filter_map(|input| of_input(input, None));
-    let ports = resolved.ports.iter().flat_map(|port| match &port.kind {
-        PortKind::Force { inputs, .. } => inputs
-            .iter()
-            .filter_map(|input| of_input(input, Some(port.name)))
-            .collect(),
-        PortKind::Motion { .. } | PortKind::Coupling { .. } => Vec::new(),
-    });
-    let known = loads.chain(inputs).chain(ports);
-    let known = known.map(|(name, action)| of_action(name, action, dimension));
+    let known = known_actions(resolved).into_iter();
+    let known = known.map(|known| of_action(known.name, known.action, dimension));
     let fluids = resolved.loads.iter().filter_map(|load| match &load.kind {
         LoadKind::Fluid(fluid) => Some(of_fluid(load.name, fluid)),
         _ => None,

@@ -7,21 +7,12 @@ use super::numbers::{list, quoted};
 use super::recording::Recording;
 use super::surface::{BodySurface, PointWithAxes, surfaces};
 use crate::math::rotation::{NO_TURN, Quaternion};
+use crate::picture::palette::{BODIES, linear};
 
 /// Numbers of types of components and of targets in glTF.
 const FLOAT: u32 = 5126;
 const SHORT: u32 = 5123;
 const INTEGER: u32 = 5125;
-/// Colours of bodies, linear, one after the other.
-const COLOURS: [[f32; 3]; 6] = [
-    [0.07, 0.19, 0.46],
-    [0.55, 0.19, 0.05],
-    [0.10, 0.32, 0.16],
-    [0.37, 0.13, 0.29],
-    [0.26, 0.21, 0.06],
-    [0.06, 0.30, 0.37],
-];
-
 /// Part of the file that is written so far.
 #[derive(Default)]
 struct File {
@@ -243,7 +234,7 @@ impl File {
         }
         self.meshes.push(format!(
             "{{\"primitives\":[{{\"attributes\":{{\"POSITION\":{position}{bound}}},\"indices\":{indices},\"material\":{}}}]}}",
-            body % COLOURS.len()
+            body % BODIES.len()
         ));
         self.meshes.len() - 1
     }
@@ -261,7 +252,7 @@ impl File {
             "{{\"name\":{},\"children\":{children}{turn}}}",
             quoted(&recording.scene.name)
         ));
-        let materials = list(COLOURS, |[r, g, b]| {
+        let materials = list(BODIES.map(linear), |[r, g, b]| {
             format!(
                 "{{\"pbrMetallicRoughness\":{{\"baseColorFactor\":[{r:?},{g:?},{b:?},1.0],\"metallicFactor\":0.1,\"roughnessFactor\":0.6}},\
                  \"doubleSided\":true}}"

@@ -4,11 +4,13 @@ use super::actions::{MovingAction, Where, actions};
 use super::numbers::{Numbers, list, quoted};
 use super::recording::Recording;
 use super::sections::{SectionStress, has_corners, sections};
+use super::symbols::SymbolTable;
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
+use crate::picture::symbols::load;
+use crate::picture::{Mark, MarkLabel, marks, palette};
 use crate::scene::{
-    BodyReference, Cable, Ends, First, Inertia, JointCoordinate, JointPrimitive, LineBody,
-    LoadKind, Place, PortKind, Resolved, ResolvedJoint, ResolvedLoad, ResolvedMarker, Rigid,
-    RigidBody, Solid, Symbol,
+    BodyReference, Cable, Ends, First, Inertia, LineBody, LoadKind, Place, Resolved,
+    ResolvedMarker, Rigid, RigidBody, Solid,
 };
 use crate::simulation::Pose;
 
@@ -25,46 +27,16 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
     let bodies: Vec<String> = bodies
         .map(|(place, body)| of_body(recording, &resolved, place, *body, &mut numbers))
         .collect();
+    let mut symbols = SymbolTable::default();
     let acting = actions(&resolved);
     let acting: Vec<String> = acting
         .iter()
         .enumerate()
-        .map(|(place, action)| of_action(recording, place, action, &mut numbers))
+        .map(|(place, action)| of_action(recording, place, action, &mut numbers, &mut symbols))
         .collect();
     let markers = list(&resolved.markers, |marker| of_marker(&resolved, marker));
-    let motions = resolved.motions.iter();
-    let motions = motions.map(|motion| (motion.name, motion.kind.marker()));
-    let ports = resolved.ports.iter();
-    let ports = ports.filter(|port| !matches!(port.kind, PortKind::Force { .. }));
-    let ports = ports.map(|port| (port.name, port.marker));
-    let motions = motions.chain(ports).map(|(name, marker)| {
-        let marker = marker.id.index();
-        format!(
-            "{{\"name\":{},\"kind\":\"motion\",\"symbol\":\"motion\",\"is_motion\":true,\"ends\":[{{\"marker\":{marker}}},{{\"marker\":{marker}}}]}}",
-            quoted(name)
-        )
-    });
-    let joints = resolved
-        .joints
-        .iter()
-        .map(|joint| of_joint(recording, joint));
-    let springs = resolved.loads.iter().filter_map(|load| {
-        let ends = of_ends(recording, &load.kind.between()?);
-        Some(format!(
-            "{{\"name\":{},\"ends\":{ends}}}",
-            quoted(load.name)
-        ))
-    });
-    let stops = resolved.loads.iter().filter_map(of_stop);
-    let gears = resolved.gears.iter().map(|gear| {
-        format!(
-            "{{\"name\":{},\"joints\":{:?},\"angles\":{:?},\"ratio\":{:?}}}",
-            quoted(gear.name),
-            gear.coordinates.map(|of| joint_of(&of)),
-            gear.coordinates.map(|of| of.is_angle()),
-            gear.ratio
-        )
-    });
+    let marks = marks(&resolved);
+    let marks = list(&marks, |mark| of_mark(recording, mark, &mut symbols));
     let surfaces = list(of_surfaces(recording, &resolved), |text| text);
     let outputs = list(&recording.outputs, |output| {
         format!(
@@ -77,18 +49,14 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
     let (tracks, encoded) = numbers.finish();
     let header = format!(
         "{{\"name\":{},\"dimension\":{},\"gravity\":{:?},\"times\":{times},\"row_times\":{row_times},\"table\":{table},\
-         \"bodies\":[{}],\"markers\":{markers},\"joints\":{},\"springs\":{},\
-         \"surfaces\":{surfaces},\"stops\":{},\"gears\":{},\"actions\":[{}],\"outputs\":{outputs},\
-         \"tracks\":[{tracks}]}}",
+         \"bodies\":[{}],\"markers\":{markers},\"marks\":{marks},\"surfaces\":{surfaces},\"actions\":[{}],\"outputs\":{outputs},\
+         \"tracks\":[{tracks}],{}}}",
         quoted(&scene.name),
         scene.dimension,
         &scene.gravity.full()[..scene.dimension],
         bodies.join(","),
-        list(joints.chain(motions), |text| text),
-        list(springs, |text| text),
-        list(stops, |text| text),
-        list(gears, |text| text),
         acting.join(","),
+        symbols.finish(),
     );
     (header, encoded)
 }
@@ -295,27 +263,6 @@ fn of_ends(recording: &Recording, ends: &Ends<'_>) -> String {
     format!("[{first},{{\"marker\":{second}}}]")
 }
 
-/// Place among the joints of the one that a coordinate belongs to.
-fn joint_of(coordinate: &JointCoordinate<'_>) -> usize {
-    match coordinate {
-        JointCoordinate::Displacement(slider) => slider.joint.index(),
-        JointCoordinate::Angle(pivot) => pivot.joint.index(),
-    }
-}
-
-fn of_stop(load: &ResolvedLoad<'_>) -> Option<String> {
-    let LoadKind::JointLimit { on, limits, .. } = &load.kind else {
-        return None;
-    };
-    let [lower, upper] = limits.map(|limit| limit.map_or("null".into(), |at| format!("{at:?}")));
-    Some(format!(
-        "{{\"name\":{},\"joint\":{},\"is_angle\":{},\"lower\":{lower},\"upper\":{upper}}}",
-        quoted(load.name),
-        joint_of(on),
-        on.is_angle()
-    ))
-}
-
 /// Lines of the surfaces that bodies touch, as far as these move.
 fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
     let poses = recording.poses.iter().flatten();
@@ -336,27 +283,23 @@ fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
     surfaces.collect()
 }
 
-fn of_joint(recording: &Recording, joint: &ResolvedJoint<'_>) -> String {
-    let symbol = match joint.symbol() {
-        Symbol::Pin => "pin",
-        Symbol::Spiral => "spiral",
-        Symbol::Weld => "weld",
-        Symbol::Slider => "slider",
-        Symbol::Prismatic => "prismatic",
-        Symbol::Orientation => "orientation",
-        Symbol::Link => "link",
-        Symbol::Ring => "ring",
-    };
-    let direction = joint.primitives.iter().find_map(JointPrimitive::direction);
-    let direction = direction
-        .filter(|_| recording.scene.dimension == 3 || matches!(symbol, "slider" | "prismatic"));
+/// Returns what has a symbol, with the number of the symbol.
+fn of_mark(recording: &Recording, mark: &Mark<'_>, symbols: &mut SymbolTable) -> String {
+    let direction = mark.direction;
     let direction = direction.map_or("null".into(), |direction| format!("{direction:?}"));
+    let label = match mark.label {
+        MarkLabel::Nowhere => "null",
+        MarkLabel::Second => "\"second\"",
+        MarkLabel::Middle => "\"middle\"",
+    };
     format!(
-        "{{\"name\":{},\"kind\":\"{}\",\"symbol\":\"{symbol}\",\"ends\":{},\"direction\":{direction},\"is_local\":{}}}",
-        quoted(joint.name),
-        joint.kind_name(),
-        of_ends(recording, &joint.ends),
-        recording.scene.dimension == 2
+        "{{\"name\":{},\"kind\":\"{}\",\"ends\":{},\"direction\":{direction},\"is_local\":{},\"label\":{label},\"colour\":\"{}\",\"symbol\":{}}}",
+        quoted(mark.name),
+        mark.kind,
+        of_ends(recording, &mark.ends),
+        recording.scene.dimension == 2,
+        mark.colour,
+        symbols.number(&mark.strokes)
     )
 }
 
@@ -365,18 +308,26 @@ fn of_action(
     place: usize,
     action: &MovingAction<'_>,
     numbers: &mut Numbers,
+    symbols: &mut SymbolTable,
 ) -> String {
     let rows: Vec<Vec<f64>> = (recording.acting.iter())
         .map(|acting| acting[place].clone())
         .collect();
     let track = numbers.stepped(&rows);
+    let colour = if action.is_reaction() {
+        palette::REACTION
+    } else {
+        palette::LOAD
+    };
+    let strokes = load(action.is_moment, recording.scene.dimension, colour);
+    let symbol = symbols.number(&strokes);
     let on = match action.on {
         Where::Marker(marker) => format!("\"marker\":{}", marker.index()),
         Where::Joint(marker, joint) => format!("\"marker\":{},\"joint\":{joint}", marker.index()),
         Where::Body(body) => format!("\"body\":{body}"),
     };
     format!(
-        "{{\"name\":{},\"unit\":\"{}\",\"is_moment\":{},\"is_reaction\":{},\"follower\":{},\"components\":{},\"track\":{track},{on}}}",
+        "{{\"name\":{},\"unit\":\"{}\",\"is_moment\":{},\"is_reaction\":{},\"follower\":{},\"components\":{},\"track\":{track},\"symbol\":{symbol},{on}}}",
         quoted(action.name),
         action.unit,
         action.is_moment,

@@ -1,4 +1,4 @@
-//! Floor 7. A scene that moves: what a run looked like ([`Recording`]), and the picture of it for a page of HTML
+//! Floor 8. A scene that moves: what a run looked like ([`Recording`]), and the picture of it for a page of HTML
 //! ([`picture`]), which needs nothing from elsewhere. Its sources are in `script/`, what pages hold of them is `bundle.txt`
 //! (`cargo xtask view-bundle` makes it).
 
@@ -11,6 +11,7 @@ mod picture;
 mod recording;
 mod sections;
 mod surface;
+mod symbols;
 mod table;
 mod vtk;
 

@@ -123,7 +123,10 @@ pub(super) fn quoted(text: &str) -> String {
 }
 
 /// A list of JSON.
-pub(super) fn list<T>(items: impl IntoIterator<Item = T>, written: impl Fn(T) -> String) -> String {
+pub(super) fn list<T>(
+    items: impl IntoIterator<Item = T>,
+    written: impl FnMut(T) -> String,
+) -> String {
     let items: Vec<String> = items.into_iter().map(written).collect();
     format!("[{}]", items.join(","))
 }

@@ -4,6 +4,7 @@ use super::bundle::{LICENSE, STYLE, bundle};
 use super::header::header;
 use super::recording::Recording;
 use super::table::OutputTable;
+use crate::picture::palette;
 
 /// Unpacks the program and starts it: no module, so that a page does the same from a disk.
 const START: &str = "(async () => {\n\
@@ -47,13 +48,14 @@ fn element(header: &str, numbers: &str, still: &str) -> String {
 pub fn document(title: &str, note: &str, picture: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n<style>\n\
-         html, body {{ height: 100%; margin: 0; background: #fff; color: #24292f; font: 14px/1.45 system-ui, sans-serif; }}\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n<style>\n{}\
+         html, body {{ height: 100%; margin: 0; background: var(--paper); color: var(--ink); font: 14px/1.45 system-ui, sans-serif; }}\n\
          body {{ display: flex; flex-direction: column; }}\n\
-         header {{ display: flex; align-items: baseline; flex-wrap: wrap; gap: 0 1rem; padding: .5rem .8rem; border-bottom: 1px solid #d8dde3; }}\n\
+         header {{ display: flex; align-items: baseline; flex-wrap: wrap; gap: 0 1rem; padding: .5rem .8rem; border-bottom: 1px solid var(--rule); }}\n\
          h1 {{ font-size: 1.1rem; font-weight: 600; margin: 0; }}\n\
-         header p {{ margin: 0; color: #57606a; }}\n\
+         header p {{ margin: 0; color: var(--number); }}\n\
          .flexbody-view {{ flex: 1; min-height: 0; }}\n\
-         </style>\n</head>\n<body>\n<header><h1>{title}</h1><p>{note}</p></header>\n{picture}</body>\n</html>\n"
+         </style>\n</head>\n<body>\n<header><h1>{title}</h1><p>{note}</p></header>\n{picture}</body>\n</html>\n",
+        palette::style_sheet()
     )
 }

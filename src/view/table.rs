@@ -1,6 +1,7 @@
 //! A table of outputs, as `flexbody simulate` writes it, without its scene.
 
 use super::numbers::{Numbers, list, quoted};
+use super::symbols::SymbolTable;
 
 /// Outputs at times.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,8 +103,9 @@ impl OutputTable {
         let (tracks, encoded) = numbers.finish();
         let header = format!(
             "{{\"name\":{},\"dimension\":{dimension},\"gravity\":[0,0],\"times\":{times},\"row_times\":{times},\"table\":{table},\
-             \"bodies\":[],\"markers\":{markers},\"joints\":[],\"springs\":[],\"stops\":[],\"gears\":[],\"actions\":[],\"outputs\":{outputs},\"tracks\":[{tracks}]}}",
-            quoted(title)
+             \"bodies\":[],\"markers\":{markers},\"marks\":[],\"actions\":[],\"outputs\":{outputs},\"tracks\":[{tracks}],{}}}",
+            quoted(title),
+            SymbolTable::default().finish()
         );
         (header, encoded)
     }

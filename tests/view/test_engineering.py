@@ -26,6 +26,11 @@ return flexbody.curves.charts.flatMap(({ svg }) => {
 """
 TITLES = "return [...document.querySelectorAll('.curves .title')].map((title) => title.textContent)"
 CHOOSE = "const c = document.querySelector(arguments[0]); c.value = arguments[1]; c.dispatchEvent(new Event(arguments[2]))"
+# Paths of the symbol of a part of the scene.
+STROKES = """
+const number = flexbody.motion.marks.findIndex(({ name }) => name === arguments[0]);
+return flexbody.marks.symbols[number].strokes.map(({ path }) => path.getAttribute('d'));
+"""
 # A load at the tip of a bar, N; its length, width and height, m; its Young's modulus, Pa.
 PUSH, LENGTH, WIDTH, HEIGHT, MODULUS = 40.0, 2.0, 0.04, 0.06, 2e11
 
@@ -195,14 +200,15 @@ def test_the_page_tells_inputs_that_nothing_moves(browser, pages):
 
 def test_springs_stand_on_the_ground(browser, pages):
     browser.load(pages.made(gears()))
-    foot = browser.run("return flexbody.marks.springs[0].foot.getAttribute('d')")
-    x, y = browser.run("return flexbody.project(flexbody.motion.endOf(flexbody.motion.springs[0].ends[0]))")
+    feet = browser.run(STROKES, "spring")
+    x, y = browser.run("return flexbody.project(flexbody.motion.endOf(flexbody.motion.marks.find(({ name }) => name === 'spring').ends[0]))")
+    foot = next(path for path in feet if path.endswith("Z"))
     assert [float(number) for number in foot[1:].split("L")[0].split(" ")] == pytest.approx([x, y], abs=0.051)
 
 
 def test_wheels_of_a_gear_have_its_ratio(browser, pages):
     browser.load(pages.made(gears()))
-    circles = browser.run("return flexbody.marks.gears[0].getAttribute('d')").split("M")[1:]
+    circles = [path[1:] for path in browser.run(STROKES, "mesh")]
     across = []
     for circle in circles:
         columns = [float(pair.split(" ")[0]) for pair in circle.rstrip("Z").split("L")]

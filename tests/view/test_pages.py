@@ -157,7 +157,7 @@ def test_arrows_are_as_long_as_forces_are_large(browser, pages):
         assert at == place
     browser.run(SEEK, 0.5)
     browser.run("document.querySelector('.shown .reactions').click()")
-    drawn = browser.run("return flexbody.marks.arrows.map(({ parts }) => parts[0]?.getTotalLength() ?? 0)")
+    drawn = browser.run("return flexbody.marks.arrows.map(({ parts }) => parts[0]?.strokes[0].path.getTotalLength() ?? 0)")
     assert max(drawn) > 30
 
 

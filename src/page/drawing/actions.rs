@@ -3,10 +3,10 @@
 use super::picture::{Picture, seen};
 use crate::math::function::Function;
 use crate::page::canvas::{Point, direction, moved};
-use crate::page::symbols;
-use crate::scene::{
-    self, Cable, Input, InputKind, LoadKind, LoadTarget, PortKind, Resolved, ResolvedMarker,
-};
+use crate::picture::palette::LOAD;
+use crate::picture::symbols;
+use crate::picture::{KnownAction, known_actions};
+use crate::scene::{self, Cable, InputKind, LoadKind, LoadTarget, Resolved, ResolvedMarker};
 use crate::system::Signal;
 
 /// Arrows at most that stand for a distributed force: on a short body as many as have room.
@@ -23,31 +23,19 @@ pub(super) struct DrawnAction<'a> {
 
 /// All loads and inputs of a scene, those of ports included, but not those of springs.
 pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<DrawnAction<'a>> {
-    let input = |input: &'a Input<'a>, label: Option<&'a str>| match &input.kind {
-        InputKind::Action(action) => Some(DrawnAction {
+    let known = known_actions(resolved).into_iter();
+    let drawn = known.map(
+        |KnownAction {
+             name,
+             action,
+             start,
+         }| DrawnAction {
             action,
-            label: label.unwrap_or(action.kind.words()[0]),
-            components: at_start(action, &input.start),
-        }),
-        InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
-    };
-    let inputs = resolved.inputs.iter().filter_map(|own| input(own, None));
-    let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Action { action, .. } => Some(DrawnAction {
-            action,
-            label: load.name,
-            components: at_start(action, &[]),
-        }),
-        _ => None,
-    });
-    let ports = resolved.ports.iter().flat_map(|port| {
-        let inputs: &[_] = match &port.kind {
-            PortKind::Force { inputs, .. } => inputs,
-            PortKind::Motion { .. } | PortKind::Coupling { .. } => &[],
-        };
-        inputs.iter().filter_map(|own| input(own, Some(port.name)))
-    });
-    inputs.chain(loads).chain(ports).collect()
+            label: name,
+            components: at_start(action, start),
+        },
+    );
+    drawn.collect()
 }
 
 /// Components of a force at the start, from those of an input; moments have none.
@@ -146,13 +134,25 @@ impl<'a> Picture<'a> {
 
     fn turn(&mut self, marker: ResolvedMarker<'_>) {
         let at = self.at(marker.position);
-        symbols::turn(&mut self.canvas, at, self.unit, symbols::LOAD);
+        self.moment(at, self.unit);
+    }
+
+    /// A moment is an arc, in space too.
+    fn moment(&mut self, at: Point, unit: f64) {
+        self.symbol(&symbols::load(true, 2, LOAD), [at; 2], unit);
+    }
+
+    /// An arrow that ends at a body; gives back where it begins.
+    fn arrow(&mut self, at: Point, along: Point, unit: f64) -> Point {
+        let ends = [-3.6, -0.5].map(|end| moved(at, along, end * unit));
+        self.symbol(&symbols::arrow(LOAD), ends, unit);
+        ends[0]
     }
 
     fn force(&mut self, action: &DrawnAction<'a>, marker: ResolvedMarker<'a>) {
         let place = self.place(marker);
         let along = action.way(place.direction);
-        let tail = symbols::force(&mut self.canvas, place.point, along, self.unit);
+        let tail = self.arrow(place.point, along, self.unit);
         self.name_force(tail, along, action.label);
     }
 
@@ -167,9 +167,9 @@ impl<'a> Picture<'a> {
             let s = (f64::from(arrow) + 0.5) / f64::from(arrows);
             let at = self.at(cable.body.shape.point(s));
             let tail = if is_vector {
-                symbols::force(&mut self.canvas, at, along, 0.6 * self.unit)
+                self.arrow(at, along, 0.6 * self.unit)
             } else {
-                symbols::turn(&mut self.canvas, at, 0.6 * self.unit, symbols::LOAD);
+                self.moment(at, 0.6 * self.unit);
                 moved(at, along.map(|part| -part), self.unit)
             };
             if arrow == arrows / 2 {
@@ -181,7 +181,7 @@ impl<'a> Picture<'a> {
     fn name_force(&mut self, tail: Point, along: Point, label: &str) {
         if self.names {
             let back = along.map(|part| -part);
-            self.write(tail, back, 0.8 * self.unit, &[(label, symbols::LOAD)]);
+            self.write(tail, back, 0.8 * self.unit, &[(label, LOAD)]);
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Bodies, their markers and masses.
 
-use super::picture::{BODY, INK, INSIDE, Picture, seen};
-use crate::page::canvas::{Point, Style};
+use super::picture::{Picture, seen};
+use crate::page::canvas::Point;
+use crate::picture::Style;
+use crate::picture::palette::{BODY, INK, INSIDE};
 use crate::scene::{BodyReference, Cable, LineBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable.
@@ -87,12 +89,8 @@ impl Picture<'_> {
 
     fn cable(&mut self, cable: Cable<'_>, points: &[Point]) {
         let body = cable.body;
-        let style = Style {
-            stroke: BODY,
-            width: 0.42 * self.unit,
-            fill: "none",
-        };
-        self.canvas.polyline(points, false, style);
+        let style = Style::line(BODY, 0.42 * self.unit);
+        self.canvas.polyline(points, style);
         if !self.names || body.elements > Some(MOST_NODES) {
             return;
         }
@@ -116,7 +114,7 @@ impl Picture<'_> {
         };
         let centre = self.at(centre);
         if points.len() > 1 {
-            self.canvas.polyline(points, true, style);
+            self.canvas.polyline(points, style);
             self.canvas.circle(centre, 0.34 * self.unit, style);
         } else {
             self.canvas.circle(centre, 0.8 * self.unit, style);
@@ -125,23 +123,15 @@ impl Picture<'_> {
 
     /// Masses, then markers.
     pub(super) fn marks(&mut self) {
-        let mass = Style {
-            stroke: BODY,
-            width: 0.0,
-            fill: BODY,
-        };
         for of in &self.resolved.masses {
             let centre = self.at(of.marker.position);
-            self.canvas.circle(centre, 0.7 * self.unit, mass);
+            self.canvas
+                .circle(centre, 0.7 * self.unit, Style::solid(BODY));
         }
-        let mark = Style {
-            stroke: INK,
-            width: 0.0,
-            fill: INK,
-        };
         for marker in &self.resolved.markers {
             let centre = self.at(marker.position);
-            self.canvas.circle(centre, 0.3 * self.unit, mark);
+            self.canvas
+                .circle(centre, 0.3 * self.unit, Style::solid(INK));
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Names beside points, none over another.
 
-use super::picture::{FAINT, Picture};
-use crate::page::canvas::{Point, Style, moved, text_box};
+use super::picture::Picture;
+use crate::page::canvas::{Point, moved, text_box};
+use crate::picture::Style;
+use crate::picture::palette::FAINT;
 
 /// A box in the image: left, upper, right and lower edge, pixels.
 pub(super) type Box = [f64; 4];
@@ -44,13 +46,8 @@ impl Picture<'_> {
         let free = ways.find(|(at, side, _)| self.is_free(&text_box(*at, *side, lines)));
         let (at, side, further) = free.unwrap_or_else(|| place(0.0, 0.0));
         if further >= FAR {
-            let style = Style {
-                stroke: FAINT,
-                width: 0.7,
-                fill: "none",
-            };
             let ends = [moved(point, side, 0.6 * unit), moved(at, side, -3.0)];
-            self.canvas.polyline(&ends, false, style);
+            self.canvas.polyline(&ends, Style::line(FAINT, 0.7));
         }
         self.written.push(text_box(at, side, lines));
         self.canvas.texts(at, side, lines);

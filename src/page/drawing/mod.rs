@@ -2,11 +2,11 @@
 
 mod actions;
 mod bodies;
-mod joints;
 mod labels;
 mod names;
 mod picture;
 mod surfaces;
+mod symbols;
 
 use super::canvas::Point;
 use crate::scene::{Resolved, Scene};
@@ -81,13 +81,9 @@ impl Picture<'_> {
         for body in &self.resolved.bodies {
             self.body(*body);
         }
-        self.joints();
-        self.springs();
-        self.gears();
+        self.symbols();
         self.marks();
         self.actions();
-        self.motions();
-        self.ports();
         if self.names {
             self.name_all();
             self.gravity();

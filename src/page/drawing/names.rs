@@ -4,10 +4,11 @@ use std::borrow::Cow;
 
 use super::actions::actions;
 use super::bodies::rigid_outline;
-use super::picture::{BODY, FAINT, INK, Picture, seen};
+use super::picture::{Picture, seen};
 use crate::page::canvas::{LINE, Point, direction};
-use crate::page::symbols;
-use crate::scene::{BodyReference, Ends, LineBody, Place as On, PortKind, RigidBody, Symbol};
+use crate::picture::palette::{BODY, INK, LOAD};
+use crate::picture::{MarkLabel, marks};
+use crate::scene::{BodyReference, Ends, LineBody, Place as On, RigidBody};
 
 /// With more bodies than this, names would only cover each other.
 const MOST_BODIES: usize = 32;
@@ -104,18 +105,12 @@ impl<'a> Picture<'a> {
 
     /// Names of joints, motions and ports at their second markers.
     fn add_joints(&self, labels: &mut [Label<'a>]) {
-        let resolved = self.resolved;
-        let joints = resolved.joints.iter();
-        let joints = joints.filter(|joint| joint.symbol() != Symbol::Link);
-        let joints = joints.map(|joint| (joint.ends.second, joint.name, FAINT));
-        let motions = resolved.motions.iter();
-        let motions = motions.map(|m| (m.kind.marker(), m.name, symbols::MOTION));
-        let is_force = |kind: &PortKind<'_>| matches!(kind, PortKind::Force { .. });
-        let ports = resolved.ports.iter().filter(|p| !is_force(&p.kind));
-        let ports = ports.map(|port| (port.marker, port.name, symbols::MOTION));
-        for (marker, name, colour) in joints.chain(motions).chain(ports) {
-            if let Some(label) = self.label_at(labels, self.at(marker.position)) {
-                label.add(name, colour);
+        for mark in marks(self.resolved) {
+            if mark.label != MarkLabel::Second {
+                continue;
+            }
+            if let Some(label) = self.label_at(labels, self.at(mark.ends.second.position)) {
+                label.add(mark.name, mark.colour);
                 label.is_far = true;
             }
         }
@@ -131,7 +126,7 @@ impl<'a> Picture<'a> {
                 continue;
             };
             if !action.action.kind.is_force() {
-                label.add(action.label, symbols::LOAD);
+                label.add(action.label, LOAD);
                 label.is_far = true;
             } else {
                 let [x, y] = action.way(place.direction);
@@ -181,14 +176,9 @@ impl<'a> Picture<'a> {
 
     /// Names of springs and links in their middle.
     fn name_links(&mut self) {
-        for load in &self.resolved.loads {
-            if let Some(ends) = load.kind.between() {
-                self.name_link(&ends, load.name, symbols::SPRING);
-            }
-        }
-        for joint in &self.resolved.joints {
-            if joint.symbol() == Symbol::Link {
-                self.name_link(&joint.ends, joint.name, FAINT);
+        for mark in marks(self.resolved) {
+            if mark.label == MarkLabel::Middle {
+                self.name_link(&mark.ends, mark.name, mark.colour);
             }
         }
     }

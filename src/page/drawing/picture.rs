@@ -1,24 +1,16 @@
-//! The image that a scene is drawn into: where its points are in there, and the colours of all parts.
+//! The image that a scene is drawn into: where its points are in there.
 
 use std::f64::consts::FRAC_PI_6;
 
 use super::labels::Box;
-use crate::page::canvas::{Canvas, Point, Style, direction, moved};
-use crate::scene::{Ends, Place as On, Resolved, ResolvedMarker, Scene};
-
-/// Colour of bodies.
-pub(super) const BODY: &str = "#2b5c8a";
-/// Colour of the inside of bodies.
-pub(super) const INSIDE: &str = "#dce6f0";
-/// Colour of names.
-pub(super) const INK: &str = "#24292f";
-/// Colour of what is only for orientation.
-pub(super) const FAINT: &str = "#8a929b";
+use crate::page::canvas::{Canvas, Point, direction, moved};
+use crate::picture::palette::FAINT;
+use crate::picture::symbols;
+use crate::scene::{Ends, Resolved, ResolvedMarker, Scene};
 
 /// A marker in the image.
 #[derive(Clone, Copy)]
-pub(super) struct MarkerInImage<'a> {
-    pub(super) on: On<'a>,
+pub(super) struct MarkerInImage {
     /// Where it is, pixels.
     pub(super) point: Point,
     /// Direction of the marker, y downwards.
@@ -100,10 +92,9 @@ impl<'a> Picture<'a> {
     }
 
     /// A marker in the image.
-    pub(super) fn place(&self, marker: ResolvedMarker<'a>) -> MarkerInImage<'a> {
+    pub(super) fn place(&self, marker: ResolvedMarker<'a>) -> MarkerInImage {
         let [across, up] = self.seen(marker.direction);
         MarkerInImage {
-            on: marker.place,
             point: self.at(marker.position),
             direction: [across, -up],
         }
@@ -120,15 +111,10 @@ impl<'a> Picture<'a> {
         if gravity == [0.0; 3] {
             return;
         }
-        let style = Style {
-            stroke: FAINT,
-            width: 0.2 * self.unit,
-            fill: "none",
-        };
         let corner = [self.canvas.width() - 2.6 * self.unit, 2.6 * self.unit];
         let along = self.way(gravity);
         let ends = [-1.7, 1.7].map(|end| moved(corner, along, end * self.unit));
-        self.canvas.arrow(ends[0], ends[1], 0.7 * self.unit, style);
+        self.symbol(&symbols::arrow(FAINT), ends, self.unit);
         let side = [-along[1].abs(), along[0].abs()];
         let at = moved(corner, side, 0.8 * self.unit);
         self.canvas.texts(at, side, &[("g", FAINT)]);
@@ -138,11 +124,6 @@ impl<'a> Picture<'a> {
 impl Picture<'_> {
     /// The global axes with their names, in the lower left corner.
     pub(super) fn axes(&mut self) {
-        let style = Style {
-            stroke: FAINT,
-            width: 0.12 * self.unit,
-            fill: "none",
-        };
         let corner = [2.6 * self.unit, self.canvas.height() - 2.6 * self.unit];
         for (axis, name) in ["x", "y", "z"]
             .iter()
@@ -151,7 +132,7 @@ impl Picture<'_> {
         {
             let along = self.way(std::array::from_fn(|k| f64::from(u8::from(k == axis))));
             let tip = moved(corner, along, 2.0 * self.unit);
-            self.canvas.arrow(corner, tip, 0.5 * self.unit, style);
+            self.symbol(&symbols::arrow(FAINT), [corner, tip], 0.7 * self.unit);
             let at = moved(corner, along, 2.2 * self.unit);
             self.canvas.texts(at, along, &[(name, FAINT)]);
         }

@@ -2,11 +2,10 @@
 
 use super::bodies::outline;
 use super::picture::Picture;
-use crate::page::canvas::{Point, Style};
+use crate::page::canvas::Point;
+use crate::picture::Style;
+use crate::picture::palette::BED;
 use crate::scene::{LoadKind, Resolved, Surface};
-
-/// Colour of surfaces, lighter than all that touches them.
-const BED: &str = "#d3dae1";
 
 /// Everything of all surfaces that is told by points around the bodies, m.
 fn each(
@@ -31,17 +30,13 @@ pub(super) fn outlines(resolved: &Resolved<'_>) -> Vec<[f64; 3]> {
 
 impl Picture<'_> {
     pub(super) fn surfaces(&mut self) {
-        let style = Style {
-            stroke: BED,
-            width: 0.08 * self.unit,
-            fill: "none",
-        };
+        let style = Style::line(BED, 0.08 * self.unit);
         let dimension = self.scene.dimension;
         for line in each(self.resolved, |surface, near| {
             surface.lines(dimension, near)
         }) {
             let points: Vec<Point> = line.into_iter().map(|point| self.at(point)).collect();
-            self.canvas.polyline(&points, false, style);
+            self.canvas.polyline(&points, style);
         }
     }
 }

@@ -390,11 +390,11 @@ pub enum Symbol {
     Spiral,
     /// A hatched wall, or a block between two bodies.
     Weld,
-    /// A sleeve on a rail.
+    /// A pin between two rails.
     Slider,
-    /// A sleeve on a line through a body.
+    /// A block between two rails.
     Prismatic,
-    /// A circle with a bar.
+    /// A square.
     Orientation,
     /// A rod between two pins.
     Link,

@@ -5,8 +5,8 @@ import {
   LineSegments, Mesh, MeshLambertMaterial, Quaternion, SphereGeometry, Vector2, Vector3,
 } from 'three';
 import { ConvexGeometry } from 'three/examples/jsm/geometries/ConvexGeometry.js';
+import { palette } from './palette.js';
 
-const COLOURS = ['#4a78b5', '#c47a3d', '#5a9a6e', '#a4648c', '#8c8048', '#4795a3', '#b35b52', '#7569b0'];
 /** Points around a section, and least number of sections along a chain. */
 const AROUND = 16;
 const ALONG = 72;
@@ -16,11 +16,10 @@ const THIN = 1.6;
 const WIDE = 3;
 /** Half the width of the thinnest rigid body, in sizes of the scene. */
 const LEAST = 0.011;
-const EDGES = { color: '#24292f', transparent: true, opacity: 0.55 };
+const edges = () => new LineBasicMaterial({ color: palette.ink, transparent: true, opacity: 0.55 });
 
 function material(number) {
-  const colour = COLOURS[number % COLOURS.length];
-  return new MeshLambertMaterial({ color: colour, side: DoubleSide });
+  return new MeshLambertMaterial({ color: colourOf(number), side: DoubleSide });
 }
 
 /** Points of the boundary of a section of half widths, on a rectangle's edges or around an ellipse. */
@@ -72,7 +71,7 @@ class Chain {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', this.object.geometry.attributes.position);
     geometry.setIndex(index);
-    this.edges = new LineSegments(geometry, new LineBasicMaterial(EDGES));
+    this.edges = new LineSegments(geometry, edges());
     this.edges.frustumCulled = false;
     this.object.add(this.edges);
     Object.assign(this.object.material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 });
@@ -182,8 +181,7 @@ class Rigid {
     }
     this.object.add(surface);
     if (body.solid && !body.solid.sphere) {
-      const edges = new EdgesGeometry(geometry, 40);
-      this.object.add(new LineSegments(edges, new LineBasicMaterial(EDGES)));
+      this.object.add(new LineSegments(new EdgesGeometry(geometry, 40), edges()));
     }
     if (body.solid?.cylinder || body.solid?.sphere || body.solid?.tube) this.addSpokes(body.solid);
   }
@@ -208,7 +206,7 @@ class Rigid {
       points.push(new Vector3(1.001 * radius, -0.5 * length, 0), new Vector3(1.001 * radius, 0.5 * length, 0));
     }
     const geometry = new BufferGeometry().setFromPoints(points.map((point) => point.applyQuaternion(turn)));
-    this.object.add(new LineSegments(geometry, new LineBasicMaterial(EDGES)));
+    this.object.add(new LineSegments(geometry, edges()));
   }
 
   update() {
@@ -226,11 +224,11 @@ export function surfaces(motion, size) {
 export function beds(motion) {
   return (motion.surfaces ?? []).flatMap(({ lines }) => lines.map((line) => {
     const geometry = new BufferGeometry().setFromPoints(line.map((point) => new Vector3(...point)));
-    return new Line(geometry, new LineBasicMaterial({ color: '#d3dae1' }));
+    return new Line(geometry, new LineBasicMaterial({ color: palette.bed }));
   }));
 }
 
 /** The colour of a body's name. */
 export function colourOf(number) {
-  return COLOURS[number % COLOURS.length];
+  return palette.bodies[number % palette.bodies.length];
 }

@@ -1,8 +1,8 @@
 // Curves of outputs against time. Values are those of the table, as `flexbody simulate` writes them.
 
+import { palette } from './palette.js';
 import { element, roundUp, rounded, set, through } from './svg.js';
 
-const COLOURS = ['#4a78b5', '#c2571a', '#2e7d4f', '#8f4f9e', '#8c8048', '#b3246b', '#4795a3', '#6b737c', '#24292f'];
 const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [150, 58, 10, 12, 32];
 /** Height where components have axes of their own. */
 const LOW = 100;
@@ -126,8 +126,8 @@ class Chart {
     }
     const room = 0.06 * (high - low);
     this.range = [low - room, high + room];
-    const grid = element(this.svg, 'g', { stroke: '#e4e8ec' });
-    const texts = element(this.svg, 'g', { fill: '#57606a', 'font-size': 10.5 });
+    const grid = element(this.svg, 'g', { stroke: palette.grid });
+    const texts = element(this.svg, 'g', { fill: palette.number, 'font-size': 10.5 });
     const [values, base] = ticks(...this.range, 4);
     element(texts, 'text', { x: LEFT + 2, y: TOP - 2, class: 'base' }, base);
     for (const [value, text] of values) {
@@ -152,7 +152,7 @@ class Chart {
       entry.append(`${line.label} `, line.value);
       this.legend.append(entry);
     }
-    this.cursor = element(this.svg, 'path', { stroke: '#24292f', 'stroke-width': 1, 'stroke-opacity': 0.6 });
+    this.cursor = element(this.svg, 'path', { stroke: palette.ink, 'stroke-width': 1, 'stroke-opacity': 0.6 });
     this.svg.style.cursor = 'pointer';
   }
 
@@ -242,7 +242,7 @@ export class Curves {
     head.className = 'title';
     head.textContent = unit ? `${title} [${unit}]` : title;
     this.panel.append(head);
-    const all = measured(lines, this.motion.table).map((line, number) => ({ ...line, colour: COLOURS[number % COLOURS.length] }));
+    const all = measured(lines, this.motion.table).map((line, number) => ({ ...line, colour: palette.curves[number % palette.curves.length] }));
     const groups = isSum ? [all] : sharing(all);
     for (const group of groups) {
       const chart = new Chart(this.panel, this.motion, title, group, groups.length > 1 ? LOW : HEIGHT);

@@ -7,6 +7,7 @@ import { Curves } from './curves.js';
 import { Marks } from './marks.js';
 import { Motion, bytesOf } from './motion.js';
 import { Paint } from './paint.js';
+import { palette, usePalette } from './palette.js';
 import { digits, roundUp } from './svg.js';
 
 /** Speeds that are offered: how many seconds of the scene go by in one of the clock. */
@@ -44,7 +45,7 @@ class Player {
     }
     this.size = Math.max(this.box[0].distanceTo(this.box[1]), 1e-6);
     this.renderer = new WebGLRenderer({ canvas: root.querySelector('canvas'), antialias: true, preserveDrawingBuffer: true });
-    this.renderer.setClearColor('#fcfdfe');
+    this.renderer.setClearColor(palette.stage);
     this.addScene();
     this.project = this.project.bind(this);
     this.marks = new Marks(motion, root.querySelector('svg.marks'), this.project);
@@ -66,9 +67,9 @@ class Player {
   addScene() {
     const { motion } = this;
     this.scene = new Scene();
-    this.scene.add(new HemisphereLight('#ffffff', '#9aa5b1', 2.1));
+    this.scene.add(new HemisphereLight(palette.sky, palette.soil, 2.1));
     this.camera = new OrthographicCamera();
-    const light = new DirectionalLight('#ffffff', 1.6);
+    const light = new DirectionalLight(palette.sky, 1.6);
     light.position.set(-0.6, 1.1, 1.2);
     this.camera.add(light);
     this.scene.add(this.camera);
@@ -92,7 +93,7 @@ class Player {
     const span = Math.max(high.x - low.x, high.y - low.y, 0.3 * this.size);
     const step = roundUp(span / 8);
     const count = 2 * Math.ceil((0.62 * span) / step);
-    const grid = new GridHelper(count * step, count, '#cfd6dd', '#e3e8ec');
+    const grid = new GridHelper(count * step, count, palette['floor-axis'], palette.floor);
     grid.rotation.x = Math.PI / 2;
     const middle = (a, b) => Math.round((0.5 * (a + b)) / step) * step;
     grid.position.set(middle(low.x, high.x), middle(low.y, high.y), low.z - 0.02 * this.size);
@@ -122,7 +123,7 @@ class Player {
     });
     this.addPaint();
     this.addFactor();
-    const has = { names: true, paths: motion.markers.length, joints: motion.joints.length + motion.springs.length };
+    const has = { names: true, paths: motion.markers.length, joints: motion.marks.length };
     for (const [group, isReaction] of [['loads', false], ['reactions', true]]) {
       has[group] = this.marks.inWords(isReaction);
     }
@@ -299,6 +300,7 @@ function hasWebGL() {
 function start(root) {
   const content = (name) => root.querySelector(`script.${name}`).textContent;
   const header = JSON.parse(content('header'));
+  usePalette(header.palette);
   const motion = new Motion(header, bytesOf(content('numbers')).buffer);
   const fallback = root.querySelector('.fallback');
   if (!hasWebGL()) {

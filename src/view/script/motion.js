@@ -230,23 +230,21 @@ export class Motion {
     return end.point ? new Vector3(...end.point) : this.place(end.marker);
   }
 
-  /** Directions that joints have at the start, in the axes of what they are fixed to. */
+  /** Directions that symbols have at the start, in the axes of what they are fixed to. */
   fixAxes() {
-    for (const joint of this.joints) {
-      const first = joint.ends[0].marker;
-      if (!joint.direction) continue;
-      const direction = new Vector3(...joint.direction).normalize();
-      if (joint.is_local && first !== undefined) joint.along = direction;
-      else if (first !== undefined) joint.along = direction.applyQuaternion(this.stanceAt(first).invert());
-      else joint.along = direction;
+    for (const mark of this.marks) {
+      const first = mark.ends[0].marker;
+      if (!mark.direction) continue;
+      mark.along = new Vector3(...mark.direction).normalize();
+      if (!mark.is_local && first !== undefined) mark.along.applyQuaternion(this.stanceAt(first).invert());
     }
   }
 
-  /** The direction of a joint now. */
-  direction(joint) {
-    const first = joint.ends[0].marker;
-    if (!joint.along) return undefined;
-    return first === undefined ? joint.along.clone() : joint.along.clone().applyQuaternion(this.stanceAt(first));
+  /** The direction of a symbol now. */
+  direction(mark) {
+    const first = mark.ends[0].marker;
+    if (!mark.along) return undefined;
+    return first === undefined ? mark.along.clone() : mark.along.clone().applyQuaternion(this.stanceAt(first));
   }
 
   /** What a force or moment is now, in global axes: one vector, or several along a body, each where it acts. */
@@ -258,7 +256,7 @@ export class Motion {
       let found;
       if (each === 1) found = this.dimension === 2 ? new Vector3(0, 0, values[at]) : undefined;
       else found = new Vector3(values[at], values[at + 1], each > 2 ? values[at + 2] : 0);
-      if (found === undefined) found = this.direction(this.joints[action.joint])?.multiplyScalar(values[at]) ?? new Vector3();
+      if (found === undefined) found = this.direction(this.marks[action.joint])?.multiplyScalar(values[at]) ?? new Vector3();
       return action.follower ? found.applyQuaternion(stance) : found;
     };
     if (action.body === undefined) {
@@ -290,7 +288,7 @@ export class Motion {
       }
       this.markers.forEach((_, number) => add(this.place(number)));
     }
-    for (const end of [...this.joints, ...this.springs].flatMap((of) => of.ends)) if (end.point) add(new Vector3(...end.point));
+    for (const end of this.marks.flatMap((mark) => mark.ends)) if (end.point) add(new Vector3(...end.point));
     this.seek(this.start);
     if (!found.length) add(new Vector3(), 1);
     return found;

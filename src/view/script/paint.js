@@ -1,10 +1,8 @@
 // Colours of flexible bodies by what acts in their sections.
 
+import { palette } from './palette.js';
 import { digits, element } from './svg.js';
 
-/** Colours from nothing to the most, and from the least over nothing to the most. */
-const RISING = ['#3b5fa3', '#4fa3a5', '#e9c84a', '#c0392b'];
-const SIGNED = ['#2f5fb3', '#dfe3e8', '#b3312f'];
 /** Size of the scale, pixels. */
 const [WIDTH, HEIGHT] = [150, 9];
 
@@ -45,20 +43,20 @@ export class Paint {
   }
 
   colour(body, number, xi) {
-    if (!body.force) return '#c8ced5';
+    if (!body.force) return palette.unpainted;
     const part = this.value(body, number, xi) / this.most;
-    return this.isSigned ? mixed(SIGNED, 0.5 + 0.5 * part) : mixed(RISING, part);
+    return this.isSigned ? mixed(palette.signed, 0.5 + 0.5 * part) : mixed(palette.rising, part);
   }
 
   /** Draws the scale into the upper right corner of a picture that is so wide, and returns its box. */
   legend(layer, width) {
     layer.replaceChildren();
     const [left, top, parts] = [width - WIDTH - 14, 26, 30];
-    const colours = this.isSigned ? SIGNED : RISING;
+    const colours = this.isSigned ? palette.signed : palette.rising;
     for (let k = 0; k < parts; k += 1) {
       element(layer, 'rect', { x: left + (k * WIDTH) / parts, y: top, width: WIDTH / parts + 0.5, height: HEIGHT, fill: mixed(colours, (k + 0.5) / parts) });
     }
-    const text = (x, y, anchor, content) => element(layer, 'text', { x, y, 'font-size': 11, 'text-anchor': anchor, fill: '#24292f' }, content);
+    const text = (x, y, anchor, content) => element(layer, 'text', { x, y, 'font-size': 11, 'text-anchor': anchor, fill: palette.ink }, content);
     text(left + WIDTH, top - 6, 'end', `${this.name} [${this.unit}]`);
     text(left, top + 21, 'start', this.isSigned ? digits(-this.most, 3) : '0');
     text(left + WIDTH / 2, top + 21, 'middle', this.isSigned ? '0' : digits(this.most / 2, 3));

@@ -1,0 +1,137 @@
+//! Parts of a scene with a symbol: joints, springs, limits, gears, motions and ports.
+
+use super::palette::{FAINT, MOTION, SPRING};
+use super::stroke::Stroke;
+use super::symbols;
+use crate::scene::{
+    Ends, First, JointCoordinate, LoadKind, MotionKind, Resolved, ResolvedLoad, ResolvedMarker,
+    Symbol,
+};
+
+/// Part of a scene with a symbol.
+#[derive(Clone, Debug)]
+pub struct Mark<'a> {
+    /// Name in the scene.
+    pub name: &'a str,
+    /// Kind in a word.
+    pub kind: &'static str,
+    /// Ends that the symbol is relative to.
+    pub ends: Ends<'a>,
+    /// Direction at the start that the symbol is relative to: in space in global axes, in the plane in axes of what the first end is on.
+    pub direction: Option<[f64; 3]>,
+    /// Where its name is written.
+    pub label: MarkLabel,
+    /// Colour of its name.
+    pub colour: &'static str,
+    /// Symbol.
+    pub strokes: Vec<Stroke>,
+}
+
+/// Where the name of something with a symbol is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MarkLabel {
+    /// Nowhere.
+    Nowhere,
+    /// At the second end.
+    Second,
+    /// In the middle between both ends.
+    Middle,
+}
+
+/// Collects all parts with a symbol. Joints come first, in the order of the scene.
+pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
+    let dimension = resolved.scene.dimension;
+    let joints = resolved.joints.iter().map(|joint| Mark {
+        name: joint.name,
+        kind: joint.kind_name(),
+        ends: joint.ends,
+        direction: symbols::direction(joint),
+        label: match joint.symbol() {
+            Symbol::Link => MarkLabel::Middle,
+            _ => MarkLabel::Second,
+        },
+        colour: FAINT,
+        strokes: symbols::joint(joint),
+    });
+    let loads = resolved.loads.iter().filter_map(of_load);
+    let gears = resolved.gears.iter().map(|gear| {
+        let [first, second] = gear.coordinates.map(|of| of.ends().second);
+        Mark {
+            label: MarkLabel::Nowhere,
+            strokes: symbols::gear(gear),
+            ..plain(gear.name, "gear", between(first, second))
+        }
+    });
+    let motions = resolved.motions.iter().map(|motion| {
+        let strokes = symbols::motion(&motion.kind, dimension);
+        let marker = motion.kind.marker();
+        let (ends, direction) = match &motion.kind {
+            MotionKind::Displacement(slider, _) => (slider.ends, Some(slider.direction)),
+            _ => (between(marker, marker), None),
+        };
+        Mark {
+            direction,
+            colour: MOTION,
+            strokes,
+            ..plain(motion.name, "motion", ends)
+        }
+    });
+    let ports = resolved.ports.iter().map(|port| Mark {
+        colour: MOTION,
+        strokes: symbols::port(&port.kind, dimension),
+        ..plain(port.name, "port", between(port.marker, port.marker))
+    });
+    let ports = ports.filter(|port| !port.strokes.is_empty());
+    let bound = joints.chain(loads).chain(gears);
+    bound.chain(motions).chain(ports).collect()
+}
+
+fn between<'a>(first: ResolvedMarker<'a>, second: ResolvedMarker<'a>) -> Ends<'a> {
+    Ends {
+        first: First::Marker(first),
+        second,
+    }
+}
+
+/// Something named at its second end, without a direction and a symbol.
+fn plain<'a>(name: &'a str, kind: &'static str, ends: Ends<'a>) -> Mark<'a> {
+    Mark {
+        name,
+        kind,
+        ends,
+        direction: None,
+        label: MarkLabel::Second,
+        colour: FAINT,
+        strokes: Vec::new(),
+    }
+}
+
+/// A spring or a limit; none of other loads.
+fn of_load<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
+    let on = match &load.kind {
+        LoadKind::JointSpring { on, .. } | LoadKind::JointLimit { on, .. } => on,
+        kind => {
+            let ends = kind.between()?;
+            return Some(Mark {
+                label: MarkLabel::Middle,
+                colour: SPRING,
+                strokes: symbols::spring(ends.is_grounded()),
+                ..plain(load.name, "spring", ends)
+            });
+        }
+    };
+    let (kind, strokes) = match &load.kind {
+        LoadKind::JointLimit { limits, .. } => ("joint limit", symbols::stops(on, *limits)),
+        _ => ("spring", symbols::joint_spring(on)),
+    };
+    Some(Mark {
+        direction: match on {
+            JointCoordinate::Displacement(slider) => Some(slider.direction),
+            JointCoordinate::Angle(_) => None,
+        },
+        label: MarkLabel::Nowhere,
+        colour: SPRING,
+        strokes,
+        ..plain(load.name, kind, on.ends())
+    })
+}
