@@ -5,11 +5,12 @@ use super::drawing::drawing;
 use super::number::{number, rounded};
 use super::parts::parts;
 use super::plan::plan;
-use super::table::{code, row, table};
-use crate::picture::palette;
+use super::table::{code, row};
+use crate::picture::{filled, palette};
 use crate::scene::{Body, InitialState, Integrator, Model, Scene, Spin, Strain};
 use crate::simulation::{Causality, Planned, Variable, variables};
 
+const PAGE: &str = include_str!("documentation.html");
 const STYLE: &str = include_str!("documentation.css");
 
 /// Texts of the page in the words of a standard. Texts are HTML.
@@ -35,65 +36,80 @@ pub fn documentation(
     interface: &Interface<'_>,
 ) -> String {
     let variables = variables(scene);
-    let sections = [
-        summary(scene, interface.standard),
-        format!("<figure>\n{}</figure>\n", drawing(scene)),
-        motion.into(),
-        model(scene),
-        plan(planned),
-        parts(scene),
-        parameters(&variables),
-        inputs(&variables, interface.inputs),
-        outputs(&variables),
-        usage(scene, interface.tolerance),
-        statuses(interface.failures),
-        categories(interface.categories),
-        format!(
-            "<h2>Scene</h2>\n<pre>{}</pre>\n",
-            escape(scene.to_json().trim_end())
+    let [place, axes] = view(scene);
+    let failures = interface.failures.iter();
+    let categories = interface.categories.iter();
+    let is_motion = |variable: &&Variable| !variable.acts_at_once();
+    let motions = of(&variables, Causality::Input).filter(is_motion).count();
+    let values = [
+        ("name", escape(&scene.name)),
+        ("style", palette::style_sheet() + STYLE),
+        ("standard", interface.standard.into()),
+        ("place", place.into()),
+        ("bodies", bodies(scene)),
+        ("axes", axes.into()),
+        ("rotation", rotation(scene)),
+        ("about", about(scene)),
+        ("drawing", drawing(scene)),
+        ("motion", motion.into()),
+        ("integrator", integrator(scene).into()),
+        ("start", start(scene).into()),
+        ("rigid", rigid(scene)),
+        ("strains", strains(scene)),
+        ("plan", plan(planned)),
+        ("parts", parts(scene)),
+        ("parameters", parameters(&variables)),
+        ("inputs", inputs(&variables)),
+        ("inputs-in-steps", interface.inputs.into()),
+        ("motions", if motions > 0 { " " } else { "" }.into()),
+        ("outputs", outputs(&variables)),
+        ("tolerance", number(scene.relative_tolerance())),
+        ("takes-tolerance", interface.tolerance.into()),
+        ("stop", number(scene.experiment.stop_time)),
+        ("step", number(scene.experiment.step)),
+        ("failures", failures.map(|cells| row(cells)).collect()),
+        (
+            "categories",
+            categories
+                .map(|[name, messages]| row(&[&code(name), messages]))
+                .collect(),
         ),
+        ("scene", escape(scene.to_json().trim_end())),
+        ("version", env!("CARGO_PKG_VERSION").into()),
     ];
-    let title = escape(&scene.name);
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>\n{}{STYLE}</style>\n</head>\n<body>\n<main>\n{}\
-         <footer>Written by Flexbody {}; \
-         <a href=\"licenses/license.txt\">licenses</a> of what this FMU holds.</footer>\n</main>\n</body>\n</html>\n",
-        palette::style_sheet(),
-        sections.concat(),
-        env!("CARGO_PKG_VERSION")
-    )
+    filled(PAGE, &values)
 }
 
-fn turning(rate: &str) -> String {
-    format!(" The frame turns about the origin at {rate} rad/s; everything is seen from it.")
+/// Words for where a scene is, and for its axes.
+fn view(scene: &Scene) -> [&'static str; 2] {
+    match scene.dimension {
+        2 => ["a planar scene", "x to the right and y upwards"],
+        _ => [
+            "a scene in space",
+            "drawn with x to the right and front, y to the right and back, z upwards",
+        ],
+    }
 }
 
-fn summary(scene: &Scene, standard: &str) -> String {
+fn bodies(scene: &Scene) -> String {
     let shown = scene.bodies.iter().take(MOST_BODIES).map(body_in_words);
     let mut bodies: Vec<String> = shown.collect();
     if let Some(others @ 1..) = scene.bodies.len().checked_sub(MOST_BODIES) {
         bodies.push(format!("and {others} more"));
     }
-    let frame = match (scene.turns(), scene.rotation) {
-        (false, _) => String::new(),
-        (true, Spin::Number(rate)) => turning(&number(rate)),
-        (true, Spin::Vector(rates)) => turning(&format!("[{}]", rates.map(number).join(", "))),
+    bodies.join("; ")
+}
+
+/// A sentence about a rotating frame; nothing where it stands.
+fn rotation(scene: &Scene) -> String {
+    if !scene.turns() {
+        return String::new();
+    }
+    let rate = match scene.rotation {
+        Spin::Number(rate) => number(rate),
+        Spin::Vector(rates) => format!("[{}]", rates.map(number).join(", ")),
     };
-    let (place, axes) = match scene.dimension {
-        2 => ("a planar scene", "x to the right and y upwards"),
-        _ => (
-            "a scene in space",
-            "drawn with x to the right and front, y to the right and back, z upwards",
-        ),
-    };
-    format!(
-        "<h1>{}</h1>\n<p>A co-simulation unit ({standard}) of {place}: {}. All quantities are \
-         in SI units, angles in rad, vectors in global axes, {axes}.{frame}</p>\n",
-        escape(&scene.name),
-        bodies.join("; ")
-    ) + &about(scene)
+    format!(" The frame turns about the origin at {rate} rad/s; everything is seen from it.")
 }
 
 /// Whose model it is, where the scene says so.
@@ -102,11 +118,7 @@ fn about(scene: &Scene) -> String {
     let rows: Vec<String> = rows
         .map(|(key, text)| format!("<b>{key}</b> {}", escape(text)))
         .collect();
-    if rows.is_empty() {
-        String::new()
-    } else {
-        format!("<p>{}</p>\n", rows.join("<br>\n"))
-    }
+    rows.join("<br>\n")
 }
 
 /// Most bodies that are told one by one.
@@ -139,10 +151,8 @@ fn body_in_words(body: &Body) -> String {
     }
 }
 
-fn model(scene: &Scene) -> String {
-    let formulation = "joints that are linear in the coordinates are eliminated by QR factorizations and the \
-                       mass by its Cholesky factor: they hold exactly, and the inertia is the identity";
-    let integrator = match scene.method.integrator {
+fn integrator(scene: &Scene) -> &'static str {
+    match scene.method.integrator {
         Integrator::Auto => {
             "an explicit method or Radau IIA of order 5, whichever gets further with the same work while it runs"
         }
@@ -152,8 +162,11 @@ fn model(scene: &Scene) -> String {
         Integrator::Verlet => "velocity Verlet of order 2, explicit",
         Integrator::Rkn43 => "Runge-Kutta-Nystrom of order 4, explicit",
         Integrator::Rkn64 => "Runge-Kutta-Nystrom of order 6, explicit",
-    };
-    let initial = match scene.initial.state() {
+    }
+}
+
+fn start(scene: &Scene) -> &'static str {
+    match scene.initial.state() {
         InitialState::Undeformed => {
             "the bodies as described, moved and deformed as far as their joints ask for"
         }
@@ -161,9 +174,21 @@ fn model(scene: &Scene) -> String {
             "the equilibrium under gravity, loads and the inputs of initialization"
         }
         InitialState::Steady => "the equilibrium in the steady motion that all bodies start with",
-    };
-    let constraints = "multipliers for those that are not linear; positions and velocities are projected \
-                       after every step";
+    }
+}
+
+/// Names of cables that do not bend.
+fn rigid(scene: &Scene) -> String {
+    let cables = scene.bodies.iter().filter_map(Body::cable);
+    let names: Vec<String> = cables
+        .filter(|cable| cable.model == Model::Rigid)
+        .map(|cable| code(&cable.name))
+        .collect();
+    names.join(", ")
+}
+
+/// Rows of strain measures, each once.
+fn strains(scene: &Scene) -> String {
     let mut strains: Vec<&str> = Vec::new();
     for cable in scene.bodies.iter().filter_map(Body::flexible) {
         let strain = strain_in_words(cable.strain);
@@ -171,40 +196,9 @@ fn model(scene: &Scene) -> String {
             strains.push(strain);
         }
     }
-    let mut rows = vec![
-        row(&[
-            "Coordinates",
-            "of cables absolute nodal ones: positions and slopes, no rotations; of rigid bodies \
-             natural ones: the centre of mass and a unit vector",
-        ]),
-        row(&["Formulation", formulation]),
-        row(&["Constraints", constraints]),
-        row(&["Integrator", integrator]),
-        row(&["Start", initial]),
-    ];
-    rows.extend(rigid_in_words(scene).map(|cables| row(&["Rigid cables", &cables])));
-    rows.extend(
-        strains
-            .iter()
-            .map(|strain| row(&["Strain measure", strain])),
-    );
-    format!(
-        "<h2>Model</h2>\n<table class=\"facts\">\n{}</table>\n",
-        rows.concat()
-    )
-}
-
-/// Cables that do not bend, if there are any.
-fn rigid_in_words(scene: &Scene) -> Option<String> {
-    let cables = scene.bodies.iter().filter_map(Body::cable);
-    let names: Vec<String> = cables
-        .filter(|cable| cable.model == Model::Rigid)
-        .map(|cable| code(&cable.name))
-        .collect();
-    (!names.is_empty()).then(|| {
-        let names = names.join(", ");
-        format!("{names}: uniform rods; axial forces and bending moments balance what acts on them with their inertia")
-    })
+    let rows = strains.iter();
+    rows.map(|strain| row(&["Strain measure", strain]))
+        .collect()
 }
 
 fn strain_in_words(strain: Strain) -> &'static str {
@@ -234,11 +228,10 @@ fn parameters(variables: &[Variable]) -> String {
             &meaning(variable),
         ])
     });
-    let heads = ["Name", "Unit", "Start", "Range", "Meaning"];
-    table("Parameters", "", &heads, rows.collect())
+    rows.collect()
 }
 
-fn inputs(variables: &[Variable], course: &str) -> String {
+fn inputs(variables: &[Variable]) -> String {
     let rows = of(variables, Causality::Input).map(|variable| {
         let start = variable.start.map(number).unwrap_or_default();
         row(&[
@@ -248,23 +241,7 @@ fn inputs(variables: &[Variable], course: &str) -> String {
             &meaning(variable),
         ])
     });
-    let is_motion = |variable: &Variable| !variable.acts_at_once();
-    let motions = if of(variables, Causality::Input).any(is_motion) {
-        " A driven motion never jumps: during a step it moves smoothly from where it is to where \
-         its inputs, continued with the derivatives given, are at the end of the step."
-    } else {
-        ""
-    };
-    let note = format!(
-        "<p>An input keeps its value during a communication step and may jump between two. \
-         {course}{motions}</p>\n"
-    );
-    table(
-        "Inputs",
-        &note,
-        &["Name", "Unit", "Start", "Meaning"],
-        rows.collect(),
-    )
+    rows.collect()
 }
 
 fn outputs(variables: &[Variable]) -> String {
@@ -283,55 +260,7 @@ fn outputs(variables: &[Variable]) -> String {
             &meaning(variable),
         ]))
     });
-    table(
-        "Outputs",
-        "",
-        &["Name", "Unit", "Follows from", "Meaning"],
-        rows.collect(),
-    )
-}
-
-fn usage(scene: &Scene, takes_tolerance: &str) -> String {
-    let tolerance = number(scene.relative_tolerance());
-    let (stop, step) = (
-        number(scene.experiment.stop_time),
-        number(scene.experiment.step),
-    );
-    format!(
-        "<h2>How to use it</h2>\n<ul>\n\
-         <li><strong>Accuracy is set by a tolerance, not by the step.</strong> \
-         <code>relative_tolerance</code> (here {tolerance}) bounds the error in time of a step of \
-         the solver, relative to the size of the scene. A tolerance in \
-         <code>{takes_tolerance}</code> replaces it. The error of the mesh is another matter: it \
-         falls with <code>elements</code>.</li>\n\
-         <li><strong>A communication step may have any positive length.</strong> Within it the \
-         solver takes the steps that the tolerance asks for. The default experiment is {stop} s \
-         in steps of {step} s.</li>\n\
-         <li><strong>Parameters</strong> may be set until initialization ends, the number of \
-         elements included. <strong>Inputs</strong> may be set then and between steps; outputs \
-         answer to new inputs at once.</li>\n\
-         <li><strong>Derivatives</strong> of outputs in time, of order 1 and 2, and directional \
-         derivatives of outputs by inputs are exact at every communication point and disturb \
-         nothing. Higher orders are answered by zero.</li>\n\
-         <li><strong>A state</strong> can be saved, restored and serialized at any time between \
-         two calls; the simulation goes on from it bit for bit. Bytes that are damaged, or of \
-         another model, are refused.</li>\n\
-         <li><strong>Instances</strong> are independent of each other: many of them may run in \
-         one process, each in a thread of its own.</li>\n</ul>\n"
-    )
-}
-
-fn statuses(failures: &[[&str; 3]]) -> String {
-    let heads = ["Status", "Meaning", "What to do"];
-    let rows = failures.iter().map(|cells| row(cells));
-    table("When something fails", "", &heads, rows.collect())
-}
-
-fn categories(categories: &[[&str; 2]]) -> String {
-    let rows = categories
-        .iter()
-        .map(|[name, messages]| row(&[&code(name), messages]));
-    table("Log categories", "", &["Name", "Messages"], rows.collect())
+    rows.collect()
 }
 
 fn of(variables: &[Variable], causality: Causality) -> impl Iterator<Item = &Variable> {

@@ -3,6 +3,7 @@
 use super::palette::{FAINT, MOTION, SPRING};
 use super::stroke::Stroke;
 use super::symbols;
+use crate::math::vector::norm;
 use crate::scene::{
     Ends, First, JointCoordinate, LoadKind, MotionKind, Resolved, ResolvedLoad, ResolvedMarker,
     Symbol,
@@ -17,7 +18,7 @@ pub struct Mark<'a> {
     pub kind: &'static str,
     /// Ends that the symbol is relative to.
     pub ends: Ends<'a>,
-    /// Direction at the start that the symbol is relative to: in space in global axes, in the plane in axes of what the first end is on.
+    /// Unit vector at the start that the symbol is relative to: in space in global axes, in the plane in axes of what the first end is on.
     pub direction: Option<[f64; 3]>,
     /// Where its name is written.
     pub label: MarkLabel,
@@ -83,7 +84,17 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
     });
     let ports = ports.filter(|port| !port.strokes.is_empty());
     let bound = joints.chain(loads).chain(gears);
-    bound.chain(motions).chain(ports).collect()
+    let all = bound.chain(motions).chain(ports);
+    all.map(|mark| Mark {
+        direction: mark.direction.map(unit),
+        ..mark
+    })
+    .collect()
+}
+
+fn unit(direction: [f64; 3]) -> [f64; 3] {
+    let length = norm(&direction);
+    direction.map(|part| part / length)
 }
 
 fn between<'a>(first: ResolvedMarker<'a>, second: ResolvedMarker<'a>) -> Ends<'a> {

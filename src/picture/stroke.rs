@@ -80,32 +80,40 @@ pub enum StrokeShape {
         /// Radius.
         radius: Radius,
     },
-    /// An arc about the first point with the head of an arrow at its end. A value may shorten it, and draw it the other way round.
-    Arc {
-        /// Radius, units.
-        radius: f64,
-        /// Angle of the beginning, counter-clockwise from the right, rad.
-        from: f64,
-        /// Angle from the beginning to the end, rad.
-        sweep: f64,
-        /// Length of the head, units.
-        head: f64,
-    },
+    /// An arc.
+    Arc(Arc),
     /// Equal cells between two points.
-    Repeat {
-        /// Where the first cell begins.
-        from: StrokePoint,
-        /// Where the last cell ends.
-        to: StrokePoint,
-        /// Length of a cell, units, as far as whole cells fill the way.
-        pitch: f64,
-        /// Least and largest number of cells.
-        counts: [u32; 2],
-        /// Points in a cell: part of its length, then units along both axes of the frame.
-        cell: Vec<[f64; 3]>,
-        /// Whether cells make one line between the two points.
-        is_joined: bool,
-    },
+    Repeat(Cells),
+}
+
+/// An arc about the first point with the head of an arrow at its end. In a moving picture a value scales its sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Arc {
+    /// Radius, units.
+    pub radius: f64,
+    /// Angle of the beginning, counter-clockwise from the right, rad.
+    pub from: f64,
+    /// Angle from the beginning to the end, rad.
+    pub sweep: f64,
+    /// Length of the head, units.
+    pub head: f64,
+}
+
+/// Equal cells between two points.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cells {
+    /// Where the first cell begins.
+    pub from: StrokePoint,
+    /// Where the last cell ends.
+    pub to: StrokePoint,
+    /// Length of a cell, units, as far as whole cells fill the way.
+    pub pitch: f64,
+    /// Least and largest number of cells.
+    pub counts: [u32; 2],
+    /// Points in a cell: part of its length, then units along both axes of the frame.
+    pub cell: Vec<[f64; 3]>,
+    /// Whether cells make one line between the two points.
+    pub is_joined: bool,
 }
 
 /// How a stroke is drawn.

@@ -3,7 +3,9 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use super::palette::{FAINT, JOINT, MOTION, PAPER, SPRING};
-use super::stroke::{FrameAxes, FramePoints, Radius, Stroke, StrokePoint, StrokeShape, Style};
+use super::stroke::{
+    Arc, Cells, FrameAxes, FramePoints, Radius, Stroke, StrokePoint, StrokeShape, Style,
+};
 use crate::scene::{
     JointCoordinate, JointPrimitive, MotionKind, Place, PortKind, ResolvedGear, ResolvedJoint,
     Symbol,
@@ -74,14 +76,14 @@ impl StrokeFrame {
     /// A line with hatching: ground. Hatches lead back by 0.4 units and behind the line by a vector.
     fn ground(self, [from, to]: [StrokePoint; 2], hatch: [f64; 2]) -> [Stroke; 2] {
         let [x, y] = hatch;
-        let hatches = StrokeShape::Repeat {
+        let hatches = StrokeShape::Repeat(Cells {
             from,
             to,
             pitch: 0.5,
             counts: [2, u32::MAX],
             cell: vec![[0.75, 0.0, 0.0], [0.75, x, y]],
             is_joined: false,
-        };
+        });
         [self.line([from, to], LINE), self.draw(hatches, HATCHING)]
     }
 
@@ -191,14 +193,14 @@ pub fn joint(joint: &ResolvedJoint<'_>) -> Vec<Stroke> {
 /// Straight ends and a zigzag between.
 fn coil() -> [Stroke; 3] {
     let style = Style::line(SPRING, 0.16);
-    let zigzag = StrokeShape::Repeat {
+    let zigzag = StrokeShape::Repeat(Cells {
         from: part(0.15),
         to: part(0.85),
         pitch: 0.9,
         counts: [2, 12],
         cell: vec![[0.25, 0.0, 0.55], [0.75, 0.0, -0.55]],
         is_joined: true,
-    };
+    });
     [
         SPAN.line([part(0.0), part(0.15)], style),
         SPAN.draw(zigzag, style),
@@ -359,12 +361,12 @@ fn plug() -> Stroke {
 
 /// A counter-clockwise moment or rotation in the plane.
 fn rotation(points: FramePoints, colour: &'static str) -> Stroke {
-    let arc = StrokeShape::Arc {
+    let arc = StrokeShape::Arc(Arc {
         radius: 1.5,
         from: (-50.0_f64).to_radians(),
         sweep: 264.0_f64.to_radians(),
         head: 0.84,
-    };
+    });
     StrokeFrame::new(points, FrameAxes::Page).draw(arc, Style::line(colour, 0.2))
 }
 

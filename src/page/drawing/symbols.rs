@@ -3,7 +3,8 @@
 use super::picture::Picture;
 use crate::page::canvas::{Point, direction, moved};
 use crate::picture::{
-    FrameAxes, FramePoints, Mark, Radius, Stroke, StrokePoint, StrokeShape, Style, marks,
+    Arc, Cells, FrameAxes, FramePoints, Mark, Radius, Stroke, StrokePoint, StrokeShape, Style,
+    marks,
 };
 use crate::scene::First;
 
@@ -103,8 +104,8 @@ impl Picture<'_> {
                     let radius = self.radius(radius, &frame);
                     self.canvas.circle(frame.at(*centre), radius, style);
                 }
-                StrokeShape::Arc { .. } => self.arc(&stroke.shape, &frame, style),
-                StrokeShape::Repeat { .. } => self.cells(&stroke.shape, &frame, style),
+                StrokeShape::Arc(arc) => self.arc(arc, &frame, style),
+                StrokeShape::Repeat(cells) => self.cells(cells, &frame, style),
             }
         }
     }
@@ -156,16 +157,13 @@ impl Picture<'_> {
         radius.units * frame.unit + radius.part * reach + self.pixels(radius.length)
     }
 
-    fn arc(&mut self, arc: &StrokeShape, frame: &PlacedFrame, style: Style) {
-        let &StrokeShape::Arc {
+    fn arc(&mut self, arc: &Arc, frame: &PlacedFrame, style: Style) {
+        let &Arc {
             radius,
             from,
             sweep,
             head,
-        } = arc
-        else {
-            return;
-        };
+        } = arc;
         let at = |angle: f64, radius: f64| {
             frame.at([0.0, 0.0, radius * angle.cos(), -radius * angle.sin()])
         };
@@ -184,30 +182,20 @@ impl Picture<'_> {
             .polyline(&[ahead, corners[0], corners[1]], Style::solid(style.stroke));
     }
 
-    fn cells(&mut self, cells: &StrokeShape, frame: &PlacedFrame, style: Style) {
-        let StrokeShape::Repeat {
-            from,
-            to,
-            pitch,
-            counts,
-            cell,
-            is_joined,
-        } = cells
-        else {
-            return;
-        };
-        let [from, to] = [from, to].map(|end| frame.at(*end));
-        let count = (distance(from, to) / (pitch * frame.unit)).round();
-        let count = count.clamp(f64::from(counts[0]), f64::from(counts[1])) as u32;
+    fn cells(&mut self, cells: &Cells, frame: &PlacedFrame, style: Style) {
+        let [from, to] = [cells.from, cells.to].map(|end| frame.at(end));
+        let count = (distance(from, to) / (cells.pitch * frame.unit)).round();
+        let [least, most] = cells.counts.map(f64::from);
+        let count = count.clamp(least, most) as u32;
         let span = [to[0] - from[0], to[1] - from[1]];
         let mut line = vec![from];
         for number in 0..count {
-            let points = cell.iter().map(|[part, x, y]| {
+            let points = cells.cell.iter().map(|[part, x, y]| {
                 let part = (f64::from(number) + part) / f64::from(count);
                 let point = moved(moved(from, span, part), frame.axes[0], x * frame.unit);
                 moved(point, frame.axes[1], y * frame.unit)
             });
-            if *is_joined {
+            if cells.is_joined {
                 line.extend(points);
             } else {
                 let points: Vec<Point> = points.collect();
@@ -215,7 +203,7 @@ impl Picture<'_> {
             }
         }
         line.push(to);
-        if *is_joined {
+        if cells.is_joined {
             self.canvas.polyline(&line, style);
         }
     }

@@ -235,7 +235,7 @@ export class Motion {
     for (const mark of this.marks) {
       const first = mark.ends[0].marker;
       if (!mark.direction) continue;
-      mark.along = new Vector3(...mark.direction).normalize();
+      mark.along = new Vector3(...mark.direction);
       if (!mark.is_local && first !== undefined) mark.along.applyQuaternion(this.stanceAt(first).invert());
     }
   }
