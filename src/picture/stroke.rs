@@ -156,3 +156,45 @@ impl Style {
 pub fn symbols_to_json(symbols: &[Vec<Stroke>]) -> String {
     serde_json::to_string(symbols).unwrap_or_else(|_| unreachable!("strokes are plain data"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strokes_are_written_as_scripts_read_them() {
+        let cells = Cells {
+            from: [0.0; 4],
+            to: [1.0, 0.0, 0.0, 0.0],
+            pitch: 0.5,
+            counts: [2, 9],
+            cell: vec![[0.5, 0.0, 1.0]],
+            is_joined: true,
+        };
+        let stroke = |points, axes, shape| Stroke {
+            points,
+            axes,
+            shape,
+            style: Style::line("#000000", 0.1),
+        };
+        let symbol = vec![
+            stroke(
+                FramePoints::Limit(0.5),
+                FrameAxes::Global([0.0, 0.0, 1.0]),
+                StrokeShape::Line(vec![[0.0, 0.0, 1.0, 2.0]]),
+            ),
+            stroke(
+                FramePoints::Both,
+                FrameAxes::Span,
+                StrokeShape::Repeat(cells),
+            ),
+        ];
+        let style = r##""stroke":"#000000","width":0.1,"fill":"none""##;
+        assert_eq!(
+            symbols_to_json(&[symbol]),
+            format!(
+                r#"[[{{"points":{{"limit":0.5}},"axes":{{"global":[0.0,0.0,1.0]}},"line":[[0.0,0.0,1.0,2.0]],{style}}},{{"points":"both","axes":"span","repeat":{{"from":[0.0,0.0,0.0,0.0],"to":[1.0,0.0,0.0,0.0],"pitch":0.5,"counts":[2,9],"cell":[[0.5,0.0,1.0]],"is_joined":true}},{style}}}]]"#
+            )
+        );
+    }
+}

@@ -19,6 +19,8 @@ const HOLLOW: Style = Style {
     ..LINE
 };
 const HATCHING: Style = Style::line(JOINT, 0.09);
+/// Most hatches of a line, which may be long where a picture is enlarged.
+const HATCHES: u32 = 240;
 /// Height of a foot, and half the length of a rail, units.
 const FOOT: f64 = 1.6;
 const RAIL: f64 = 2.4;
@@ -73,14 +75,14 @@ impl StrokeFrame {
         self.draw(StrokeShape::Circle { centre, radius }, style)
     }
 
-    /// A line with hatching: ground. Hatches lead back by 0.4 units and behind the line by a vector.
+    /// A line with hatching: ground. Hatches begin on the line and lead behind it by a vector in units.
     fn ground(self, [from, to]: [StrokePoint; 2], hatch: [f64; 2]) -> [Stroke; 2] {
         let [x, y] = hatch;
         let hatches = StrokeShape::Repeat(Cells {
             from,
             to,
             pitch: 0.5,
-            counts: [2, u32::MAX],
+            counts: [2, HATCHES],
             cell: vec![[0.75, 0.0, 0.0], [0.75, x, y]],
             is_joined: false,
         });
