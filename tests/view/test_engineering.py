@@ -278,6 +278,35 @@ def test_motions_of_whole_bodies_are_not_enlarged(browser, pages):
     assert browser.run(place, names) == before
 
 
+def test_knots_stay_closed_where_deflections_are_enlarged(browser, pages):
+    """Cables of a net that fit only deformed."""
+    browser.load(pages("cable_net"))
+    browser.run(SEEK, 0.43)
+    gaps = """
+    const { motion, size } = flexbody;
+    return motion.marks.map(({ ends: [first, second] }) => motion.endOf(first).distanceTo(motion.endOf(second)) / size);
+    """
+    for choice in ("0", "4"):
+        browser.run(CHOOSE, "input.factor", choice, "input")
+        assert max(browser.run(gaps)) < 1e-3
+    assert browser.run("return flexbody.motion.factor") == 20
+
+
+def test_a_scale_of_colours_lies_over_no_body(browser, pages):
+    """In a narrow window, where a kite is near the upper edge."""
+    size = {"width": 420, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+    browser.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    try:
+        browser.load(pages("kite_tether"))
+        browser.run(CHOOSE, "select.paint", "axial force", "change")
+        lowest = browser.run("return Math.max(...[...document.querySelectorAll('svg.scale text')].map((text) => Number(text.getAttribute('y'))))")
+        for part in (0.0, 0.43, 1.0):
+            browser.run(SEEK, part)
+            assert min(y for _, y in browser.run("return flexbody.marks.points")) > lowest
+    finally:
+        browser.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
 def test_what_is_zero_all_along_is_no_colour(browser, pages):
     """A rope without bending stiffness has no moment."""
     browser.load(pages("hoist"))

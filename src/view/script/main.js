@@ -6,7 +6,7 @@ import { beds, surfaces } from './bodies.js';
 import { Curves } from './curves.js';
 import { Marks } from './marks.js';
 import { Motion, bytesOf } from './motion.js';
-import { Paint } from './paint.js';
+import { LEGEND, Paint } from './paint.js';
 import { palette, usePalette } from './palette.js';
 import { digits, roundUp } from './svg.js';
 
@@ -148,6 +148,7 @@ class Player {
   addPaint() {
     const choice = this.part('paint');
     const names = Paint.offered(this.motion);
+    this.hasPaint = names.length > 0;
     if (!names.length) this.part('of-paint').remove();
     for (const name of names) choice.append(new Option(name, name));
     choice.addEventListener('change', () => {
@@ -164,7 +165,11 @@ class Player {
     const { motion } = this;
     if (!motion.bodies.some((body) => body.drawn && body.lengths)) label.remove();
     motion.isCarried = motion.bodies.some((body) => body.drawn && body.movesFar(this.size));
-    label.title = `Factor on displacements from where bodies are drawn in the scene${motion.isCarried ? ', each carried by its mean motion' : ''}`;
+    // Bodies that do not fit as they are drawn would come apart.
+    const isFitting = motion.isCarried || motion.fits(this.size);
+    if (!isFitting) motion.measureFromStart();
+    const from = isFitting ? 'where bodies are drawn in the scene' : 'the start of the run';
+    label.title = `Factor on displacements from ${from}${motion.isCarried ? ', each carried by its mean motion' : ''}`;
     slider.addEventListener('input', () => {
       motion.factor = FACTORS[slider.value];
       label.querySelector('b').textContent = `${motion.factor}\u00d7`;
@@ -230,8 +235,9 @@ class Player {
   resize() {
     const [width, height] = [this.stage.clientWidth, this.stage.clientHeight];
     if (!width || !height) return;
-    // Room for names, and below for axes.
-    const [beside, above, below] = [Math.min(80, 0.16 * width), Math.min(60, 0.14 * height), Math.min(90, 0.22 * height)];
+    // Room for names, above for a scale of colours, and below for axes.
+    const [beside, below] = [Math.min(80, 0.16 * width), Math.min(90, 0.22 * height)];
+    const above = Math.max(Math.min(60, 0.14 * height), this.hasPaint ? LEGEND : 0);
     this.lift = (below - above) / 2;
     const pixel = Math.max(this.half[0] / (width / 2 - beside), (2 * this.half[1]) / (height - above - below), 1e-9);
     const { camera } = this;

@@ -6,6 +6,8 @@
 import { Matrix4, Quaternion, Vector3 } from 'three';
 import { enlarge } from './deflection.js';
 
+/** Parts of the size of a scene: ends that are nearer are together, ends that are further apart are not. */
+const [CLOSED, OPEN] = [1e-4, 0.01];
 /** Part of the size of a scene, and change of a direction, beyond which bodies move as a whole. */
 const FAR = 0.2;
 
@@ -273,6 +275,23 @@ export class Motion {
       found.push({ at: section.point, vector: vector(k, section.stance) });
     }
     return found;
+  }
+
+  /** Whether ends that are together at the start are together too where bodies are drawn, in a scene of a size. */
+  fits(size) {
+    const gaps = () => this.marks.map(({ ends: [first, second] }) => this.endOf(first).distanceTo(this.endOf(second)));
+    const now = this.time;
+    this.seek(this.start);
+    const atStart = gaps();
+    for (const body of this.bodies) if (body.drawn) body.now.set(body.drawn);
+    const drawn = gaps();
+    this.seek(now);
+    return drawn.every((gap, number) => atStart[number] > CLOSED * size || gap < OPEN * size);
+  }
+
+  /** Measures displacements of bodies from the start of the run. */
+  measureFromStart() {
+    for (const body of this.bodies) body.drawn = body.track.values.slice(0, body.track.width);
   }
 
   /** Points that everything stays about, and how far around each of them. */

@@ -5,6 +5,8 @@ import { digits, element } from './svg.js';
 
 /** Size of the scale, pixels. */
 const [WIDTH, HEIGHT] = [150, 9];
+/** Room that the scale takes above a picture, with a marker below it, pixels. */
+export const LEGEND = 57;
 
 /** What may be shown: its place among the numbers of a node, its unit, whether it has a sign. */
 const QUANTITIES = {
