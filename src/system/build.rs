@@ -7,7 +7,7 @@ use super::end::{Angle, Attachment};
 use super::joints::{
     Constraint, ConstraintKind, Equation as _, JointEquations, Linear, Primitive, Target, View,
 };
-use super::loads::{AppliedLoad, BushingMeasure, ForceElement as _};
+use super::loads::{AppliedLoad, ForceElement as _};
 use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{DrivenRow, System};
@@ -342,14 +342,7 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
         .map(|(chain, ..)| parts.bodies.lines()[*chain].first_node())
         .collect();
     for load in &parts.loads {
-        let is_grounded = match load {
-            AppliedLoad::Spring(_) | AppliedLoad::TableSpring(_) => {
-                load.ends().iter().any(|end| end.marker().is_none())
-            }
-            AppliedLoad::Bushing(of) => matches!(of.measure, BushingMeasure::Point(_)),
-            _ => false,
-        };
-        if is_grounded {
+        if load.is_grounded() {
             nodes.extend(load.ends().iter().flat_map(Attachment::nodes));
         }
     }

@@ -119,6 +119,11 @@ pub trait ForceElement<const D: usize>: Clone {
         Vec::new()
     }
 
+    /// Whether it ties its ends to the ground by a stiffness.
+    fn is_grounded(&self) -> bool {
+        false
+    }
+
     /// Returns the nodes on which the forces depend and act, of every part of the load that depends on no others.
     fn parts(&self, _bodies: &Bodies<D>) -> Vec<Vec<usize>> {
         vec![self.ends().iter().flat_map(Attachment::nodes).collect()]
@@ -237,6 +242,12 @@ macro_rules! loads {
             fn ends(&self) -> Vec<Attachment<D>> {
                 match self {
                     $(Self::$kind(load) => load.ends(),)*
+                }
+            }
+
+            fn is_grounded(&self) -> bool {
+                match self {
+                    $(Self::$kind(load) => <$load as ForceElement<D>>::is_grounded(load),)*
                 }
             }
 

@@ -128,4 +128,8 @@ impl<const D: usize> ForceElement<D> for Spring<D> {
     fn ends(&self) -> Vec<Attachment<D>> {
         self.ends.to_vec()
     }
+
+    fn is_grounded(&self) -> bool {
+        self.ends.iter().any(|end| end.marker().is_none())
+    }
 }

@@ -172,6 +172,10 @@ impl<const D: usize> ForceElement<D> for Bushing<D> {
     fn ends(&self) -> Vec<Attachment<D>> {
         measured!(&self.measure, of => of.ends())
     }
+
+    fn is_grounded(&self) -> bool {
+        matches!(self.measure, BushingMeasure::Point(_))
+    }
 }
 
 /// Sum of products with weights.
