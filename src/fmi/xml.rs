@@ -6,8 +6,8 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::logger::Category;
-use crate::page::number;
 use crate::scene::Scene;
+use crate::scene::number;
 use crate::simulation::{Causality, Unit, Variable};
 
 /// The tool that wrote a description.

@@ -6,8 +6,8 @@ use crate::fmi::xml::{
     TOOL, Xml, about, default_experiment, document, kind, log_categories, units,
 };
 use crate::fmi::{MODEL_IDENTIFIER, guid};
-use crate::page::number;
 use crate::scene::Scene;
+use crate::scene::number;
 use crate::simulation::{Causality, Variable, variables};
 
 /// The model description of a scene. No date, no path: the same scene gives the same bytes.

@@ -2,12 +2,12 @@
 
 use super::canvas::escape;
 use super::drawing::drawing;
-use super::number::{number, rounded};
 use super::parts::parts;
 use super::plan::plan;
 use super::table::{code, row};
 use crate::picture::{filled, palette};
 use crate::scene::{Body, InitialState, Integrator, Model, Scene, Spin, Strain};
+use crate::scene::{number, rounded};
 use crate::simulation::{Causality, Planned, Variable, variables};
 
 const PAGE: &str = include_str!("documentation.html");

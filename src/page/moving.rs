@@ -2,8 +2,8 @@
 
 use super::canvas::escape;
 use super::drawing::drawing;
-use super::number::{number, rounded};
 use crate::scene::Scene;
+use crate::scene::{number, rounded};
 use crate::simulation::InputTable;
 use crate::view::{HeldInput, Limits, OutputTable, Recording, document, picture, picture_of_table};
 

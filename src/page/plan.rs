@@ -1,9 +1,9 @@
 //! Where the numbers of a planned scene come from, as tables of the page.
 
 use super::canvas::escape;
-use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::Chosen;
+use crate::scene::number;
 use crate::simulation::{Damped, Plan, Planned, Settles};
 
 /// The sections; nothing of a scene that was not planned.

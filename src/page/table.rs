@@ -28,3 +28,20 @@ pub fn row(cells: &[&str]) -> String {
 pub fn code(name: &str) -> String {
     format!("<code>{}</code>", escape(name))
 }
+
+/// A row of a table in words; what stands in the scene or in the interface is between backticks.
+pub fn worded(cells: &[&str]) -> String {
+    let marked = |cell: &&str| {
+        let cell = escape(cell);
+        let parts = cell.split('`').enumerate().map(|(k, part)| {
+            if k % 2 == 1 {
+                format!("<code>{part}</code>")
+            } else {
+                part.into()
+            }
+        });
+        parts.collect()
+    };
+    let cells: Vec<String> = cells.iter().map(marked).collect();
+    row(&cells.iter().map(String::as_str).collect::<Vec<_>>())
+}

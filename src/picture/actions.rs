@@ -1,6 +1,6 @@
 //! Forces and moments that a scene describes or that the master sets.
 
-use crate::scene::{Action, Input, InputKind, LoadKind, PortKind, Resolved};
+use crate::scene::{Action, Input, InputKind, PortKind, Resolved};
 
 /// A force or a moment by a load, an input or a port.
 #[derive(Clone, Copy, Debug)]
@@ -16,13 +16,12 @@ pub struct KnownAction<'a> {
 /// Collects forces and moments of loads, inputs and ports. Those of springs, fluids, contacts and joints follow from the motion and are not
 /// among them.
 pub fn known_actions<'a>(resolved: &'a Resolved<'a>) -> Vec<KnownAction<'a>> {
-    let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Action { action, .. } => Some(KnownAction {
+    let loads = resolved.loads.iter().filter_map(|load| {
+        Some(KnownAction {
             name: load.name,
-            action,
+            action: load.kind.action()?,
             start: &[],
-        }),
-        _ => None,
+        })
     });
     let of_input = |input: &'a Input<'a>, name: Option<&'a str>| match &input.kind {
         InputKind::Action(action) => Some(KnownAction {

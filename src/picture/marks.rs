@@ -5,7 +5,7 @@ use super::stroke::Stroke;
 use super::symbols;
 use crate::math::vector::norm;
 use crate::scene::{
-    Ends, First, JointCoordinate, LoadKind, MotionKind, Resolved, ResolvedLoad, ResolvedMarker,
+    Ends, First, JointCoordinate, LoadPlace, MotionKind, Resolved, ResolvedLoad, ResolvedMarker,
     Symbol,
 };
 
@@ -119,10 +119,13 @@ fn plain<'a>(name: &'a str, kind: &'static str, ends: Ends<'a>) -> Mark<'a> {
 
 /// A spring or a limit; none of other loads.
 fn of_load<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
-    let on = match &load.kind {
-        LoadKind::JointSpring { on, .. } | LoadKind::JointLimit { on, .. } => on,
-        kind => {
-            let ends = kind.between()?;
+    let (on, kind, strokes) = match (load.kind.place(), load.kind.limits()) {
+        (_, Some((on, limits))) => (on, "joint limit", symbols::stops(&on, limits)),
+        (LoadPlace::Coordinate(on), None) if load.kind.exerts_on().is_some() => {
+            (on, "spring", symbols::joint_spring(&on))
+        }
+        (place, None) => {
+            let ends = place.ends()?;
             return Some(Mark {
                 label: MarkLabel::Middle,
                 colour: SPRING,
@@ -130,10 +133,6 @@ fn of_load<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
                 ..plain(load.name, "spring", ends)
             });
         }
-    };
-    let (kind, strokes) = match &load.kind {
-        LoadKind::JointLimit { limits, .. } => ("joint limit", symbols::stops(on, *limits)),
-        _ => ("spring", symbols::joint_spring(on)),
     };
     Some(Mark {
         direction: match on {

@@ -4,10 +4,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::description::{Kinds as _, Symbol};
 use super::resolved::{
-    Action, BodyReference, Cable, DirectionSource, Ends, First, Form, JointCoordinate, LineId,
-    LoadTarget, MarkerId, MotionKind, Pivot, Place, Resolved, ResolvedJoint, ResolvedMarker, Rigid,
+    BodyReference, Cable, ConstraintOwnerId, DirectionSource, Ends, First, Form, JointCoordinate,
+    LineId, MarkerId, MotionKind, Pivot, Place, Resolved, ResolvedJoint, ResolvedMarker, Rigid,
     RigidId, Slider,
 };
+use super::unit::{METRE, RADIAN, Unit};
 use super::{Body, LineBody, Model, RigidBody, Scene};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
@@ -285,6 +286,17 @@ impl<'a> Ends<'a> {
         }
     }
 
+    /// Indices of the bodies of both ends, among all bodies.
+    pub(super) fn bodies(&self) -> Vec<usize> {
+        let first = match self.first {
+            First::Ground(_) => None,
+            First::Marker(marker) => Some(marker.place.body_index()),
+            First::Cable(cable) => Some(cable.id.body_index()),
+        };
+        let second = self.second.place.body_index();
+        first.into_iter().chain([second]).collect()
+    }
+
     /// The markers of both ends.
     pub(super) fn markers(&self) -> Vec<ResolvedMarker<'a>> {
         match self.first {
@@ -415,9 +427,31 @@ impl<'a> JointCoordinate<'a> {
         }
     }
 
+    /// Which holder the joint is.
+    pub fn joint(&self) -> ConstraintOwnerId {
+        match self {
+            Self::Displacement(slider) => slider.joint,
+            Self::Angle(pivot) => pivot.joint,
+        }
+    }
+
     /// Whether it is an angle.
     pub fn is_angle(&self) -> bool {
         matches!(self, Self::Angle(_))
+    }
+
+    /// Returns its unit.
+    pub(super) fn unit(&self) -> Unit {
+        if self.is_angle() { RADIAN } else { METRE }
+    }
+
+    /// Returns a stiffness against it as one against displacements, N/m, and one against rotations, N m/rad.
+    pub(super) fn stiffness(&self, value: f64) -> [f64; 2] {
+        if self.is_angle() {
+            [0.0, value]
+        } else {
+            [value, 0.0]
+        }
     }
 }
 
@@ -486,17 +520,6 @@ impl<'a> MotionKind<'a> {
             Self::Orientation(marker, _) => marker.place.quaternion().to_vec(),
             Self::Displacement(slider, _) => vec![slider.start()],
             Self::Winch(..) => vec![0.0],
-        }
-    }
-}
-
-impl<'a> Action<'a> {
-    /// Name of the marker, joint or cable that it acts on.
-    pub fn on(&self) -> &'a str {
-        match self.on {
-            LoadTarget::Marker(marker) => marker.name,
-            LoadTarget::Joint(pivot) => pivot.name,
-            LoadTarget::Cable(cable) => &cable.body.name,
         }
     }
 }

@@ -3,8 +3,7 @@
 use super::Error;
 use super::description::OutputKind;
 use super::resolved::{
-    Cable, DirectionSource, InputKind, LoadKind, LoadTarget, MotionKind, OutputTarget, Place,
-    Resolved, ResolvedMarker,
+    Cable, DirectionSource, InputKind, MotionKind, OutputTarget, Place, Resolved, ResolvedMarker,
 };
 
 /// Shortest segment between two nodes, in elements of even length: shorter ones swing so fast that they
@@ -86,21 +85,15 @@ impl<'a> Resolved<'a> {
             // The joint has its nodes.
             MotionKind::Angle(DirectionSource::Pivot(_), _) | MotionKind::Displacement(..) => None,
         }));
-        let mut actions = Vec::new();
-        for load in &self.loads {
-            match &load.kind {
-                LoadKind::Action { action, .. } => actions.push(action),
-                LoadKind::Contact(contact) => found.extend(contact.by.marker()),
-                kind => found.extend(kind.between().iter().flat_map(|ends| ends.markers())),
-            }
-        }
-        actions.extend(self.inputs.iter().filter_map(|input| match &input.kind {
-            InputKind::Action(action) => Some(action),
+        // Forces and moments come after all other loads.
+        let (actions, others): (Vec<_>, Vec<_>) = { self.loads.iter() }
+            .map(|load| &load.kind)
+            .partition(|kind| kind.action().is_some());
+        let loads = others.into_iter().chain(actions);
+        found.extend(loads.flat_map(|kind| kind.place().markers()));
+        found.extend(self.inputs.iter().flat_map(|input| match &input.kind {
+            InputKind::Action(action) => action.marker(),
             InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
-        }));
-        found.extend(actions.into_iter().filter_map(|action| match action.on {
-            LoadTarget::Marker(marker) => Some(marker),
-            LoadTarget::Joint(_) | LoadTarget::Cable(_) => None,
         }));
         found
     }

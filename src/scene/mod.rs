@@ -9,6 +9,7 @@ mod alike;
 mod assemble;
 mod description;
 mod elements;
+mod loads;
 mod marker;
 mod mesh;
 mod numbers;
@@ -18,7 +19,9 @@ mod remarks;
 mod resolved;
 mod shape;
 mod timed;
+pub(crate) mod unit;
 mod validate;
+pub(crate) mod words;
 
 use description::{Reader, Strict, check_names};
 use serde::Deserialize;
@@ -34,17 +37,22 @@ pub use description::{
     Table, Value,
 };
 pub use elements::Chosen;
+pub use loads::{
+    Action, Exerts, LoadNumber, LoadPlace, LoadTarget, LoadWords, NumberMut, ResolvedFluid,
+    ResolvedLoad, ResolvedLoadKind, TimedKey,
+};
 pub use remarks::remarks;
 pub use resolved::{
-    Action, AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, ContactBody,
-    Coupling, CouplingId, DirectionSource, Ends, First, Incoming, Input, InputKind,
-    JointCoordinate, LineId, LoadId, LoadKind, LoadTarget, MarkerId, MotionKind, Output,
-    OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Resolved, ResolvedBushing,
-    ResolvedContact, ResolvedFluid, ResolvedGear, ResolvedJoint, ResolvedLoad, ResolvedMarker,
-    ResolvedMass, ResolvedMotion, ResolvedPort, ResolvedSpring, Rigid, RigidId, SlideId, Slider,
+    AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
+    DirectionSource, Ends, First, Incoming, Input, InputKind, JointCoordinate, LineId, LoadId,
+    MarkerId, MotionKind, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction,
+    Resolved, ResolvedGear, ResolvedJoint, ResolvedMarker, ResolvedMass, ResolvedMotion,
+    ResolvedPort, Rigid, RigidId, SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
+pub use unit::Unit;
 pub use validate::{ELEMENTS, TOLERANCE};
+pub use words::{number, rounded};
 
 /// A scene with something of everything, for the tests of the floors above.
 #[cfg(test)]

@@ -1,60 +1,36 @@
 //! Which bodies an output belongs to.
 
-use super::Scene;
-use super::description::{
-    BushingLoad, ContactLoad, DistributedForceLoad, DistributedMomentLoad, FluidLoad, ForceLoad,
-    JointLimitLoad, JointSpringLoad, LoadKind, MomentLoad, SpringDamper, TableSpringLoad, Torque,
-};
+use super::resolved::{DirectionSource, MotionKind, Resolved};
 
-impl Scene {
+impl Resolved<'_> {
     /// Places of the bodies that an output is read at, by its name without an index: of a joint, motion, load or port those that it joins,
     /// moves or acts on.
     pub fn bodies_read_by(&self, output: &str) -> Vec<usize> {
         let Some((first, _)) = output.split_once('.') else {
             return Vec::new();
         };
-        let owner = |marker: &str| marker.split('.').next().unwrap_or_default().to_owned();
-        let joint = |name: &str| self.joints.iter().find(|joint| joint.name == name);
-        let of_joint = |name: &str| -> Vec<String> {
-            let markers =
-                joint(name).map(|joint| joint.kind.markers().iter().map(|marker| owner(marker)));
-            markers.into_iter().flatten().collect()
-        };
-        let mut names = vec![first.to_owned()];
-        names.extend(of_joint(first));
-        for motion in self.motions.iter().filter(|motion| motion.name == first) {
-            names.extend(motion.kind.marker().map(owner));
-            names.extend(motion.kind.joint().map(of_joint).into_iter().flatten());
+        let bodies = self.bodies.iter().enumerate();
+        let bodies = bodies.filter(|(_, body)| body.name() == first);
+        let mut found: Vec<usize> = bodies.map(|(index, _)| index).collect();
+        for joint in self.joints.iter().filter(|joint| joint.name == first) {
+            found.extend(joint.ends.bodies());
         }
-        for load in self.loads.iter().filter(|load| load.name == first) {
-            match &load.kind {
-                LoadKind::Force(ForceLoad { marker, .. })
-                | LoadKind::Moment(MomentLoad { marker, .. }) => {
-                    names.push(owner(marker));
+        for motion in self.motions.iter().filter(|motion| motion.name == first) {
+            match &motion.kind {
+                MotionKind::Angle(DirectionSource::Pivot(pivot), _) => {
+                    found.extend(pivot.ends.bodies());
                 }
-                LoadKind::SpringDamper(SpringDamper { markers, .. })
-                | LoadKind::TableSpring(TableSpringLoad { markers, .. })
-                | LoadKind::Bushing(BushingLoad { markers, .. }) => {
-                    names.extend(markers.iter().map(|marker| owner(marker)));
-                }
-                LoadKind::Torque(Torque { joint, .. })
-                | LoadKind::JointSpring(JointSpringLoad { joint, .. })
-                | LoadKind::JointLimit(JointLimitLoad { joint, .. }) => {
-                    names.extend(of_joint(joint))
-                }
-                LoadKind::DistributedForce(DistributedForceLoad { body, .. })
-                | LoadKind::DistributedMoment(DistributedMomentLoad { body, .. })
-                | LoadKind::Fluid(FluidLoad { body, .. }) => names.push(body.clone()),
-                LoadKind::Contact(ContactLoad { marker, body, .. }) => {
-                    names.extend(marker.iter().map(|marker| owner(marker)));
-                    names.extend(body.clone());
-                }
+                MotionKind::Displacement(slider, _) => found.extend(slider.ends.bodies()),
+                kind => found.push(kind.marker().place.body_index()),
             }
         }
+        for load in self.loads.iter().filter(|load| load.name == first) {
+            found.extend(load.kind.place().bodies());
+        }
         let ports = self.ports.iter().filter(|port| port.name == first);
-        names.extend(ports.map(|port| owner(&port.marker)));
-        let bodies = self.bodies.iter().enumerate();
-        let named = bodies.filter(|(_, body)| names.iter().any(|name| name == body.name()));
-        named.map(|(index, _)| index).collect()
+        found.extend(ports.map(|port| port.marker.place.body_index()));
+        found.sort_unstable();
+        found.dedup();
+        found
     }
 }

@@ -1,7 +1,6 @@
 //! A scene whose references are resolved: what a kind demands is there, what it names has been found, and
 //! what is numbered is numbered once. Values are checked while it is made (`validate/`).
 
-mod loads;
 mod outputs;
 
 use std::collections::BTreeMap;
@@ -9,11 +8,8 @@ use std::collections::BTreeMap;
 use super::description::{
     JointKind, JointPrimitive, LineBody, Port as GivenPort, RigidBody, Scene, Value,
 };
+use super::loads::{Action, ResolvedLoad};
 use crate::system::{Drive, Release};
-pub use loads::{
-    Action, ContactBody, LoadKind, LoadTarget, ResolvedBushing, ResolvedContact, ResolvedFluid,
-    ResolvedLoad, ResolvedSpring, ResolvedTableSpring,
-};
 pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.

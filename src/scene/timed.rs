@@ -1,7 +1,6 @@
 //! Functions of time of a scene, and where they have no value.
 
-use super::description::LoadKind;
-use super::{Error, InitialState, Scene, Value};
+use super::{Error, InitialState, Scene, TimedKey, Value};
 use crate::math::function::Function;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::switches::grain;
@@ -55,26 +54,12 @@ impl Scene {
             }
         }
         for (i, load) in self.loads.iter().enumerate() {
-            let action = load.kind.action();
-            let values = action.map_or(&[][..], |(_, value)| value.components());
+            let Some(TimedKey { key, values, order }) = load.kind.timed() else {
+                continue;
+            };
             for (k, value) in values.iter().enumerate() {
-                let path = place(format!("loads[{i}].value"), values.len(), k);
-                add(path, &load.name, value, 0);
-            }
-            match &load.kind {
-                LoadKind::Fluid(fluid) => {
-                    for (k, value) in fluid.current.iter().flatten().enumerate() {
-                        // The fluid pushes as it is accelerated.
-                        add(format!("loads[{i}].current[{k}]"), &load.name, value, 1);
-                    }
-                }
-                LoadKind::SpringDamper(spring) => {
-                    if let Some(length) = &spring.length {
-                        // The rate at which a rest length changes does work.
-                        add(format!("loads[{i}].length"), &load.name, length, 1);
-                    }
-                }
-                _ => {}
+                let path = place(format!("loads[{i}].{key}"), values.len(), k);
+                add(path, &load.name, value, order);
             }
         }
         timed

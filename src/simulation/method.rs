@@ -7,7 +7,7 @@ use crate::integrators::{
     Tolerance, VERLET,
 };
 use crate::math::vector::norm;
-use crate::scene::{Error, Integrator, LoadKind, Resolved};
+use crate::scene::{Error, Integrator, Resolved};
 use crate::system::{State, System, Workspace, fastest};
 
 /// Explicit methods pay up to a frequency of this many natural rates, times the cube root of the inverse
@@ -176,9 +176,7 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
 fn spring_rate(resolved: &Resolved<'_>, size: f64, mass: f64) -> f64 {
     // A stop or a surface is met now and then.
     let loads = resolved.loads.iter();
-    let is_met =
-        |kind: &LoadKind<'_>| matches!(kind, LoadKind::JointLimit { .. } | LoadKind::Contact(_));
-    let loads = loads.filter(|load| !is_met(&load.kind));
+    let loads = loads.filter(|load| !load.kind.is_one_sided());
     let of_springs = loads.map(|load| {
         let [against_ways, against_turns] = load.kind.stiffness();
         against_ways.max(against_turns / (size * size))

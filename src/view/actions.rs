@@ -4,8 +4,7 @@ use crate::math::function::Function;
 use crate::math::space::spins;
 use crate::picture::known_actions;
 use crate::scene::{
-    self, Along, ConstraintOwnerId, ContactBody, LoadId, LoadKind, LoadTarget, MarkerId,
-    MotionKind, Resolved, ResolvedContact,
+    self, Along, ConstraintOwnerId, LoadId, LoadPlace, LoadTarget, MarkerId, MotionKind, Resolved,
 };
 use crate::simulation::{Error, Quantity, Simulation};
 use crate::system::Signal;
@@ -58,10 +57,8 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<MovingAction<'a>> {
     let dimension = resolved.scene.dimension;
     let known = known_actions(resolved).into_iter();
     let known = known.map(|known| of_action(known.name, known.action, dimension));
-    let fluids = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Fluid(fluid) => Some(of_fluid(load.name, fluid)),
-        _ => None,
-    });
+    let fluids = resolved.loads.iter();
+    let fluids = fluids.filter_map(|load| Some(of_fluid(load.name, load.kind.fluid()?)));
     let springs = resolved.numbered_loads();
     let springs = springs.flat_map(|(id, load)| of_spring(id, load, dimension));
     let reactions = reactions(resolved);
@@ -177,11 +174,7 @@ fn of_spring<'a>(
         };
         return exerted(on, quantity, Origin::Load).collect();
     }
-    let LoadKind::Contact(ResolvedContact {
-        by: ContactBody::Cable(on),
-        ..
-    }) = &load.kind
-    else {
+    let (LoadPlace::Line(on), [true, _]) = (load.kind.place(), load.kind.exerts()) else {
         return Vec::new();
     };
     vec![MovingAction {

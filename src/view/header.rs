@@ -9,8 +9,8 @@ use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
 use crate::picture::symbols::load;
 use crate::picture::{Mark, MarkLabel, marks, palette};
 use crate::scene::{
-    BodyReference, Cable, Ends, First, Inertia, LineBody, LoadKind, Place, Resolved,
-    ResolvedMarker, Rigid, RigidBody, Solid,
+    BodyReference, Cable, Ends, First, Inertia, LineBody, Place, Resolved, ResolvedMarker, Rigid,
+    RigidBody, Solid,
 };
 use crate::simulation::Pose;
 
@@ -270,15 +270,10 @@ fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
         .flat_map(|pose| pose.nodes.iter().map(|[position, _]| *position))
         .collect();
     let loads = resolved.loads.iter();
-    let surfaces = loads.filter_map(|load| match &load.kind {
-        LoadKind::Contact(contact) => {
-            let lines = contact.surface.lines(recording.scene.dimension, &near);
-            Some(format!(
-                "{{\"name\":{},\"lines\":{lines:?}}}",
-                quoted(load.name)
-            ))
-        }
-        _ => None,
+    let surfaces = loads.filter_map(|load| {
+        let lines = (load.kind.surface()?).lines(recording.scene.dimension, &near);
+        let name = quoted(load.name);
+        Some(format!("{{\"name\":{name},\"lines\":{lines:?}}}"))
     });
     surfaces.collect()
 }

@@ -52,10 +52,7 @@ macro_rules! keys {
                     let shape = shape.and_then(|kinds| kinds.keys().next()).expect("a shape");
                     (of_each(SIZES, &format!("{shape}/{key}")), format!("{place}/{shape}/{key}"), "m")
                 }
-                Parameter::BushingStiffness(..) => of_bushing(scene, variable, "N/m"),
-                Parameter::BushingDamping(..) => of_bushing(scene, variable, "N.s/m"),
-                Parameter::BushingTurningStiffness(..) => of_bushing(scene, variable, "N.m/rad"),
-                Parameter::BushingTurningDamping(..) => of_bushing(scene, variable, "N.m.s/rad"),
+                Parameter::Load(..) => of_load(scene, variable),
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
                 Parameter::Rotation(axis) => {
                     let place = if scene["rotation"].is_array() { format!("/rotation/{axis}") } else { "/rotation".into() };
@@ -81,20 +78,32 @@ const SIZES: &[&str] = &[
     "tube/inner_radius",
     "tube/length",
 ];
-/// Sizes of bushings, every one with a claim of its own.
-const BUSHINGS: &[&str] = &[
-    "translational_stiffness/0",
-    "translational_stiffness/1",
-    "translational_stiffness/2",
-    "translational_damping/0",
-    "translational_damping/1",
-    "translational_damping/2",
-    "rotational_stiffness/0",
-    "rotational_stiffness/1",
-    "rotational_stiffness/2",
-    "rotational_damping/0",
-    "rotational_damping/1",
-    "rotational_damping/2",
+/// Numbers of loads, every one with a claim of its own.
+const LOADS: &[&str] = &[
+    "stiffness N/m",
+    "stiffness N/m2",
+    "stiffness N.m/rad",
+    "damping N.s/m",
+    "damping N.m.s/rad",
+    "damping s/m",
+    "damping s/rad",
+    "friction ",
+    "density kg/m3",
+    "drag ",
+    "tangential_drag ",
+    "added_mass ",
+    "translational_stiffness/0 N/m",
+    "translational_stiffness/1 N/m",
+    "translational_stiffness/2 N/m",
+    "translational_damping/0 N.s/m",
+    "translational_damping/1 N.s/m",
+    "translational_damping/2 N.s/m",
+    "rotational_stiffness/0 N.m/rad",
+    "rotational_stiffness/1 N.m/rad",
+    "rotational_stiffness/2 N.m/rad",
+    "rotational_damping/0 N.m.s/rad",
+    "rotational_damping/1 N.m.s/rad",
+    "rotational_damping/2 N.m.s/rad",
 ];
 
 /// One of these names.
@@ -113,15 +122,33 @@ fn counted_from_zero(variable: &str) -> String {
     format!("{key}/{}", number - 1)
 }
 
-/// Name, place in the scene and unit of a size of a bushing.
-fn of_bushing(
-    scene: &Value,
-    variable: &str,
-    unit: &'static str,
-) -> (&'static str, String, &'static str) {
+/// Name, place in the scene and unit of a number of a load.
+fn of_load(scene: &Value, variable: &str) -> (&'static str, String, &'static str) {
     let key = counted_from_zero(variable);
-    let place = format!("/loads/{}/{key}", part(scene, "loads", variable));
-    (of_each(BUSHINGS, &key), place, unit)
+    let place = part(scene, "loads", variable);
+    let load = &scene["loads"][place];
+    let is_angle = load["coordinate"] == "angle" || {
+        let mut joints = scene["joints"].as_array().into_iter().flatten();
+        let joint = joints.find(|joint| joint["name"] == load["joint"]);
+        load["coordinate"].is_null() && joint.is_some_and(|joint| joint["kind"] == "revolute")
+    };
+    let kind = load["kind"].as_str().expect("a kind");
+    let (number, _) = key.split_once('/').unwrap_or((&key, ""));
+    let unit = match (kind, number, is_angle) {
+        ("joint_spring" | "joint_limit", "stiffness", true) => "N.m/rad",
+        ("joint_spring", "damping", true) => "N.m.s/rad",
+        ("joint_limit", "damping", true) => "s/rad",
+        ("joint_limit" | "contact", "damping", _) => "s/m",
+        ("contact", "stiffness", _) if load["body"].is_string() => "N/m2",
+        (_, "stiffness" | "translational_stiffness", _) => "N/m",
+        (_, "damping" | "translational_damping", _) => "N.s/m",
+        (_, "rotational_stiffness", _) => "N.m/rad",
+        (_, "rotational_damping", _) => "N.m.s/rad",
+        (_, "density", _) => "kg/m3",
+        _ => "",
+    };
+    let label = of_each(LOADS, &format!("{key} {unit}"));
+    (label, format!("/loads/{place}/{key}"), unit)
 }
 
 /// Place in its list of the part whose name begins that of a variable.
@@ -148,18 +175,6 @@ keys! {
     ReleaseTime => "joints", "/release_time", "s";
     HingeStiffness => "joints", "/stiffness", "N.m/rad";
     HingeDamping => "joints", "/damping", "N.m.s/rad";
-    SpringStiffness => "loads", "/stiffness", "N/m";
-    SpreadStiffness => "loads", "/stiffness", "N/m2";
-    Friction => "loads", "/friction", "";
-    SpringDamping => "loads", "/damping", "N.s/m";
-    TorsionStiffness => "loads", "/stiffness", "N.m/rad";
-    TorsionDamping => "loads", "/damping", "N.m.s/rad";
-    StopDamping => "loads", "/damping", "s/m";
-    TorsionStopDamping => "loads", "/damping", "s/rad";
-    FluidDensity => "loads", "/density", "kg/m3";
-    Drag => "loads", "/drag", "";
-    TangentialDrag => "loads", "/tangential_drag", "";
-    AddedMass => "loads", "/added_mass", "";
     CouplingStiffness => "ports", "/stiffness", "N/m";
     CouplingDamping => "ports", "/damping", "N.s/m";
     TurningStiffness => "ports", "/rotational_stiffness", "N.m/rad";
@@ -317,7 +332,7 @@ fn changed(scene: &Value, pointer: &str) -> Option<(Value, f64)> {
 /// The change of a key is noticed, and the parameter undoes it.
 #[test]
 fn every_parameter_is_its_key() {
-    let all = [PARAMETERS, SIZES, BUSHINGS].concat();
+    let all = [PARAMETERS, SIZES, LOADS].concat();
     let findings = findings(all);
     for_each_specimen(|specimen| {
         // What becomes of a damping ratio follows from all other keys.

@@ -6,7 +6,7 @@ use crate::page::canvas::{Point, direction, moved};
 use crate::picture::palette::LOAD;
 use crate::picture::symbols;
 use crate::picture::{KnownAction, known_actions};
-use crate::scene::{self, Cable, InputKind, LoadKind, LoadTarget, Resolved, ResolvedMarker};
+use crate::scene::{self, Cable, InputKind, LoadTarget, Resolved, ResolvedMarker};
 use crate::system::Signal;
 
 /// Arrows at most that stand for a distributed force: on a short body as many as have room.
@@ -118,7 +118,7 @@ impl<'a> Picture<'a> {
     /// Fluids that stream, as arrows of their currents.
     fn fluids(&mut self) {
         for load in &self.resolved.loads {
-            let LoadKind::Fluid(fluid) = &load.kind else {
+            let Some(fluid) = load.kind.fluid() else {
                 continue;
             };
             let mut inputs = self.resolved.inputs.iter();

@@ -54,7 +54,7 @@ fn bounds(resolved: &Resolved<'_>) -> [Point; 2] {
         .iter()
         .filter_map(|joint| joint.ends.point());
     let loads = resolved.loads.iter();
-    let loads = loads.filter_map(|load| load.kind.between()?.point());
+    let loads = loads.filter_map(|load| load.kind.place().ends()?.point());
     let outlines = resolved
         .bodies
         .iter()

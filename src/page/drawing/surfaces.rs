@@ -5,7 +5,7 @@ use super::picture::Picture;
 use crate::page::canvas::Point;
 use crate::picture::Style;
 use crate::picture::palette::BED;
-use crate::scene::{LoadKind, Resolved, Surface};
+use crate::scene::{Resolved, Surface};
 
 /// Everything of all surfaces that is told by points around the bodies, m.
 fn each(
@@ -16,10 +16,8 @@ fn each(
     let near = bodies.flat_map(|body| outline(*body, resolved.scene.dimension));
     let near: Vec<[f64; 3]> = near.collect();
     let loads = resolved.loads.iter();
-    let found = loads.filter_map(|load| match &load.kind {
-        LoadKind::Contact(contact) => Some(of(&contact.surface, &near)),
-        _ => None,
-    });
+    let surfaces = loads.filter_map(|load| load.kind.surface());
+    let found = surfaces.map(|surface| of(surface, &near));
     found.flatten().collect()
 }
 

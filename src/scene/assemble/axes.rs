@@ -4,19 +4,19 @@ use nalgebra::Vector3;
 
 use super::Builder;
 use crate::bodies::{Marker, axes_at};
-use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
+use crate::math::space::{Vector, components, moment, normal, normals, vector};
 use crate::scene::description::JointPrimitive;
-use crate::scene::resolved::{self, Action, DirectionSource, Pivot, Place};
+use crate::scene::resolved::{self, DirectionSource, Pivot, Place};
 use crate::system::joints::{Across, Clamp, Homokinetic, Perpendicular, Primitive};
-use crate::system::loads::{AppliedLoad, SpatialMoment};
 use crate::system::{Attachment, AxisTurn, Direction, reach};
-
-/// The axis of the plane.
-const THIRD: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl<const D: usize> Builder<'_, D> {
     /// A direction at the start, fixed in the body of an end; of a cable its own.
-    pub(super) fn fixed(&self, end: &Attachment<D>, direction: Vector<D>) -> Direction<D> {
+    pub(in crate::scene) fn fixed(
+        &self,
+        end: &Attachment<D>,
+        direction: Vector<D>,
+    ) -> Direction<D> {
         let Attachment::Body(marker) = end else {
             return Direction::Fixed(direction);
         };
@@ -29,7 +29,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A marker in the directions of the axes of its body's frame.
-    pub(super) fn frame_axes(&self, marker: resolved::ResolvedMarker<'_>) -> [Marker; D] {
+    pub(in crate::scene) fn frame_axes(&self, marker: resolved::ResolvedMarker<'_>) -> [Marker; D] {
         let built = self.marker(marker);
         std::array::from_fn(|k| match marker.place {
             Place::Point(rigid, _) if built.is_framed() => {
@@ -40,40 +40,6 @@ impl<const D: usize> Builder<'_, D> {
                 built.directed(Vector::<3>::ith(k, 1.0).into())
             }
             _ => built,
-        })
-    }
-
-    /// A moment on a rigid body: in global axes, or in those of its frame.
-    pub(super) fn moment_on(
-        &self,
-        marker: resolved::ResolvedMarker<'_>,
-        action: &Action<'_>,
-    ) -> AppliedLoad<D> {
-        let axes = self.frame_axes(marker);
-        let about = |k: usize| {
-            if action.follower {
-                Direction::Of(axes[k])
-            } else {
-                Direction::Fixed(axis(k))
-            }
-        };
-        let parts = action.components.iter().enumerate();
-        AppliedLoad::SpatialMoment(SpatialMoment {
-            ends: self.on_marker(marker),
-            is_torque: false,
-            parts: parts.map(|(k, size)| (size.clone(), about(k))).collect(),
-        })
-    }
-
-    /// A torque about the axis of a joint.
-    pub(super) fn torque(&self, pivot: Pivot<'_>, action: &Action<'_>) -> AppliedLoad<D> {
-        let ends = self.ends(pivot.ends);
-        let about = self.fixed(&ends[0], super::unit(pivot.axis.unwrap_or(THIRD)));
-        let sizes = action.components.iter();
-        AppliedLoad::SpatialMoment(SpatialMoment {
-            ends,
-            is_torque: true,
-            parts: sizes.map(|size| (size.clone(), about)).collect(),
         })
     }
 

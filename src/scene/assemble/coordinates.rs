@@ -1,14 +1,12 @@
 //! Coordinates of joints, and what stands on them: springs, stops, screws, gears.
 
 use super::{Builder, unit};
-use crate::math::space::{Vector, axis, vector};
+use crate::math::space::vector;
 use crate::scene::resolved::{
-    self, DirectionSource, First, JointCoordinate, Pivot, ResolvedGear, Slider,
+    DirectionSource, First, JointCoordinate, Pivot, ResolvedGear, Slider,
 };
 use crate::system::joints::{Coupler, Primitive};
-use crate::system::loads::{
-    AppliedLoad, BetweenFrames, Bushing, BushingMeasure, JointLimit, JointSpring,
-};
+use crate::system::loads::{AppliedLoad, JointSpring};
 use crate::system::{Angle, Attachment, Coordinate, Direction, Translation};
 
 impl<const D: usize> Builder<'_, D> {
@@ -39,7 +37,7 @@ impl<const D: usize> Builder<'_, D> {
         Coordinate::Angle(Angle { ends, turn }, index)
     }
 
-    pub(super) fn coordinate(&mut self, of: &JointCoordinate<'_>) -> Coordinate<D> {
+    pub(in crate::scene) fn coordinate(&mut self, of: &JointCoordinate<'_>) -> Coordinate<D> {
         match of {
             JointCoordinate::Displacement(slider) => Coordinate::Translation(self.way(slider)),
             JointCoordinate::Angle(pivot) => self.counted(pivot),
@@ -52,7 +50,8 @@ impl<const D: usize> Builder<'_, D> {
         coordinate.value(&self.parts.bodies.reference, &angles)
     }
 
-    pub(super) fn joint_spring(
+    /// A spring and a damper on a coordinate of a joint.
+    pub(in crate::scene) fn joint_spring(
         &self,
         coordinate: Coordinate<D>,
         [stiffness, damping]: [f64; 2],
@@ -64,52 +63,6 @@ impl<const D: usize> Builder<'_, D> {
             stiffness,
             damping,
         })
-    }
-
-    pub(super) fn stop(
-        &mut self,
-        on: &JointCoordinate<'_>,
-        [stiffness, damping]: [f64; 2],
-        [lower, upper]: [Option<f64>; 2],
-    ) -> AppliedLoad<D> {
-        AppliedLoad::JointLimit(JointLimit {
-            coordinate: Box::new(self.coordinate(on)),
-            limits: [
-                lower.unwrap_or(f64::NEG_INFINITY),
-                upper.unwrap_or(f64::INFINITY),
-            ],
-            stiffness,
-            damping,
-        })
-    }
-
-    pub(super) fn bushing(&self, bushing: &resolved::ResolvedBushing<'_>) -> AppliedLoad<D> {
-        let ends = self.ends(bushing.ends);
-        let first = match bushing.ends.first {
-            First::Marker(marker) => self.frame_axes(marker).map(Direction::Of),
-            First::Ground(_) | First::Cable(_) => {
-                std::array::from_fn(|k| Direction::Fixed(axis(k)))
-            }
-        };
-        let nodes = &self.parts.bodies.reference;
-        let axes: [Vector<D>; D] = first.map(|axis| axis.value(nodes));
-        let second = axes.map(|axis| self.fixed(&ends[1], axis));
-        // In space alone.
-        let three = |of: &[Direction<D>; D]| std::array::from_fn(|k| of[k.min(D - 1)]);
-        let ways = three(&first).map(|direction| Translation {
-            ends,
-            direction,
-            turn: [0.0, 1.0],
-        });
-        AppliedLoad::Bushing(Box::new(Bushing {
-            measure: BushingMeasure::Frames(BetweenFrames {
-                rest: ways.map(|way| way.value(nodes)),
-                ways,
-                axes: [three(&first), three(&second)],
-            }),
-            stiffness: bushing.stiffness,
-            damping: bushing.damping,
-        }))
     }
 
     /// `second - ratio first` stays what it is at the start.

@@ -3,11 +3,8 @@
 mod axes;
 mod axial;
 mod bodies;
-mod contact;
 mod coordinates;
-mod fluids;
 mod initial;
-mod loads;
 mod memory;
 mod motions;
 mod ports;
@@ -221,12 +218,13 @@ impl Resolved<'_> {
     }
 }
 
-struct Builder<'a, const D: usize> {
-    resolved: &'a Resolved<'a>,
+/// A system in the making.
+pub(super) struct Builder<'a, const D: usize> {
+    pub(super) resolved: &'a Resolved<'a>,
     motions: Motions<D>,
     markers: Vec<Marker>,
     couplings: Vec<usize>,
-    parts: Parts<D>,
+    pub(super) parts: Parts<D>,
 }
 
 impl<const D: usize> Builder<'_, D> {
@@ -240,7 +238,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    fn marker(&self, marker: resolved::ResolvedMarker<'_>) -> Marker {
+    pub(super) fn marker(&self, marker: resolved::ResolvedMarker<'_>) -> Marker {
         self.markers[marker.id.index()]
     }
 
@@ -277,7 +275,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The ends of something; the ground where the second one is at the start, or at its point.
-    fn ends(&self, ends: Ends<'_>) -> [Attachment<D>; 2] {
+    pub(super) fn ends(&self, ends: Ends<'_>) -> [Attachment<D>; 2] {
         let second = self.marker(ends.second);
         let first = match ends.first {
             First::Ground(point) => {
@@ -291,7 +289,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A marker, seen from the ground.
-    fn on_marker(&self, marker: resolved::ResolvedMarker<'_>) -> [Attachment<D>; 2] {
+    pub(super) fn on_marker(&self, marker: resolved::ResolvedMarker<'_>) -> [Attachment<D>; 2] {
         let ground = Attachment::Ground(Vector::zeros());
         [ground, Attachment::Body(self.marker(marker))]
     }
@@ -303,7 +301,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    fn distance_at_start(&self, ends: &[Attachment<D>; 2]) -> f64 {
+    pub(super) fn distance_at_start(&self, ends: &[Attachment<D>; 2]) -> f64 {
         let nodes = &self.parts.bodies.reference;
         (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
@@ -450,11 +448,11 @@ fn back(principal: &Matrix3<f64>) -> Quaternion {
 }
 
 /// The direction as a unit vector.
-fn unit<const D: usize>(direction: [f64; 3]) -> Vector<D> {
+pub(super) fn unit<const D: usize>(direction: [f64; 3]) -> Vector<D> {
     vector::<D, f64>(direction).normalize()
 }
 
 /// One number for every component of a vector.
-fn each<T: Clone, const D: usize>(components: &[T]) -> [T; D] {
+pub(super) fn each<T: Clone, const D: usize>(components: &[T]) -> [T; D] {
     std::array::from_fn(|k| components[k].clone())
 }

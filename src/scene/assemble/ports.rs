@@ -1,13 +1,27 @@
-//! Loads of ports: what comes in, and springs and dampers to what moves outside.
+//! Loads of inputs and ports: what comes in, and springs and dampers to what moves outside.
 
 use super::Builder;
-use crate::scene::resolved::{Coupling, PortKind, ResolvedPort};
+use crate::scene::resolved::{Coupling, InputKind, PortKind, ResolvedPort};
 use crate::system::Signal;
 use crate::system::loads::{
     AppliedLoad, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint,
 };
 
 impl<const D: usize> Builder<'_, D> {
+    pub(super) fn inputs(&mut self) {
+        for input in &self.resolved.inputs {
+            self.input(&input.kind);
+        }
+    }
+
+    /// A load whose size is an input; a spring whose length is one has been built.
+    fn input(&mut self, input: &InputKind<'_>) {
+        if let InputKind::Action(action) = input {
+            let built = self.action(action);
+            self.parts.loads.push(built);
+        }
+    }
+
     pub(super) fn ports(&mut self) {
         for port in &self.resolved.ports {
             match &port.kind {

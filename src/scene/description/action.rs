@@ -84,6 +84,6 @@ impl ActionKind {
 }
 
 /// Whether a key that is false by default may be left out.
-pub(super) fn is_false(value: &bool) -> bool {
+pub fn is_false(value: &bool) -> bool {
     !value
 }

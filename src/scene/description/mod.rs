@@ -10,7 +10,6 @@ mod initial;
 mod input;
 mod joint;
 mod kinds;
-mod load;
 mod motion;
 mod output;
 mod port;
@@ -19,9 +18,9 @@ mod renamed;
 mod rotation;
 mod section;
 mod solid;
-mod strict;
+pub(super) mod strict;
 mod surface;
-mod tagged;
+pub(super) mod tagged;
 mod torsion;
 mod value;
 mod vector;
@@ -30,9 +29,11 @@ use schemars::JsonSchema;
 use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize};
 
+use super::loads::Load;
+
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
-pub use action::{Acting, ActionKind, ActsOn};
+pub use action::{Acting, ActionKind, ActsOn, is_false};
 pub use body::{
     Axial, Body, InitialMotion, LineBody, LineModel, Mass, Material, Model, RigidBody, Shape,
     Strain,
@@ -42,11 +43,6 @@ pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use joint::{Generic, Joint, JointKind, JointPrimitive, Revolute, Symbol};
 pub use kinds::{tell_apart, tell_by_tag};
-pub use load::{
-    BushingLoad, ContactLoad, DistributedForceLoad, DistributedMomentLoad, FluidLoad, ForceLoad,
-    JointLimitLoad, JointSpringLoad, Load, LoadKind, MomentLoad, SpringDamper, TableSpringLoad,
-    Torque,
-};
 pub use motion::{Motion, MotionKind};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
 pub use port::{ForcePort, MotionPort, Port, PortKind};

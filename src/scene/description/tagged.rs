@@ -99,7 +99,7 @@ macro_rules! kinds {
         };
     };
 }
-pub(super) use kinds;
+pub(in crate::scene) use kinds;
 
 /// Reads a part with the keys that all kinds share and the keys of its kind.
 macro_rules! part {
@@ -128,13 +128,13 @@ macro_rules! part {
         }
     };
 }
-pub(super) use part;
+pub(in crate::scene) use part;
 
 /// Reads the shared keys of a part and the keys of its kind.
 ///
 /// # Errors
 /// No object, an unknown kind, or a key that is missing, unknown or not valid.
-pub(super) fn read<'de, D, S, K>(deserializer: D) -> Result<(S, K), D::Error>
+pub fn read<'de, D, S, K>(deserializer: D) -> Result<(S, K), D::Error>
 where
     D: Deserializer<'de>,
     S: DeserializeOwned,
@@ -203,7 +203,7 @@ fn of_another_kind<K: Kinds>(kind: &OneKind<K>, key: &str, all: &[OneKind<K>]) -
 }
 
 /// Names of the fields of a struct, or of the variants of an enum, as its derived `Deserialize` knows them.
-pub(super) fn known<T: DeserializeOwned>() -> &'static [&'static str] {
+pub fn known<T: DeserializeOwned>() -> &'static [&'static str] {
     let mut names: &'static [&'static str] = &[];
     // Nothing is read, so that this always fails.
     let _ = T::deserialize(Asked(&mut names));

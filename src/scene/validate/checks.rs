@@ -8,6 +8,7 @@ use crate::scene::Error;
 use crate::scene::alike::{did_you_mean, listed};
 use crate::scene::description::{SceneVector, Spin, Value};
 use crate::scene::marker::GROUND;
+use crate::scene::unit::Unit;
 
 /// Words that begin variable names of the scene itself, or stand for something else.
 const RESERVED: [&str; 13] = [
@@ -204,7 +205,7 @@ pub fn spring_damper(
     path: &str,
     stiffness: Option<f64>,
     damping: Option<f64>,
-    units: [&str; 2],
+    units: [Unit; 2],
 ) -> Result<[f64; 2], Error> {
     if stiffness.is_none() && damping.is_none() {
         return Err(expected(path, "a stiffness or a damping", "neither"));
@@ -212,7 +213,7 @@ pub fn spring_damper(
     let values = [("stiffness", stiffness), ("damping", damping)];
     for ((key, value), unit) in values.into_iter().zip(units) {
         if let Some(value) = value {
-            not_negative(&format!("{path}.{key}"), unit, value)?;
+            not_negative(&format!("{path}.{key}"), &unit.text(), value)?;
         }
     }
     Ok([stiffness, damping].map(Option::unwrap_or_default))

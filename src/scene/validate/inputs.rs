@@ -6,7 +6,8 @@ use std::mem::discriminant;
 use super::checks::{expected, finite, not_negative, quoted, unknown};
 use crate::scene::Error;
 use crate::scene::description::{Input, Value};
-use crate::scene::resolved::{self, LoadKind, Resolved};
+use crate::scene::loads::ResolvedLoadKind;
+use crate::scene::resolved::{self, Resolved};
 use crate::system::Signal;
 
 impl Input {
@@ -99,16 +100,17 @@ impl<'a> Resolved<'a> {
     /// Makes the rest length of a spring-damper, which nothing else changes, an input; what it was, m.
     fn set_rest_length(&mut self, path: &str, name: &str, first: usize) -> Result<f64, Error> {
         let spring = self.loads.iter_mut().find_map(|load| match &mut load.kind {
-            LoadKind::Spring(spring) if load.name == name => Some(spring),
+            ResolvedLoadKind::SpringDamper(spring) if load.name == name => Some(spring),
             _ => None,
         });
         let Some(spring) = spring else {
+            let springs = self.loads.iter();
             let springs =
-                |load: &&resolved::ResolvedLoad<'_>| matches!(load.kind, LoadKind::Spring(_));
-            let known = self.loads.iter().filter(springs).map(|load| load.name);
+                springs.filter(|load| matches!(load.kind, ResolvedLoadKind::SpringDamper(_)));
+            let known = springs.map(|load| load.name);
             return Err(unknown(path, "a spring-damper of this scene", name, known));
         };
-        let length = match spring.given {
+        let length = match &spring.given.length {
             None => spring.ends.distance(),
             Some(Value::Number(length)) => *length,
             Some(_) => {

@@ -2,22 +2,18 @@
 
 mod accuracy;
 mod bodies;
-mod checks;
+pub(super) mod checks;
 mod coaxial;
-mod contact;
-mod fluids;
 mod gears;
 mod inputs;
 mod joints;
 mod lines;
-mod loads;
 mod motions;
 mod outputs;
 mod ports;
 mod references;
 mod releases;
 mod sections;
-mod springs;
 mod stress;
 #[cfg(test)]
 mod tests;

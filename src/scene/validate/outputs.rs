@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{expected, needed, quoted, unknown};
 use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
+use crate::scene::loads::LoadKind;
 use crate::scene::resolved::{
     self, AngleId, DirectionSource, First, MotionKind, OutputTarget, Reaction, Resolved,
     ResolvedMarker,
@@ -70,6 +71,15 @@ fn validate_count(path: &str, count: u32) -> Result<(), Error> {
     }
     let wanted = format!("an integer from 1 to {MOST_FREQUENCIES}");
     Err(expected(&format!("{path}.count"), &wanted, count))
+}
+
+/// Lists names in a sentence: `a, b or c`.
+fn or(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [name] => (*name).into(),
+        [names @ .., last] => format!("{} or {last}", names.join(", ")),
+    }
 }
 
 impl<'a> Resolved<'a> {
@@ -287,12 +297,14 @@ impl<'a> Resolved<'a> {
         if load.kind.exerts()[usize::from(is_moment)] {
             return Ok(OutputTarget::Load(load.name, id, load.kind.exerts_on()));
         }
-        let wanted = if is_moment {
-            "a bushing, or a joint_spring or joint_limit on an angle"
+        let [always, by_coordinate] = LoadKind::exerting(is_moment).map(|kinds| or(&kinds));
+        let coordinate = if is_moment {
+            "an angle"
         } else {
-            "a spring_damper, table_spring, bushing or contact, or a joint_spring or joint_limit on a displacement"
+            "a displacement"
         };
-        Err(expected(path, wanted, quoted(name)))
+        let wanted = format!("a {always}, or a {by_coordinate} on {coordinate}");
+        Err(expected(path, &wanted, quoted(name)))
     }
 
     fn reaction(

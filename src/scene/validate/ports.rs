@@ -5,10 +5,12 @@ use std::collections::BTreeSet;
 use super::checks::{expected, not_negative, quoted, spring_damper};
 use crate::scene::Error;
 use crate::scene::description::{ActionKind, Along, MotionPort, OutputKind, Port, PortKind};
+use crate::scene::loads::{Action, LoadTarget};
 use crate::scene::resolved::{
-    self, Action, Coupling, CouplingId, DirectionSource, Incoming, InputKind, LoadTarget,
-    MotionKind, Output, OutputTarget, Resolved, ResolvedMarker, ResolvedMotion,
+    self, Coupling, CouplingId, DirectionSource, Incoming, InputKind, MotionKind, Output,
+    OutputTarget, Resolved, ResolvedMarker, ResolvedMotion,
 };
+use crate::scene::unit::{NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE};
 use crate::system::Signal;
 
 impl MotionPort {
@@ -21,7 +23,8 @@ impl MotionPort {
         if !self.is_coupling() && !is_turning {
             return Ok(());
         }
-        spring_damper(path, self.stiffness, self.damping, ["N/m", "N s/m"])?;
+        let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
+        spring_damper(path, self.stiffness, self.damping, units)?;
         if self.rotation && !is_turning {
             let wanted = "a rotational stiffness or a rotational damping";
             return Err(expected(path, wanted, "neither"));
@@ -137,6 +140,7 @@ impl<'a> Resolved<'a> {
                 follower: false,
                 components: (0..count).map(|k| Signal::Input(first + k)).collect(),
                 along: Vec::new(),
+                given: &[],
             }),
             first,
             start: vec![0.0; count],

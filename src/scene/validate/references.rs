@@ -14,7 +14,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist. The error lists similar names.
-    pub(super) fn require_marker(
+    pub(in crate::scene) fn require_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -33,7 +33,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist or has no direction, or the scene is in space.
-    pub(super) fn require_turning(
+    pub(in crate::scene) fn require_turning(
         &self,
         path: &str,
         name: &'a str,
@@ -50,7 +50,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body does not rotate.
-    pub(super) fn require_spinning(
+    pub(in crate::scene) fn require_spinning(
         &self,
         path: &str,
         name: &'a str,
@@ -65,7 +65,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist or has no orientation, or the scene is planar.
-    pub(super) fn require_standing(
+    pub(in crate::scene) fn require_standing(
         &self,
         path: &str,
         name: &'a str,
@@ -88,7 +88,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, is on a rod, or its body lacks inertia about an axis.
-    pub(super) fn require_driven(
+    pub(in crate::scene) fn require_driven(
         &self,
         path: &str,
         name: &'a str,
@@ -111,7 +111,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body has no inertia.
-    pub(super) fn require_directed(
+    pub(in crate::scene) fn require_directed(
         &self,
         path: &str,
         name: &'a str,
@@ -129,7 +129,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or is on a rigid body.
-    pub(super) fn require_cable_marker(
+    pub(in crate::scene) fn require_cable_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -145,7 +145,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, is on another body, or the scene is planar.
-    pub(super) fn require_rod_marker(
+    pub(in crate::scene) fn require_rod_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -166,7 +166,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body is rigid.
-    pub(super) fn require_flexible_marker(
+    pub(in crate::scene) fn require_flexible_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -182,7 +182,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The body does not exist, or is of kind `rigid`.
-    pub(super) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
+    pub(in crate::scene) fn require_cable(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) => Ok(*cable),
             _ => Err(self.no_line(path, "cable", |_| true, name)),
@@ -193,7 +197,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The body does not exist, or is no rod or beam.
-    pub(super) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
+    pub(in crate::scene) fn require_sections(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
             _ => Err(self.no_line(path, "rod or beam", LineBody::is_rod, name)),
@@ -220,7 +228,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The body does not exist, or is rigid.
-    pub(super) fn require_flexible(
+    pub(in crate::scene) fn require_flexible(
         &self,
         path: &str,
         name: &str,
@@ -233,7 +241,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A marker that does not exist, both ends on one body, or a point where there is no ground.
-    pub(super) fn require_pair(
+    pub(in crate::scene) fn require_pair(
         &self,
         path: &str,
         markers: &'a [String; 2],
@@ -266,7 +274,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// Both markers are on one body.
-    pub(super) fn require_two(&self, path: &str, [a, b]: [usize; 2]) -> Result<(), Error> {
+    pub(in crate::scene) fn require_two(
+        &self,
+        path: &str,
+        [a, b]: [usize; 2],
+    ) -> Result<(), Error> {
         if a != b {
             return Ok(());
         }
@@ -282,7 +294,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist. The error lists similar names.
-    pub(super) fn require_joint(
+    pub(in crate::scene) fn require_joint(
         &self,
         path: &str,
         name: &str,
@@ -292,7 +304,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// Describes a reference to a joint that does not exist.
-    pub(super) fn no_joint(&self, path: &str, name: &str) -> Error {
+    pub(in crate::scene) fn no_joint(&self, path: &str, name: &str) -> Error {
         let known = self.joints.iter().map(|joint| joint.name);
         unknown(path, "a joint of this scene", name, known)
     }
@@ -301,7 +313,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist, or has no displacement.
-    pub(super) fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
+    pub(in crate::scene) fn require_slider(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<Slider<'a>, Error> {
         let slider = self.require_joint(path, name)?.slider();
         let wanted = "a joint along a line of the ground or of a rigid body";
         slider.ok_or_else(|| expected(path, wanted, quoted(name)))
@@ -311,7 +327,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist, or has no such coordinate.
-    pub(super) fn require_coordinate(
+    pub(in crate::scene) fn require_coordinate(
         &self,
         path: &str,
         name: &str,
@@ -343,7 +359,11 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist, or has no angle.
-    pub(super) fn require_pivot(&self, path: &str, name: &str) -> Result<Pivot<'a>, Error> {
+    pub(in crate::scene) fn require_pivot(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<Pivot<'a>, Error> {
         let joint = self.require_joint(path, name)?;
         let is_in_plane = self.scene.dimension == 2;
         let pivot = joint.pivot();

@@ -2,10 +2,8 @@
 
 use super::checks::{expected, quoted};
 use crate::scene::Error;
-use crate::scene::resolved::{
-    ConstraintOwnerId, DirectionSource, InputKind, JointCoordinate, LoadKind, LoadTarget,
-    MotionKind, Resolved,
-};
+use crate::scene::loads::{LoadPlace, LoadTarget};
+use crate::scene::resolved::{ConstraintOwnerId, DirectionSource, InputKind, MotionKind, Resolved};
 use crate::system::Release;
 
 impl Resolved<'_> {
@@ -50,13 +48,9 @@ impl Resolved<'_> {
 
     /// Joints on whose coordinates something acts, and its name.
     fn acting(&self) -> Vec<(ConstraintOwnerId, &str)> {
-        let of = |coordinate: &JointCoordinate<'_>| match coordinate {
-            JointCoordinate::Displacement(slider) => slider.joint,
-            JointCoordinate::Angle(pivot) => pivot.joint,
-        };
         let mut found = Vec::new();
         for gear in &self.gears {
-            found.extend(gear.coordinates.iter().map(|on| (of(on), gear.name)));
+            found.extend(gear.coordinates.iter().map(|on| (on.joint(), gear.name)));
         }
         for motion in &self.motions {
             match &motion.kind {
@@ -68,16 +62,8 @@ impl Resolved<'_> {
             }
         }
         for load in &self.loads {
-            match &load.kind {
-                LoadKind::JointSpring { on, .. } | LoadKind::JointLimit { on, .. } => {
-                    found.push((of(on), load.name));
-                }
-                LoadKind::Action { action, .. } => {
-                    if let LoadTarget::Joint(pivot) = action.on {
-                        found.push((pivot.joint, load.name));
-                    }
-                }
-                _ => {}
+            if let LoadPlace::Coordinate(on) = load.kind.place() {
+                found.push((on.joint(), load.name));
             }
         }
         for input in &self.inputs {

@@ -13,7 +13,7 @@ mod winches;
 use serde_json::{Value, json};
 
 use crate::math::function::Function;
-use crate::scene::{Body, BodyReference, LoadKind, Place, Scene};
+use crate::scene::{Body, BodyReference, Place, Scene};
 use crate::system::Drive;
 
 /// A scene with every kind of part.
@@ -487,8 +487,6 @@ fn values_become_functions_and_inputs_have_their_starts() {
         panic!("a spline");
     };
     assert_eq!(resolved.motions[2].values, []);
-    let LoadKind::Action { values, .. } = &resolved.loads[0].kind else {
-        panic!("a force");
-    };
-    assert_eq!(values.len(), 2);
+    let force = resolved.loads[0].kind.action().expect("a force");
+    assert_eq!(force.given.len(), 2);
 }

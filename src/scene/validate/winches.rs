@@ -3,7 +3,7 @@
 use super::checks::{expected, quoted};
 use crate::scene::description::JointPrimitive;
 use crate::scene::description::{InitialState, LineModel, Shape, Strain};
-use crate::scene::resolved::{Cable, First, LoadKind, MotionKind, Place, Resolved, ResolvedMarker};
+use crate::scene::resolved::{Cable, First, MotionKind, Place, Resolved, ResolvedMarker};
 use crate::scene::{Error, Model};
 
 impl<'a> Resolved<'a> {
@@ -128,13 +128,12 @@ impl<'a> Resolved<'a> {
     /// Refuses fluids with added mass on a cable through whose mesh material moves.
     fn check_fluids(&self, cable: Cable<'a>) -> Result<(), Error> {
         for (index, load) in self.loads.iter().enumerate() {
-            if let LoadKind::Fluid(fluid) = &load.kind
-                && fluid.on.id == cable.id
-                && fluid.added_mass > 0.0
-            {
+            let fluid = load.kind.fluid().filter(|fluid| fluid.on.id == cable.id);
+            let added_mass = fluid.map_or(0.0, |fluid| fluid.added_mass());
+            if added_mass > 0.0 {
                 let path = format!("loads[{index}].added_mass");
                 let wanted = "0 along a cable that a winch pays out, which slides past fluid that it does not take along";
-                return Err(expected(&path, wanted, fluid.added_mass));
+                return Err(expected(&path, wanted, added_mass));
             }
         }
         Ok(())

@@ -105,6 +105,7 @@ pub(super) fn are_kept(now: &[Difference], before: &[Difference], limits: &[f64]
 /// A name in `accuracy.of` that no output bears; no output that counts.
 pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<OutputGroup>, Error> {
     let wanted = &scene.accuracy.of;
+    let resolved = scene.resolved();
     let mut groups: Vec<OutputGroup> = Vec::new();
     for (index, variable) in variables.iter().filter(|v| v.is_computed()).enumerate() {
         let Some((measure, is_dynamic, counts)) = nature(variable.source) else {
@@ -125,7 +126,7 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Output
                 eigenvalue: parts_of_eigenvalue(variable.source, variables),
                 measure,
                 unit: variable.unit,
-                bodies: scene.bodies_read_by(list),
+                bodies: resolved.bodies_read_by(list),
                 is_dynamic,
                 is_force: is_force(variable.source),
                 counts,

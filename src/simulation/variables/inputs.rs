@@ -1,7 +1,7 @@
 //! Inputs: loads, then driven motions, then what comes into ports.
 
-use super::unit::*;
-use super::{AXES, DrivePart, List, PARTS, Source, Unit, component};
+use super::{AXES, DrivePart, List, PARTS, Source, component};
+use crate::scene::unit::*;
 use crate::scene::{
     ActionKind, Coupling, Incoming, Input, InputKind, MotionKind, PortKind, Resolved,
     ResolvedMarker,

@@ -7,16 +7,15 @@ mod outputs;
 mod parameters;
 #[cfg(test)]
 mod tests;
-mod unit;
 
+pub use crate::scene::unit::Unit;
 pub use causality::Causality;
 pub(super) use outputs::sets_springs;
 pub(super) use parameters::set_parameter;
-pub use unit::Unit;
 
 use super::quantities::Quantity;
+use crate::scene::unit::SECOND;
 use crate::scene::{CouplingId, LineId, Resolved, RigidId, Scene};
-use unit::SECOND;
 
 /// A scalar variable of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,38 +135,8 @@ pub enum Parameter {
     HingeStiffness(usize),
     /// Damping of the spring of a revolute joint.
     HingeDamping(usize),
-    /// Stiffness of a spring-damper or of a contact of a marker.
-    SpringStiffness(usize),
-    /// Damping of a spring-damper.
-    SpringDamping(usize),
-    /// Stiffness of a spring or a stop about the axis of a joint, N m/rad.
-    TorsionStiffness(usize),
-    /// Damping of a spring about the axis of a joint, N m s/rad.
-    TorsionDamping(usize),
-    /// Damping of a stop of a displacement or of a contact, s/m.
-    StopDamping(usize),
-    /// Damping of a stop of an angle, s/rad.
-    TorsionStopDamping(usize),
-    /// Stiffness of a contact of a body, N/m per length.
-    SpreadStiffness(usize),
-    /// Coefficient of friction of a contact.
-    Friction(usize),
-    /// Stiffness of a bushing along an axis (0 to 2), N/m.
-    BushingStiffness(usize, usize),
-    /// Damping of a bushing along an axis (0 to 2), N s/m.
-    BushingDamping(usize, usize),
-    /// Stiffness of a bushing about an axis (0 to 2), N m/rad.
-    BushingTurningStiffness(usize, usize),
-    /// Damping of a bushing about an axis (0 to 2), N m s/rad.
-    BushingTurningDamping(usize, usize),
-    /// Density of a fluid.
-    FluidDensity(usize),
-    /// Coefficient of drag across the line.
-    Drag(usize),
-    /// Coefficient of drag along the line.
-    TangentialDrag(usize),
-    /// Coefficient of added mass.
-    AddedMass(usize),
+    /// Number of a load: place among those that the load declares, and of several the axis.
+    Load(usize, usize, usize),
     /// Stiffness of a coupling.
     CouplingStiffness(usize),
     /// Damping of a coupling.

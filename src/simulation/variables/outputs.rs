@@ -1,7 +1,7 @@
 //! Outputs, natural frequencies, eigenvalues, and what goes out of ports.
 
-use super::unit::*;
-use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
+use super::{AXES, List, PARTS, Quantity, Source, component};
+use crate::scene::unit::*;
 use crate::scene::{
     Along, AngleId, ConstraintOwnerId, DirectionSource, InputKind, LoadId, MarkerId, Output,
     OutputKind, OutputTarget, PointId, PortKind, Resolved, ResolvedPort, SlideId,

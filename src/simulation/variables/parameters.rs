@@ -1,12 +1,9 @@
 //! Parameters.
 
-use super::unit::*;
-use super::{AXES, List, Parameter, Source, Unit, component};
+use super::{AXES, List, Parameter, Source, component};
 use crate::math::space::spins;
-use crate::scene::{
-    BodyReference, Cable, ContactBody, Inertia, LoadKind, PortKind, Resolved, ResolvedBushing,
-    ResolvedContact, ResolvedFluid, Rigid, Scene,
-};
+use crate::scene::unit::*;
+use crate::scene::{BodyReference, Cable, Inertia, PortKind, Resolved, Rigid, Scene};
 
 /// Key, meaning, unit, what it stands for, start value.
 type ParameterRow<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
@@ -200,66 +197,29 @@ fn add_sizes(list: &mut List, rigid: &Rigid<'_>) {
     }
 }
 
-/// Stiffnesses and dampings of a bushing.
-fn add_bushing(list: &mut List, i: usize, of: &str, bushing: &ResolvedBushing<'_>) {
-    use Parameter::*;
-    type Make = fn(usize, usize) -> Parameter;
-    let [along, about] = bushing.stiffness;
-    let [damped, turned] = bushing.damping;
-    #[rustfmt::skip] // a table
-    let rows: [(&str, &str, Unit, Make, [f64; 3]); 4] = [
-        ("translational_stiffness", "Stiffness along", NEWTON_PER_METRE, BushingStiffness, along),
-        ("translational_damping", "Damping along", NEWTON_SECOND_PER_METRE, BushingDamping, damped),
-        ("rotational_stiffness", "Stiffness about", NEWTON_METRE_PER_RADIAN, BushingTurningStiffness, about),
-        ("rotational_damping", "Damping about", NEWTON_METRE_SECOND_PER_RADIAN, BushingTurningDamping, turned),
-    ];
-    for (key, what, unit, parameter, starts) in rows {
-        for (axis, name) in AXES.iter().enumerate() {
-            let what = format!("{what} the {name} axis of {of}");
-            let key = component(&format!("{of}.{key}"), axis);
-            list.parameter(key, what, Some(unit), parameter(i, axis), starts[axis]);
+/// Numbers of loads, as these declare them.
+fn add_loads(list: &mut List, resolved: &Resolved<'_>) {
+    for (i, load) in resolved.loads.iter().enumerate() {
+        let mut given = load.given.clone();
+        let numbers = given.numbers(load.kind.place().is_angle()).into_iter();
+        let numbers = numbers.enumerate();
+        for (k, number) in numbers.filter(|(_, of)| load.kind.has_number(of.key, resolved)) {
+            let of = load.name;
+            for (axis, start) in number.value.get().into_iter().enumerate() {
+                let (key, what) = (format!("{of}.{}", number.key), number.what);
+                let (name, what) = if number.value.has_axes() {
+                    let what = format!("{what} the {} axis of {of}", AXES[axis]);
+                    (component(&key, axis), what)
+                } else {
+                    (key, format!("{what} of {of}"))
+                };
+                list.parameter(name, what, number.unit, Parameter::Load(i, k, axis), start);
+            }
         }
     }
 }
 
-/// Density and coefficients of a fluid; no added mass along a cable that a winch pays out.
-fn add_fluid(
-    list: &mut List,
-    resolved: &Resolved<'_>,
-    i: usize,
-    of: &str,
-    fluid: &ResolvedFluid<'_>,
-) {
-    let [across, along] = fluid.drag;
-    #[rustfmt::skip] // a table
-    let rows = [
-        ("density", "Density", Some(DENSITY), Parameter::FluidDensity(i), fluid.density),
-        ("drag", "Coefficient of drag across the line", None, Parameter::Drag(i), across),
-        ("tangential_drag", "Coefficient of drag along the line", None, Parameter::TangentialDrag(i), along),
-        ("added_mass", "Coefficient of added mass", None, Parameter::AddedMass(i), fluid.added_mass),
-    ];
-    let count = rows.len() - usize::from(resolved.is_paid_out(fluid.on));
-    list.parameters(of, "of", &rows[..count]);
-}
-
-/// Stiffness, damping and friction of a contact.
-fn add_contact(list: &mut List, i: usize, of: &str, contact: &ResolvedContact<'_>) {
-    use Parameter::*;
-    let (stiffness, unit) = match contact.by {
-        ContactBody::Marker(_) => (SpringStiffness(i), NEWTON_PER_METRE),
-        ContactBody::Cable(_) => (SpreadStiffness(i), NEWTON_PER_SQUARE_METRE),
-    };
-    let parameters = [stiffness, StopDamping(i)];
-    list.damper(of, [unit, SECOND_PER_METRE], parameters, contact.sizes);
-    // Without a speed of slip there can be none.
-    if contact.slip_velocity.is_some() {
-        let what = "Coefficient of friction";
-        let row = ("friction", what, None, Friction(i), contact.friction);
-        list.parameters(of, "of", &[row]);
-    }
-}
-
-/// Stiffness and damping of hinges, springs, bushings, stops, contacts and couplings.
+/// Stiffness and damping of hinges, loads and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
@@ -269,47 +229,7 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
             list.damper(joint.name, units, parameters, starts);
         }
     }
-    for (i, load) in resolved.loads.iter().enumerate() {
-        let along = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
-        let about = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
-        let (starts, units, parameters) = match &load.kind {
-            LoadKind::Action { .. } => continue,
-            LoadKind::Fluid(fluid) => {
-                add_fluid(list, resolved, i, load.name, fluid);
-                continue;
-            }
-            LoadKind::Bushing(bushing) => {
-                add_bushing(list, i, load.name, bushing);
-                continue;
-            }
-            LoadKind::Contact(contact) => {
-                add_contact(list, i, load.name, contact);
-                continue;
-            }
-            LoadKind::TableSpring(_) => continue,
-            LoadKind::Spring(spring) => {
-                let starts = [spring.stiffness, spring.damping];
-                (starts, along, [SpringStiffness(i), SpringDamping(i)])
-            }
-            LoadKind::JointSpring { on, sizes, .. } => {
-                if on.is_angle() {
-                    (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)])
-                } else {
-                    (*sizes, along, [SpringStiffness(i), SpringDamping(i)])
-                }
-            }
-            LoadKind::JointLimit { on, sizes, .. } => {
-                if on.is_angle() {
-                    let parameters = [TorsionStiffness(i), TorsionStopDamping(i)];
-                    (*sizes, [about[0], SECOND_PER_RADIAN], parameters)
-                } else {
-                    let parameters = [SpringStiffness(i), StopDamping(i)];
-                    (*sizes, [along[0], SECOND_PER_METRE], parameters)
-                }
-            }
-        };
-        list.damper(load.name, units, parameters, starts);
-    }
+    add_loads(list, resolved);
     for (i, port) in resolved.ports.iter().enumerate() {
         let PortKind::Coupling { position, angle } = &port.kind else {
             continue;
@@ -405,33 +325,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         ReleaseTime(i) => scene.joints[i].release_time = Some(value),
         HingeStiffness(i) => scene.revolute_mut(i).stiffness = Some(value),
         HingeDamping(i) => scene.revolute_mut(i).damping = Some(value),
-        SpringStiffness(i) | TorsionStiffness(i) | SpreadStiffness(i) => {
-            scene.set_load_stiffness(i, value);
-        }
-        SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
-            scene.set_load_damping(i, value);
-        }
-        Friction(i) => scene.contact_mut(i).friction = Some(value),
-        BushingStiffness(i, axis) => {
-            let bushing = scene.bushing_mut(i);
-            bushing.translational_stiffness.get_or_insert_default()[axis] = value;
-        }
-        BushingDamping(i, axis) => {
-            let bushing = scene.bushing_mut(i);
-            bushing.translational_damping.get_or_insert_default()[axis] = value;
-        }
-        BushingTurningStiffness(i, axis) => {
-            let bushing = scene.bushing_mut(i);
-            bushing.rotational_stiffness.get_or_insert_default()[axis] = value;
-        }
-        BushingTurningDamping(i, axis) => {
-            let bushing = scene.bushing_mut(i);
-            bushing.rotational_damping.get_or_insert_default()[axis] = value;
-        }
-        FluidDensity(i) => scene.fluid_mut(i).density = value,
-        Drag(i) => scene.fluid_mut(i).drag = Some(value),
-        TangentialDrag(i) => scene.fluid_mut(i).tangential_drag = Some(value),
-        AddedMass(i) => scene.fluid_mut(i).added_mass = Some(value),
+        Load(i, number, axis) => scene.set_load_number(i, number, axis, value),
         CouplingStiffness(i) => scene.motion_port_mut(i).stiffness = Some(value),
         CouplingDamping(i) => scene.motion_port_mut(i).damping = Some(value),
         TurningStiffness(i) => scene.motion_port_mut(i).rotational_stiffness = Some(value),

@@ -1,0 +1,419 @@
+//! Forces and moments: at markers, in joints and along bodies.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::line::{component, uniform};
+use super::{ActingLoad, LoadPlace, LoadWords, SceneLoad, TimedKey};
+use crate::bodies::RodChain;
+use crate::math::function::Function;
+use crate::math::space::axis;
+use crate::scene::assemble::{Builder, each, unit};
+use crate::scene::description::{Acting, ActionKind, ActsOn, LoadValue, Value, is_false};
+use crate::scene::resolved::{Cable, JointCoordinate, Pivot, Resolved, ResolvedMarker};
+use crate::scene::validate::checks::{components, expected};
+use crate::scene::{Error, words};
+use crate::system::loads::{
+    AppliedLoad, DistributedForce, DistributedMoment, Force, Moment, SpatialMoment,
+};
+use crate::system::{Direction, Signal};
+
+/// The axis of the plane.
+const THIRD: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// A force at a marker.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ForceLoad {
+    /// Marker that the force acts at, `body.marker`.
+    pub marker: String,
+    /// Whether the components rotate with the marker. They are then along and to the left of its direction in the plane, and along the
+    /// axes of the body's frame in space.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// Components of the force, N: two in the plane, three in space.
+    pub value: LoadValue,
+}
+
+/// A moment at a marker.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MomentLoad {
+    /// Marker that the moment acts at, `body.marker`.
+    pub marker: String,
+    /// Whether the components rotate with the marker, along the axes of the body's frame; in space only.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// Moment, N m: one value in the plane, three components in space.
+    pub value: LoadValue,
+}
+
+/// A moment between the two bodies of a joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Torque {
+    /// Name of the joint with an axis that the torque acts about.
+    pub joint: String,
+    /// Torque on the second marker, N m: one value.
+    pub value: LoadValue,
+}
+
+/// A force along a line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DistributedForceLoad {
+    /// Name of the cable, rod or beam that the force acts along.
+    pub body: String,
+    /// Components of the force per reference length, N/m: two in the plane, three in space. Expressions may contain the material
+    /// coordinate `s` of the body, which is 0 at the first end and 1 at the last.
+    pub value: LoadValue,
+}
+
+/// A moment along the sections of a line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DistributedMomentLoad {
+    /// Name of the rod or beam that the moment acts along.
+    pub body: String,
+    /// Whether the components rotate with the sections, along their axes; in space only.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// Moment per reference length, N m/m: one value in the plane, three components in space. Expressions may contain the material
+    /// coordinate `s` of the body, which is 0 at the first end and 1 at the last.
+    pub value: LoadValue,
+}
+
+/// A force or a moment, known or an input.
+#[derive(Clone, Debug)]
+pub struct Action<'a> {
+    /// Which.
+    pub kind: ActionKind,
+    /// Marker, joint or line body that the load acts on, depending on its kind.
+    pub on: LoadTarget<'a>,
+    /// Whether it turns with the marker.
+    pub follower: bool,
+    /// Components, as many as the kind has. Components that vary along a body are zero here.
+    pub components: Vec<Signal>,
+    /// Components that change along a body, and their expressions.
+    pub along: Vec<(usize, &'a str)>,
+    /// Components as written in the scene; none of an input.
+    pub given: &'a [Value],
+}
+
+/// Marker, joint or line body that a force or a moment acts on.
+#[derive(Clone, Copy, Debug)]
+pub enum LoadTarget<'a> {
+    /// A marker.
+    Marker(ResolvedMarker<'a>),
+    /// A joint: its second marker, and the opposite on its first.
+    Joint(Pivot<'a>),
+    /// A cable, per reference length.
+    Cable(Cable<'a>),
+}
+
+/// A load that is a force or a moment.
+pub trait Acts: Clone {
+    /// Returns the force or moment with its components.
+    fn acting(&self) -> (Acting<'_>, &LoadValue);
+}
+
+impl Acts for ForceLoad {
+    fn acting(&self) -> (Acting<'_>, &LoadValue) {
+        (
+            Acting {
+                kind: ActionKind::Force,
+                on: &self.marker,
+                follower: self.follower,
+            },
+            &self.value,
+        )
+    }
+}
+
+impl Acts for MomentLoad {
+    fn acting(&self) -> (Acting<'_>, &LoadValue) {
+        (
+            Acting {
+                kind: ActionKind::Moment,
+                on: &self.marker,
+                follower: self.follower,
+            },
+            &self.value,
+        )
+    }
+}
+
+impl Acts for Torque {
+    fn acting(&self) -> (Acting<'_>, &LoadValue) {
+        (
+            Acting {
+                kind: ActionKind::Torque,
+                on: &self.joint,
+                follower: false,
+            },
+            &self.value,
+        )
+    }
+}
+
+impl Acts for DistributedForceLoad {
+    fn acting(&self) -> (Acting<'_>, &LoadValue) {
+        (
+            Acting {
+                kind: ActionKind::DistributedForce,
+                on: &self.body,
+                follower: false,
+            },
+            &self.value,
+        )
+    }
+}
+
+impl Acts for DistributedMomentLoad {
+    fn acting(&self) -> (Acting<'_>, &LoadValue) {
+        (
+            Acting {
+                kind: ActionKind::DistributedMoment,
+                on: &self.body,
+                follower: self.follower,
+            },
+            &self.value,
+        )
+    }
+}
+
+impl<L: Acts> SceneLoad for L {
+    type Resolved<'a>
+        = Action<'a>
+    where
+        L: 'a;
+
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Result<Action<'a>, Error> {
+        let (acting, given) = self.acting();
+        let dimension = scene.scene.dimension;
+        let signals = signals(&format!("{path}.value"), acting.kind, given, dimension)?;
+        let mut action = scene.resolve_action(path, acting, signals)?;
+        action.given = given.components();
+        if acting.kind.is_distributed() {
+            let values = action.given.iter().enumerate();
+            action.along = values
+                .filter_map(|(k, of)| Some((k, of.along()?)))
+                .collect();
+        }
+        Ok(action)
+    }
+
+    fn is_action(&self) -> bool {
+        true
+    }
+
+    fn timed(&self) -> Option<TimedKey<'_>> {
+        Some(TimedKey {
+            key: "value",
+            values: self.acting().1.components(),
+            order: 0,
+        })
+    }
+}
+
+impl<'a> ActingLoad<'a> for Action<'a> {
+    fn place(&self) -> LoadPlace<'a> {
+        match self.on {
+            LoadTarget::Marker(marker) => LoadPlace::Marker(marker),
+            LoadTarget::Joint(pivot) => LoadPlace::Coordinate(JointCoordinate::Angle(pivot)),
+            LoadTarget::Cable(cable) => LoadPlace::Line(cable),
+        }
+    }
+
+    fn action(&self) -> Option<&Action<'a>> {
+        Some(self)
+    }
+
+    /// Components that vary along a body are parsed for every Gauss point.
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        path: &str,
+    ) -> Result<AppliedLoad<D>, Error> {
+        let mut load = builder.action(self);
+        if let LoadTarget::Cable(cable) = self.on {
+            let (along, path) = (&self.along[..], format!("{path}.value"));
+            match &mut load {
+                AppliedLoad::DistributedForce(on) => {
+                    builder.fill(cable, along, &path, &mut on.density.along)?;
+                }
+                AppliedLoad::DistributedMoment(on) => {
+                    // In the plane the third alone.
+                    let first = if D == 2 { 2 } else { 0 };
+                    builder.fill(cable, along, &path, &mut on.density.along[first..])?;
+                }
+                _ => {}
+            }
+        }
+        Ok(load)
+    }
+
+    fn words(&self, _dimension: usize) -> LoadWords {
+        let [what, unit] = self.kind.words();
+        let turning = if self.follower {
+            " that turns along (along and across)"
+        } else {
+            ""
+        };
+        LoadWords {
+            kind: format!("{what}{turning}, {unit}"),
+            on: words::code(self.on()),
+            size: words::values(self.given),
+        }
+    }
+}
+
+impl<'a> Action<'a> {
+    /// The marker, if it acts on one.
+    pub fn marker(&self) -> Option<ResolvedMarker<'a>> {
+        match self.on {
+            LoadTarget::Marker(marker) => Some(marker),
+            LoadTarget::Joint(_) | LoadTarget::Cable(_) => None,
+        }
+    }
+
+    /// Name of the marker, joint or cable that it acts on.
+    pub fn on(&self) -> &'a str {
+        match self.on {
+            LoadTarget::Marker(marker) => marker.name,
+            LoadTarget::Joint(pivot) => pivot.name,
+            LoadTarget::Cable(cable) => &cable.body.name,
+        }
+    }
+}
+
+/// The components of a load as functions of time.
+fn signals(
+    path: &str,
+    kind: ActionKind,
+    given: &LoadValue,
+    dimension: usize,
+) -> Result<Vec<Signal>, Error> {
+    let signal = |path: &str, of: &Value| component(path, of, kind.is_distributed());
+    match given {
+        _ if kind.is_force() || kind.components(dimension) > 1 => {
+            components(path, dimension, given.components(), signal)
+        }
+        LoadValue::One(of) => Ok(vec![signal(path, of)?]),
+        LoadValue::Vector(values) => Err(expected(path, "one value", values.len())),
+    }
+}
+
+impl<'a> Resolved<'a> {
+    /// Resolves a force or a moment with its components, on the marker, joint or body that it names. A follower rotates
+    /// with its marker.
+    ///
+    /// # Errors
+    /// A missing key, a reference that does not exist, or a moment in the plane that follows.
+    pub(in crate::scene) fn resolve_action(
+        &self,
+        path: &str,
+        Acting { kind, on, follower }: Acting<'a>,
+        components: Vec<Signal>,
+    ) -> Result<Action<'a>, Error> {
+        if follower && !kind.is_force() && self.scene.dimension == 2 {
+            let wanted = "nothing for a moment in the plane";
+            return Err(expected(&format!("{path}.follower"), wanted, "true"));
+        }
+        let at = |key: &str| format!("{path}.{key}");
+        let on = match kind.acts_on() {
+            // A direction is what a moment turns and what a follower turns with.
+            ActsOn::Marker => LoadTarget::Marker(if follower || !kind.is_force() {
+                self.require_spinning(&at("marker"), on)?
+            } else {
+                self.require_marker(&at("marker"), on)?
+            }),
+            ActsOn::Joint => LoadTarget::Joint(self.require_pivot(&at("joint"), on)?),
+            ActsOn::Cable => LoadTarget::Cable(self.require_cable(&at("body"), on)?),
+            ActsOn::Sections => LoadTarget::Cable(self.require_sections(&at("body"), on)?),
+        };
+        Ok(Action {
+            kind,
+            on,
+            follower,
+            components,
+            along: Vec::new(),
+            given: &[],
+        })
+    }
+}
+
+impl<const D: usize> Builder<'_, D> {
+    /// A force or a moment, without what varies along a body.
+    pub(in crate::scene) fn action(&self, action: &Action<'_>) -> AppliedLoad<D> {
+        let components = &action.components;
+        let moment = |ends| {
+            AppliedLoad::Moment(Moment {
+                ends,
+                size: components[0].clone(),
+            })
+        };
+        match action.on {
+            LoadTarget::Marker(marker) if action.kind.is_force() => AppliedLoad::Force(Force {
+                marker: self.marker(marker),
+                follower: action.follower,
+                components: each(components),
+                axes: self.frame_axes(marker),
+            }),
+            LoadTarget::Marker(marker) if D == 3 => self.moment_on(marker, action),
+            LoadTarget::Joint(pivot) if D == 3 => self.torque(pivot, action),
+            LoadTarget::Marker(marker) => moment(self.on_marker(marker)),
+            LoadTarget::Joint(pivot) => moment(self.ends(pivot.ends)),
+            LoadTarget::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
+            LoadTarget::Cable(cable) => AppliedLoad::DistributedForce(DistributedForce {
+                on: self.line(cable),
+                density: uniform(components),
+            }),
+        }
+    }
+
+    /// A moment along a rod or beam.
+    fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> AppliedLoad<D> {
+        let end = self.along(cable, 0.0);
+        let first = |chain: &RodChain| chain.frames().next();
+        let mut firsts = self.parts.bodies.all_sections().iter().filter_map(first);
+        let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
+        AppliedLoad::DistributedMoment(Box::new(DistributedMoment {
+            on: on.expect("a body with sections is among the rods"),
+            end,
+            follower: action.follower,
+            density: match D {
+                2 => {
+                    let none = || Signal::Function(Function::Constant(0.0));
+                    uniform(&[none(), none(), action.components[0].clone()])
+                }
+                _ => uniform(&action.components),
+            },
+        }))
+    }
+
+    /// A moment on a rigid body: in global axes, or in those of its frame.
+    fn moment_on(&self, marker: ResolvedMarker<'_>, action: &Action<'_>) -> AppliedLoad<D> {
+        let axes = self.frame_axes(marker);
+        let about = |k: usize| {
+            if action.follower {
+                Direction::Of(axes[k])
+            } else {
+                Direction::Fixed(axis(k))
+            }
+        };
+        let parts = action.components.iter().enumerate();
+        AppliedLoad::SpatialMoment(SpatialMoment {
+            ends: self.on_marker(marker),
+            is_torque: false,
+            parts: parts.map(|(k, size)| (size.clone(), about(k))).collect(),
+        })
+    }
+
+    /// A torque about the axis of a joint.
+    fn torque(&self, pivot: Pivot<'_>, action: &Action<'_>) -> AppliedLoad<D> {
+        let ends = self.ends(pivot.ends);
+        let about = self.fixed(&ends[0], unit(pivot.axis.unwrap_or(THIRD)));
+        let sizes = action.components.iter();
+        AppliedLoad::SpatialMoment(SpatialMoment {
+            ends,
+            is_torque: true,
+            parts: sizes.map(|size| (size.clone(), about)).collect(),
+        })
+    }
+}

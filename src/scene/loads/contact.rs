@@ -1,0 +1,314 @@
+//! Contacts of markers and of bodies with surfaces of the ground.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, ResolvedLoadKind, SceneLoad};
+use crate::bodies::PANELS;
+use crate::bodies::{Marker, RigidRod};
+use crate::elements::Element;
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::vector;
+use crate::scene::assemble::{Builder, unit};
+use crate::scene::description::{SceneVector, Surface};
+use crate::scene::resolved::{Cable, Form, Resolved, ResolvedMarker};
+use crate::scene::unit::{NEWTON_PER_METRE, NEWTON_PER_SQUARE_METRE, SECOND_PER_METRE, Unit};
+use crate::scene::validate::checks;
+use crate::scene::validate::checks::{direction, expected, needed, not_negative, positive};
+use crate::scene::{Error, number, words};
+use crate::system::loads::{AppliedLoad, Contact, ContactPoint, ContactSurface};
+
+/// Contact with a surface of the ground.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(extend("x-either" = [["marker"], ["body"]]))]
+pub struct ContactLoad {
+    /// Marker that touches the surface, `body.marker`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marker: Option<String>,
+    /// Name of the cable, rod or beam whose line touches the surface; the thickness of the body does not count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// Stiffness `k` of the surface, N/m at a marker; N/m per reference length along a body.
+    #[schemars(range(min = 0.0))]
+    pub stiffness: f64,
+    /// Damping `a` in the normal force `k d (1 + a d')` at the depth `d` below the surface, s/m; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub damping: Option<f64>,
+    /// Surface that is touched.
+    pub surface: Surface,
+    /// Coulomb's coefficient of friction `mu`; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+    /// With friction only: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. A contact that
+    /// would stick creeps at a fraction of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub slip_velocity: Option<f64>,
+}
+
+/// Contact with a surface of the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct ResolvedContact<'a> {
+    /// As described.
+    given: &'a ContactLoad,
+    /// Marker or line body that touches the surface.
+    by: ContactBody<'a>,
+}
+
+/// Marker or line body that touches a surface.
+#[derive(Clone, Copy, Debug)]
+enum ContactBody<'a> {
+    /// A marker.
+    Marker(ResolvedMarker<'a>),
+    /// A cable along its line.
+    Cable(Cable<'a>),
+}
+
+impl ContactLoad {
+    /// Unit of the stiffness.
+    fn unit(&self) -> Unit {
+        if self.marker.is_some() {
+            NEWTON_PER_METRE
+        } else {
+            NEWTON_PER_SQUARE_METRE
+        }
+    }
+}
+
+impl SceneLoad for ContactLoad {
+    type Resolved<'a> = ResolvedContact<'a>;
+
+    const EXERTS: Exerts = Exerts::Force;
+
+    fn resolve<'a>(
+        &'a self,
+        path: &str,
+        scene: &Resolved<'a>,
+    ) -> Result<ResolvedContact<'a>, Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        let by = match (&self.marker, &self.body) {
+            (Some(_), Some(_)) => {
+                return Err(expected(&at("body"), "nothing beside `marker`", "a name"));
+            }
+            (Some(marker), None) => {
+                ContactBody::Marker(scene.require_marker(&at("marker"), marker)?)
+            }
+            (None, body) => {
+                let body = needed(path, "body", "a name", body.as_deref())?;
+                ContactBody::Cable(scene.require_cable(&at("body"), body)?)
+            }
+        };
+        (self.surface).validate(&at("surface"), scene.scene.dimension)?;
+        positive(&at("stiffness"), &self.unit().text(), self.stiffness)?;
+        not_negative(&at("damping"), "s/m", self.damping.unwrap_or_default())?;
+        let friction = self.friction.unwrap_or_default();
+        not_negative(&at("friction"), "1", friction)?;
+        if friction > 0.0 {
+            needed(path, "slip_velocity", "a speed", self.slip_velocity)?;
+        }
+        if let Some(slip_velocity) = self.slip_velocity {
+            needed(path, "friction", "a coefficient", self.friction)?;
+            positive(&at("slip_velocity"), "m/s", slip_velocity)?;
+        }
+        Ok(ResolvedContact { given: self, by })
+    }
+
+    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
+        let units = [self.unit(), SECOND_PER_METRE];
+        let mut numbers = LoadNumber::damper(units, &mut self.stiffness, &mut self.damping);
+        // Without a speed of slip there can be none.
+        if self.slip_velocity.is_some() {
+            let what = "Coefficient of friction";
+            numbers.push(LoadNumber::new("friction", what, None, &mut self.friction));
+        }
+        numbers
+    }
+}
+
+impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
+    fn place(&self) -> LoadPlace<'a> {
+        match self.by {
+            ContactBody::Marker(marker) => LoadPlace::Marker(marker),
+            ContactBody::Cable(cable) => LoadPlace::Line(cable),
+        }
+    }
+
+    fn stiffness(&self) -> [f64; 2] {
+        [self.given.stiffness, 0.0]
+    }
+
+    fn is_one_sided(&self) -> bool {
+        true
+    }
+
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> Result<AppliedLoad<D>, Error> {
+        let places = match self.by {
+            ContactBody::Marker(marker) => vec![ContactPoint {
+                marker: builder.marker(marker),
+                weight: 1.0,
+            }],
+            ContactBody::Cable(cable) => builder.places(cable),
+        };
+        Ok(AppliedLoad::Contact(Box::new(Contact {
+            places,
+            surface: surface(&self.given.surface),
+            stiffness: self.given.stiffness,
+            damping: self.given.damping.unwrap_or_default(),
+            friction: self.given.friction.unwrap_or_default(),
+            slip_velocity: self.given.slip_velocity.unwrap_or_default(),
+        })))
+    }
+
+    fn words(&self, dimension: usize) -> LoadWords {
+        let (by, unit) = match self.by {
+            ContactBody::Marker(marker) => (marker.name, "N/m"),
+            ContactBody::Cable(cable) => (&*cable.body.name, "N/m per length"),
+        };
+        let vector = |of: &SceneVector| words::vector(dimension, of.full());
+        let surface = match &self.given.surface {
+            Surface::Plane { point, normal } => {
+                format!("through {}, normal {}", vector(point), vector(normal))
+            }
+            Surface::Circle { center, radius } | Surface::Sphere { center, radius } => {
+                format!("of radius {} m about {}", number(*radius), vector(center))
+            }
+            Surface::Cylinder {
+                point,
+                axis,
+                radius,
+            } => format!(
+                "of radius {} m about the axis through {} along {}",
+                number(*radius),
+                vector(point),
+                vector(axis)
+            ),
+        };
+        let sizes = [
+            Some(self.given.stiffness),
+            self.given.damping,
+            self.given.friction,
+        ];
+        let [k, a, friction] = sizes.map(|size| number(size.unwrap_or_default()));
+        let friction = self.given.slip_velocity.map_or(String::new(), |speed| {
+            format!(", friction {friction}, smooth below {} m/s", number(speed))
+        });
+        LoadWords {
+            kind: format!("contact with a {}", self.given.surface.name()),
+            on: words::code(by),
+            size: format!("{surface}; {k} {unit}, {a} s/m{friction}"),
+        }
+    }
+}
+
+impl<'a> ResolvedLoadKind<'a> {
+    /// Surface of the ground that the load is a contact with.
+    pub fn surface(&self) -> Option<&'a Surface> {
+        match self {
+            Self::Contact(contact) => Some(&contact.given.surface),
+            _ => None,
+        }
+    }
+}
+
+impl Surface {
+    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let kind = format!("{path}.{}", self.name());
+        let at = |key: &str| format!("{kind}.{key}");
+        let fits = match self {
+            Self::Plane { .. } => true,
+            Self::Circle { .. } => dimension == 2,
+            Self::Sphere { .. } | Self::Cylinder { .. } => dimension == 3,
+        };
+        if !fits {
+            let wanted = match dimension {
+                2 => "plane or circle in the plane",
+                _ => "plane, sphere or cylinder in space",
+            };
+            return Err(expected(path, wanted, self.name()));
+        }
+        match self {
+            Self::Plane { point, normal } => {
+                checks::vector(&at("point"), dimension, point)?;
+                direction(&at("normal"), dimension, normal)
+            }
+            Self::Circle { center, radius } | Self::Sphere { center, radius } => {
+                checks::vector(&at("center"), dimension, center)?;
+                positive(&at("radius"), "m", *radius)
+            }
+            Self::Cylinder {
+                point,
+                axis,
+                radius,
+            } => {
+                checks::vector(&at("point"), dimension, point)?;
+                direction(&at("axis"), dimension, axis)?;
+                positive(&at("radius"), "m", *radius)
+            }
+        }
+    }
+}
+
+impl<const D: usize> Builder<'_, D> {
+    /// The Gauss points of the elements of a cable, or of even parts of one that does not bend.
+    fn places(&self, cable: Cable<'_>) -> Vec<ContactPoint> {
+        let body = cable.id.body;
+        match cable.id.form {
+            Form::Chain(chain) => {
+                let chain = &self.parts.bodies.lines()[chain];
+                let elements = chain.elements().iter().enumerate();
+                let places = elements.flat_map(|(j, element)| {
+                    GAUSS_5.map(|point| ContactPoint {
+                        marker: Marker::within(body, chain, j, point.at),
+                        weight: point.weight * element.length(),
+                    })
+                });
+                places.collect()
+            }
+            Form::Rod(rod) => {
+                let RigidRod { node, length, .. } = self.parts.bodies.rods()[rod];
+                let part = length / PANELS as f64;
+                let places = (0..PANELS).flat_map(|panel| {
+                    GAUSS_5.map(|point| {
+                        let arm = (panel as f64 + point.at) * part - 0.5 * length;
+                        ContactPoint {
+                            marker: Marker::rigid(body, node, [arm, 0.0]),
+                            weight: point.weight * part,
+                        }
+                    })
+                });
+                places.collect()
+            }
+        }
+    }
+}
+
+fn surface<const D: usize>(of: &Surface) -> ContactSurface<D> {
+    match of {
+        Surface::Plane { point, normal } => ContactSurface::Plane {
+            point: vector(point.full()),
+            normal: unit(normal.full()),
+        },
+        Surface::Circle { center, radius } | Surface::Sphere { center, radius } => {
+            ContactSurface::Round {
+                center: vector(center.full()),
+                axis: None,
+                radius: *radius,
+            }
+        }
+        Surface::Cylinder {
+            point,
+            axis,
+            radius,
+        } => ContactSurface::Round {
+            center: vector(point.full()),
+            axis: Some(unit(axis.full())),
+            radius: *radius,
+        },
+    }
+}

@@ -1,0 +1,316 @@
+//! Fluids along bodies, and the mass that moves along with these.
+
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::line::{component, uniform};
+use super::{ActingLoad, LoadNumber, LoadPlace, LoadWords, ResolvedLoadKind, SceneLoad, TimedKey};
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::vector;
+use crate::scene::assemble::Builder;
+use crate::scene::description::{SectionNumbers, Value};
+use crate::scene::resolved::{Cable, Form, Resolved};
+use crate::scene::unit::DENSITY;
+use crate::scene::validate::checks::{
+    components, expected, finite, not_negative, positive, quoted, unknown,
+};
+use crate::scene::{Error, number, words};
+use crate::system::Signal;
+use crate::system::loads::{AppliedLoad, Fluid, FluidSegment};
+
+/// A fluid along a line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FluidLoad {
+    /// Name of the cable, rod or beam that the fluid streams past.
+    pub body: String,
+    /// Density of the fluid, kg/m^3.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub density: f64,
+    /// Velocity of the fluid in global axes, m/s; zero by default. Expressions may contain the material coordinate `s` of the body,
+    /// which is 0 at the first end and 1 at the last.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2, max = 3))]
+    pub current: Option<Vec<Value>>,
+    /// Coefficient of drag across the line, for the area `diameter` times length; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub drag: Option<f64>,
+    /// Coefficient of drag along the line, for the area `pi diameter` times length; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub tangential_drag: Option<f64>,
+    /// Coefficient of added mass: the mass of fluid that moves along, divided by the mass of displaced fluid; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub added_mass: Option<f64>,
+    /// Diameter for drag, m; by default the outer diameter of a circle or tube, else that of a circle with the area of the section.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub diameter: Option<f64>,
+    /// Area of the section that displaces fluid, m^2; by default the area of a circle of this `diameter`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub area: Option<f64>,
+    /// Whether the weight of the displaced fluid lifts the body; true by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = true))]
+    pub buoyancy: Option<bool>,
+}
+
+/// A fluid along a body.
+#[derive(Clone, Debug)]
+pub struct ResolvedFluid<'a> {
+    /// As described.
+    given: &'a FluidLoad,
+    /// Line body that the fluid acts on.
+    pub on: Cable<'a>,
+    /// Velocity of the fluid, m/s. Components that vary along the body are zero here.
+    pub current: Vec<Signal>,
+    /// Components that change along the body, and their expressions.
+    pub along: Vec<(usize, &'a str)>,
+}
+
+impl FluidLoad {
+    /// Components of the current as written; none where the fluid rests.
+    fn components(&self) -> &[Value] {
+        self.current.as_deref().unwrap_or_default()
+    }
+}
+
+impl SceneLoad for FluidLoad {
+    type Resolved<'a> = ResolvedFluid<'a>;
+
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Result<ResolvedFluid<'a>, Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        let on = scene.require_cable(&at("body"), &self.body)?;
+        for (key, unit, value) in [
+            ("density", "kg/m^3", Some(self.density)),
+            ("diameter", "m", self.diameter),
+            ("area", "m^2", self.area),
+        ] {
+            value.map_or(Ok(()), |value| positive(&at(key), unit, value))?;
+        }
+        for (key, value) in [
+            ("drag", self.drag),
+            ("tangential_drag", self.tangential_drag),
+            ("added_mass", self.added_mass),
+        ] {
+            not_negative(&at(key), "1", value.unwrap_or_default())?;
+        }
+        if self.diameter.is_none() && on.body.all_sections().any(|s| s.numbers().area == 0.0) {
+            let wanted = "a diameter, as the section has no area";
+            return Err(expected(&at("diameter"), wanted, "nothing"));
+        }
+        if scene.scene.turns() {
+            let wanted = "0 where a fluid acts, which does not turn with the frame";
+            let found = format!("{:?}", scene.scene.rotation.full());
+            return Err(expected("rotation", wanted, found));
+        }
+        let dimension = scene.scene.dimension;
+        let rest = vec![Value::Number(0.0); dimension];
+        let current = self.current.as_ref().unwrap_or(&rest);
+        let current = components(&at("current"), dimension, current, |path, of| {
+            component(path, of, true)
+        })?;
+        let along = self.components().iter().enumerate();
+        Ok(ResolvedFluid {
+            given: self,
+            on,
+            current,
+            along: along.filter_map(|(k, of)| Some((k, of.along()?))).collect(),
+        })
+    }
+
+    fn timed(&self) -> Option<TimedKey<'_>> {
+        Some(TimedKey {
+            key: "current",
+            values: self.components(),
+            // The fluid pushes as it is accelerated.
+            order: 1,
+        })
+    }
+
+    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
+        let Self {
+            density,
+            drag,
+            tangential_drag,
+            added_mass,
+            ..
+        } = self;
+        #[rustfmt::skip] // a table
+        let numbers = vec![
+            LoadNumber::new("density", "Density", Some(DENSITY), density),
+            LoadNumber::new("drag", "Coefficient of drag across the line", None, drag),
+            LoadNumber::new("tangential_drag", "Coefficient of drag along the line", None, tangential_drag),
+            LoadNumber::new("added_mass", "Coefficient of added mass", None, added_mass),
+        ];
+        numbers
+    }
+}
+
+impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
+    fn place(&self) -> LoadPlace<'a> {
+        LoadPlace::Line(self.on)
+    }
+
+    /// Along a cable that a winch pays out there is no added mass.
+    fn has_number(&self, key: &str, scene: &Resolved<'_>) -> bool {
+        key != "added_mass" || !scene.is_paid_out(self.on)
+    }
+
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        path: &str,
+    ) -> Result<AppliedLoad<D>, Error> {
+        let cable = self.on;
+        let mut strips = Vec::new();
+        for ends in builder.segments(cable)?.windows(2) {
+            let sections = cable.body.sections_about(0.5 * (ends[0] + ends[1]));
+            for point in GAUSS_5 {
+                let section = match cable.id.form {
+                    Form::Chain(_) => sections(ends[0] + point.at * (ends[1] - ends[0])).0,
+                    // All along it that of its middle, as its mass.
+                    Form::Rod(_) => cable.body.section_at(0.5),
+                };
+                strips.push(self.strip(&section));
+            }
+        }
+        let mut current = uniform(&self.current);
+        let path = format!("{path}.current");
+        builder.fill(cable, &self.along, &path, &mut current.along)?;
+        Ok(AppliedLoad::Fluid(Box::new(Fluid {
+            on: builder.line(cable),
+            strips,
+            current,
+            gravity: vector(builder.resolved.scene.gravity.full()),
+            carried: (vector([0.0; 3]), [0.0; 3]),
+            fraction: 1.0,
+        })))
+    }
+
+    fn words(&self, _dimension: usize) -> LoadWords {
+        let of = self.given;
+        let mut current = self.current.iter();
+        let is_input = current.any(|of| matches!(of, Signal::Input(_)));
+        let current = match (is_input, of.components()) {
+            (true, _) => "current: input".into(),
+            (false, []) => "at rest".into(),
+            (false, given) => format!("current ({}) m/s", words::values(given)),
+        };
+        let coefficients = [
+            ("drag", of.drag),
+            ("drag along the line", of.tangential_drag),
+            ("added mass", of.added_mass),
+        ];
+        let coefficients = coefficients
+            .map(|(what, of)| format!(", {what} {}", number(of.unwrap_or_default())))
+            .concat();
+        let lengths =
+            words::given(", diameter", of.diameter, "m") + &words::given(", area", of.area, "m²");
+        let lifts = if of.buoyancy.unwrap_or(true) {
+            ""
+        } else {
+            ", no buoyancy"
+        };
+        let density = number(of.density);
+        LoadWords {
+            kind: "fluid".into(),
+            on: words::code(&self.on.body.name),
+            size: format!("{density} kg/m³, {current}{coefficients}{lengths}{lifts}"),
+        }
+    }
+}
+
+impl ResolvedFluid<'_> {
+    /// Coefficient of added mass.
+    pub fn added_mass(&self) -> f64 {
+        self.given.added_mass.unwrap_or_default()
+    }
+
+    /// Diameter that drag counts with at a section, m.
+    fn diameter(&self, section: &SectionNumbers) -> f64 {
+        self.given.diameter.unwrap_or_else(|| section.diameter())
+    }
+
+    /// Mass of the fluid that is displaced at a section, kg/m.
+    fn displaced(&self, section: &SectionNumbers) -> f64 {
+        let circle = 0.25 * PI * self.diameter(section).powi(2);
+        self.given.density * self.given.area.unwrap_or(circle)
+    }
+
+    /// Mass of the fluid that moves along at a section, kg/m.
+    fn added(&self, section: &SectionNumbers) -> f64 {
+        self.added_mass() * self.displaced(section)
+    }
+
+    fn strip(&self, section: &SectionNumbers) -> FluidSegment {
+        let coefficients = [self.given.drag, self.given.tangential_drag];
+        let [across, along] = coefficients.map(Option::unwrap_or_default);
+        let faced = 0.5 * self.given.density * self.diameter(section);
+        let displaced = self.displaced(section);
+        let lifts = self.given.buoyancy.unwrap_or(true);
+        FluidSegment {
+            drag: [faced * across, faced * PI * along],
+            buoyant: if lifts { displaced } else { 0.0 },
+            inert: displaced + self.added(section),
+        }
+    }
+}
+
+impl<'a> ResolvedLoadKind<'a> {
+    /// The fluid, if the load is one.
+    pub fn fluid(&self) -> Option<&ResolvedFluid<'a>> {
+        match self {
+            Self::Fluid(fluid) => Some(fluid),
+            _ => None,
+        }
+    }
+}
+
+impl Resolved<'_> {
+    /// Mass of all fluids that move along with a body at a section, kg/m.
+    pub(in crate::scene) fn added_mass(&self, body: usize, section: &SectionNumbers) -> f64 {
+        let fluids = self.loads.iter().filter_map(|load| load.kind.fluid());
+        let fluids = fluids.filter(|fluid| fluid.on.id.body_index() == body);
+        fluids.map(|fluid| fluid.added(section)).sum()
+    }
+
+    /// Makes the current of a fluid an input. Returns its components until then, m/s.
+    ///
+    /// # Errors
+    /// A fluid that does not exist, or a current that is not given by finite numbers.
+    pub(in crate::scene) fn set_current(
+        &mut self,
+        path: &str,
+        name: &str,
+        first: usize,
+    ) -> Result<Vec<f64>, Error> {
+        let fluid = self.loads.iter_mut().find_map(|load| match &mut load.kind {
+            ResolvedLoadKind::Fluid(fluid) if load.name == name => Some(fluid),
+            _ => None,
+        });
+        let Some(fluid) = fluid else {
+            let fluids = self.loads.iter();
+            let fluids = fluids.filter(|load| load.kind.fluid().is_some());
+            let known = fluids.map(|load| load.name);
+            return Err(unknown(path, "a fluid of this scene", name, known));
+        };
+        let mut start = vec![0.0; fluid.current.len()];
+        for (start, value) in start.iter_mut().zip(fluid.given.components()) {
+            let Value::Number(value) = value else {
+                let wanted = "a fluid whose current is numbers";
+                let found = format!("{}, whose current changes", quoted(name));
+                return Err(expected(path, wanted, found));
+            };
+            finite(path, *value)?;
+            *start = *value;
+        }
+        let inputs = (0..start.len()).map(|k| Signal::Input(first + k));
+        fluid.current = inputs.collect();
+        Ok(start)
+    }
+}

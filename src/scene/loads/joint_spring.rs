@@ -1,0 +1,115 @@
+//! Springs with dampers on coordinates of joints.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, SceneLoad};
+use crate::scene::assemble::Builder;
+use crate::scene::description::CoordinateKind;
+use crate::scene::resolved::{JointCoordinate, Resolved};
+use crate::scene::unit::{
+    NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
+    NEWTON_SECOND_PER_METRE, Unit,
+};
+use crate::scene::validate::checks::{finite, spring_damper};
+use crate::scene::{Error, number, words};
+use crate::system::loads::AppliedLoad;
+
+/// A spring and a damper on a coordinate of a joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JointSpringLoad {
+    /// Name of the joint that the spring acts in.
+    pub joint: String,
+    /// Coordinate of the joint that the spring acts on; by default the displacement of a joint that has one, else the angle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinate: Option<CoordinateKind>,
+    /// Stiffness, N/m for a displacement and N m/rad for an angle; 0 by default. A stiffness or a damping is needed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub stiffness: Option<f64>,
+    /// Damping, N s/m for a displacement and N m s/rad for an angle; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub damping: Option<f64>,
+    /// Coordinate at which the spring is unloaded, m or rad; by default the coordinate at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest: Option<f64>,
+}
+
+/// A spring and a damper on a coordinate of a joint.
+#[derive(Clone, Debug)]
+pub struct ResolvedJointSpring<'a> {
+    /// As described.
+    given: &'a JointSpringLoad,
+    /// Coordinate that spring and damper act on.
+    on: JointCoordinate<'a>,
+    /// Stiffness (N/m or N m/rad) and damping (N s/m or N m s/rad).
+    sizes: [f64; 2],
+}
+
+/// Units of stiffness and damping.
+fn units(is_angle: bool) -> [Unit; 2] {
+    if is_angle {
+        [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN]
+    } else {
+        [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE]
+    }
+}
+
+impl SceneLoad for JointSpringLoad {
+    type Resolved<'a> = ResolvedJointSpring<'a>;
+
+    const EXERTS: Exerts = Exerts::ByCoordinate;
+
+    fn resolve<'a>(
+        &'a self,
+        path: &str,
+        scene: &Resolved<'a>,
+    ) -> Result<ResolvedJointSpring<'a>, Error> {
+        let on = scene.require_loaded(path, &self.joint, self.coordinate)?;
+        if let Some(rest) = self.rest {
+            finite(&format!("{path}.rest"), rest)?;
+        }
+        let units = units(on.is_angle());
+        let sizes = spring_damper(path, self.stiffness, self.damping, units)?;
+        Ok(ResolvedJointSpring {
+            given: self,
+            on,
+            sizes,
+        })
+    }
+
+    fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
+        LoadNumber::damper(units(is_angle), &mut self.stiffness, &mut self.damping)
+    }
+}
+
+impl<'a> ActingLoad<'a> for ResolvedJointSpring<'a> {
+    fn place(&self) -> LoadPlace<'a> {
+        LoadPlace::Coordinate(self.on)
+    }
+
+    fn stiffness(&self) -> [f64; 2] {
+        self.on.stiffness(self.sizes[0])
+    }
+
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> Result<AppliedLoad<D>, Error> {
+        let coordinate = builder.coordinate(&self.on);
+        Ok(builder.joint_spring(coordinate, self.sizes, self.given.rest))
+    }
+
+    fn words(&self, _dimension: usize) -> LoadWords {
+        let [k, c] = self.sizes.map(number);
+        let [by_way, by_rate] = units(self.on.is_angle()).map(|unit| unit.symbol());
+        let rest = words::given(", at rest at", self.given.rest, self.on.unit().name);
+        LoadWords {
+            kind: "spring and damper".into(),
+            on: words::coordinate(&self.on),
+            size: format!("{k} {by_way}, {c} {by_rate}{rest}"),
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Springs with dampers between two points.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, SceneLoad, TimedKey};
+use crate::math::function::Function;
+use crate::scene::assemble::Builder;
+use crate::scene::description::{SceneVector, Value};
+use crate::scene::resolved::{Ends, Resolved};
+use crate::scene::unit::{NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, Unit};
+use crate::scene::validate::checks::{not_negative, spring_damper, value};
+use crate::scene::{Error, number, words};
+use crate::system::Signal;
+use crate::system::loads::{AppliedLoad, Spring};
+
+/// Units of stiffness and damping.
+const UNITS: [Unit; 2] = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
+
+/// A spring and a damper between two points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpringDamper {
+    /// Ends of the spring: `ground` or `body.marker`, then `body.marker`.
+    pub markers: [String; 2],
+    /// With `ground` only: end of the spring on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<SceneVector>,
+    /// Stiffness, N/m; 0 by default. A stiffness or a damping is needed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub stiffness: Option<f64>,
+    /// Damping, N s/m; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub damping: Option<f64>,
+    /// Length at rest, m; by default the distance of the ends at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<Value>,
+}
+
+/// A spring and a damper between two ends.
+#[derive(Clone, Debug)]
+pub struct ResolvedSpring<'a> {
+    /// As described.
+    pub given: &'a SpringDamper,
+    /// Ends of the spring.
+    pub ends: Ends<'a>,
+    /// Length at rest, m; the distance at the start if there is none.
+    pub length: Option<Signal>,
+}
+
+impl SceneLoad for SpringDamper {
+    type Resolved<'a> = ResolvedSpring<'a>;
+
+    const EXERTS: Exerts = Exerts::Force;
+
+    fn resolve<'a>(
+        &'a self,
+        path: &str,
+        scene: &Resolved<'a>,
+    ) -> Result<ResolvedSpring<'a>, Error> {
+        let ends = scene.require_pair(path, &self.markers, self.point)?;
+        spring_damper(path, self.stiffness, self.damping, UNITS)?;
+        let place = format!("{path}.length");
+        if let Some(Value::Number(length)) = &self.length {
+            not_negative(&place, "m", *length)?;
+        }
+        let length = self.length.as_ref();
+        let length = length.map(|length| value(&place, length, false));
+        Ok(ResolvedSpring {
+            given: self,
+            ends,
+            length: length.transpose()?.map(Signal::Function),
+        })
+    }
+
+    fn timed(&self) -> Option<TimedKey<'_>> {
+        Some(TimedKey {
+            key: "length",
+            values: std::slice::from_ref(self.length.as_ref()?),
+            // The rate at which a rest length changes does work.
+            order: 1,
+        })
+    }
+
+    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
+        LoadNumber::damper(UNITS, &mut self.stiffness, &mut self.damping)
+    }
+}
+
+impl<'a> ActingLoad<'a> for ResolvedSpring<'a> {
+    fn place(&self) -> LoadPlace<'a> {
+        LoadPlace::Ends(self.ends)
+    }
+
+    fn stiffness(&self) -> [f64; 2] {
+        [self.given.stiffness.unwrap_or_default(), 0.0]
+    }
+
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> Result<AppliedLoad<D>, Error> {
+        let ends = builder.ends(self.ends);
+        let now = || Signal::Function(Function::Constant(builder.distance_at_start(&ends)));
+        Ok(AppliedLoad::Spring(Spring {
+            ends,
+            stiffness: self.given.stiffness.unwrap_or_default(),
+            damping: self.given.damping.unwrap_or_default(),
+            length: self.length.clone().unwrap_or_else(now),
+        }))
+    }
+
+    fn words(&self, dimension: usize) -> LoadWords {
+        let first = words::code(self.ends.first_name());
+        let point = words::at_point(dimension, &self.ends);
+        let sizes = [self.given.stiffness, self.given.damping];
+        let [k, c] = sizes.map(|size| number(size.unwrap_or_default()));
+        let length = self.given.length.as_ref().map_or(String::new(), |length| {
+            format!(", length at rest {} m", words::value(length))
+        });
+        LoadWords {
+            kind: "spring and damper".into(),
+            on: format!("{first}{point}, {}", words::code(self.ends.second.name)),
+            size: format!("{k} N/m, {c} N·s/m{length}"),
+        }
+    }
+}
