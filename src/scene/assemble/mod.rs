@@ -219,7 +219,7 @@ impl Resolved<'_> {
 }
 
 /// A system in the making.
-pub(super) struct Builder<'a, const D: usize> {
+pub struct Builder<'a, const D: usize> {
     pub(super) resolved: &'a Resolved<'a>,
     motions: Motions<D>,
     markers: Vec<Marker>,

@@ -1,22 +1,15 @@
 //! Forces and moments: at markers, in joints and along bodies.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::line::{component, uniform};
-use super::{ActingLoad, LoadPlace, LoadWords, SceneLoad, TimedKey};
+use super::*;
 use crate::bodies::RodChain;
 use crate::math::function::Function;
 use crate::math::space::axis;
-use crate::scene::assemble::{Builder, each, unit};
-use crate::scene::description::{Acting, ActionKind, ActsOn, LoadValue, Value, is_false};
-use crate::scene::resolved::{Cable, JointCoordinate, Pivot, Resolved, ResolvedMarker};
-use crate::scene::validate::checks::{components, expected};
-use crate::scene::{Error, words};
-use crate::system::loads::{
-    AppliedLoad, DistributedForce, DistributedMoment, Force, Moment, SpatialMoment,
-};
-use crate::system::{Direction, Signal};
+use crate::scene::assemble::{each, unit};
+use crate::scene::description::{Acting, ActionKind, ActsOn, LoadValue, is_false};
+use crate::scene::resolved::Pivot;
+use crate::system::Direction;
+use crate::system::loads::{DistributedForce, DistributedMoment, Force, Moment, SpatialMoment};
 
 /// The axis of the plane.
 const THIRD: [f64; 3] = [0.0, 0.0, 1.0];
@@ -112,78 +105,37 @@ pub trait Acts: Clone {
     fn acting(&self) -> (Acting<'_>, &LoadValue);
 }
 
-impl Acts for ForceLoad {
-    fn acting(&self) -> (Acting<'_>, &LoadValue) {
-        (
-            Acting {
-                kind: ActionKind::Force,
-                on: &self.marker,
-                follower: self.follower,
-            },
-            &self.value,
-        )
-    }
+/// Says of structs of keys which force or moment they are, and on what.
+macro_rules! acts {
+    ($($load:ident: $kind:ident on $on:ident $(with $follower:ident)?;)*) => {$(
+        impl Acts for $load {
+            fn acting(&self) -> (Acting<'_>, &LoadValue) {
+                let acting = Acting {
+                    kind: ActionKind::$kind,
+                    on: &self.$on,
+                    follower: false $(|| self.$follower)?,
+                };
+                (acting, &self.value)
+            }
+        }
+    )*};
 }
 
-impl Acts for MomentLoad {
-    fn acting(&self) -> (Acting<'_>, &LoadValue) {
-        (
-            Acting {
-                kind: ActionKind::Moment,
-                on: &self.marker,
-                follower: self.follower,
-            },
-            &self.value,
-        )
-    }
-}
-
-impl Acts for Torque {
-    fn acting(&self) -> (Acting<'_>, &LoadValue) {
-        (
-            Acting {
-                kind: ActionKind::Torque,
-                on: &self.joint,
-                follower: false,
-            },
-            &self.value,
-        )
-    }
-}
-
-impl Acts for DistributedForceLoad {
-    fn acting(&self) -> (Acting<'_>, &LoadValue) {
-        (
-            Acting {
-                kind: ActionKind::DistributedForce,
-                on: &self.body,
-                follower: false,
-            },
-            &self.value,
-        )
-    }
-}
-
-impl Acts for DistributedMomentLoad {
-    fn acting(&self) -> (Acting<'_>, &LoadValue) {
-        (
-            Acting {
-                kind: ActionKind::DistributedMoment,
-                on: &self.body,
-                follower: self.follower,
-            },
-            &self.value,
-        )
-    }
+acts! {
+    ForceLoad: Force on marker with follower;
+    MomentLoad: Moment on marker with follower;
+    Torque: Torque on joint;
+    DistributedForceLoad: DistributedForce on body;
+    DistributedMomentLoad: DistributedMoment on body with follower;
 }
 
 impl<L: Acts> SceneLoad for L {
-    type Resolved<'a>
+    type Acting<'a>
         = Action<'a>
     where
         L: 'a;
 
-    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Result<Action<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let (acting, given) = self.acting();
         let dimension = scene.scene.dimension;
         let signals = signals(&format!("{path}.value"), acting.kind, given, dimension)?;
@@ -225,11 +177,7 @@ impl<'a> ActingLoad<'a> for Action<'a> {
     }
 
     /// Components that vary along a body are parsed for every Gauss point.
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D> {
         let mut load = builder.action(self);
         if let LoadTarget::Cable(cable) = self.on {
             let (along, path) = (&self.along[..], format!("{path}.value"));

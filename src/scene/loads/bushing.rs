@@ -1,19 +1,8 @@
 //! Springs and dampers along and about three axes.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, SceneLoad};
+use super::*;
 use crate::math::space::{Vector, axis};
-use crate::scene::assemble::Builder;
-use crate::scene::resolved::{Ends, First, Resolved};
-use crate::scene::unit::{
-    NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
-    NEWTON_SECOND_PER_METRE,
-};
-use crate::scene::validate::checks::{expected, not_negative};
-use crate::scene::{Error, words};
-use crate::system::loads::{AppliedLoad, BetweenFrames, Bushing, BushingMeasure};
+use crate::system::loads::{BetweenFrames, Bushing, BushingMeasure};
 use crate::system::{Direction, Translation};
 
 /// Springs and dampers along and about three axes.
@@ -47,15 +36,11 @@ pub struct ResolvedBushing<'a> {
 }
 
 impl SceneLoad for BushingLoad {
-    type Resolved<'a> = ResolvedBushing<'a>;
+    type Acting<'a> = ResolvedBushing<'a>;
 
     const EXERTS: Exerts = Exerts::ForceAndMoment;
 
-    fn resolve<'a>(
-        &'a self,
-        path: &str,
-        scene: &Resolved<'a>,
-    ) -> Result<ResolvedBushing<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         if scene.scene.dimension == 2 {
             let wanted = "spring_damper, or revolute with a stiffness in the plane";
             return Err(expected(&format!("{path}.kind"), wanted, "bushing"));
@@ -92,10 +77,10 @@ impl SceneLoad for BushingLoad {
     fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
         #[rustfmt::skip] // a table
         let numbers = vec![
-            LoadNumber::new("translational_stiffness", "Stiffness along", Some(NEWTON_PER_METRE), &mut self.translational_stiffness),
-            LoadNumber::new("translational_damping", "Damping along", Some(NEWTON_SECOND_PER_METRE), &mut self.translational_damping),
-            LoadNumber::new("rotational_stiffness", "Stiffness about", Some(NEWTON_METRE_PER_RADIAN), &mut self.rotational_stiffness),
-            LoadNumber::new("rotational_damping", "Damping about", Some(NEWTON_METRE_SECOND_PER_RADIAN), &mut self.rotational_damping),
+            LoadNumber::new("translational_stiffness", "Stiffness along", Some(NEWTON_PER_METRE), Axes(&mut self.translational_stiffness)),
+            LoadNumber::new("translational_damping", "Damping along", Some(NEWTON_SECOND_PER_METRE), Axes(&mut self.translational_damping)),
+            LoadNumber::new("rotational_stiffness", "Stiffness about", Some(NEWTON_METRE_PER_RADIAN), Axes(&mut self.rotational_stiffness)),
+            LoadNumber::new("rotational_damping", "Damping about", Some(NEWTON_METRE_SECOND_PER_RADIAN), Axes(&mut self.rotational_damping)),
         ];
         numbers
     }
@@ -110,11 +95,7 @@ impl<'a> ActingLoad<'a> for ResolvedBushing<'a> {
         (self.stiffness).map(|axes| axes.into_iter().fold(0.0, f64::max))
     }
 
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        _path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
         let ends = builder.ends(self.ends);
         let first = match self.ends.first {
             First::Marker(marker) => builder.frame_axes(marker).map(Direction::Of),

@@ -1,22 +1,15 @@
 //! Contacts of markers and of bodies with surfaces of the ground.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, ResolvedLoadKind, SceneLoad};
+use super::*;
 use crate::bodies::PANELS;
 use crate::bodies::{Marker, RigidRod};
 use crate::elements::Element;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
-use crate::scene::assemble::{Builder, unit};
-use crate::scene::description::{SceneVector, Surface};
-use crate::scene::resolved::{Cable, Form, Resolved, ResolvedMarker};
-use crate::scene::unit::{NEWTON_PER_METRE, NEWTON_PER_SQUARE_METRE, SECOND_PER_METRE, Unit};
+use crate::scene::assemble::unit;
+use crate::scene::description::Surface;
 use crate::scene::validate::checks;
-use crate::scene::validate::checks::{direction, expected, needed, not_negative, positive};
-use crate::scene::{Error, number, words};
-use crate::system::loads::{AppliedLoad, Contact, ContactPoint, ContactSurface};
+use crate::system::loads::{Contact, ContactPoint, ContactSurface};
 
 /// Contact with a surface of the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -78,15 +71,11 @@ impl ContactLoad {
 }
 
 impl SceneLoad for ContactLoad {
-    type Resolved<'a> = ResolvedContact<'a>;
+    type Acting<'a> = ResolvedContact<'a>;
 
     const EXERTS: Exerts = Exerts::Force;
 
-    fn resolve<'a>(
-        &'a self,
-        path: &str,
-        scene: &Resolved<'a>,
-    ) -> Result<ResolvedContact<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let at = |key: &str| format!("{path}.{key}");
         let by = match (&self.marker, &self.body) {
             (Some(_), Some(_)) => {
@@ -117,11 +106,20 @@ impl SceneLoad for ContactLoad {
 
     fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
         let units = [self.unit(), SECOND_PER_METRE];
-        let mut numbers = LoadNumber::damper(units, &mut self.stiffness, &mut self.damping);
+        let mut numbers = damper(
+            units,
+            Needed(&mut self.stiffness),
+            Optional(&mut self.damping),
+        );
         // Without a speed of slip there can be none.
         if self.slip_velocity.is_some() {
             let what = "Coefficient of friction";
-            numbers.push(LoadNumber::new("friction", what, None, &mut self.friction));
+            numbers.push(LoadNumber::new(
+                "friction",
+                what,
+                None,
+                Optional(&mut self.friction),
+            ));
         }
         numbers
     }
@@ -143,11 +141,7 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         true
     }
 
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        _path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
         let places = match self.by {
             ContactBody::Marker(marker) => vec![ContactPoint {
                 marker: builder.marker(marker),

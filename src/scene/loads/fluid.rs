@@ -2,23 +2,12 @@
 
 use std::f64::consts::PI;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::line::{component, uniform};
-use super::{ActingLoad, LoadNumber, LoadPlace, LoadWords, ResolvedLoadKind, SceneLoad, TimedKey};
+use super::*;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
-use crate::scene::assemble::Builder;
-use crate::scene::description::{SectionNumbers, Value};
-use crate::scene::resolved::{Cable, Form, Resolved};
-use crate::scene::unit::DENSITY;
-use crate::scene::validate::checks::{
-    components, expected, finite, not_negative, positive, quoted, unknown,
-};
-use crate::scene::{Error, number, words};
-use crate::system::Signal;
-use crate::system::loads::{AppliedLoad, Fluid, FluidSegment};
+use crate::scene::description::SectionNumbers;
+use crate::system::loads::{Fluid, FluidSegment};
 
 /// A fluid along a line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -80,9 +69,9 @@ impl FluidLoad {
 }
 
 impl SceneLoad for FluidLoad {
-    type Resolved<'a> = ResolvedFluid<'a>;
+    type Acting<'a> = ResolvedFluid<'a>;
 
-    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Result<ResolvedFluid<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let at = |key: &str| format!("{path}.{key}");
         let on = scene.require_cable(&at("body"), &self.body)?;
         for (key, unit, value) in [
@@ -133,19 +122,12 @@ impl SceneLoad for FluidLoad {
     }
 
     fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
-        let Self {
-            density,
-            drag,
-            tangential_drag,
-            added_mass,
-            ..
-        } = self;
         #[rustfmt::skip] // a table
         let numbers = vec![
-            LoadNumber::new("density", "Density", Some(DENSITY), density),
-            LoadNumber::new("drag", "Coefficient of drag across the line", None, drag),
-            LoadNumber::new("tangential_drag", "Coefficient of drag along the line", None, tangential_drag),
-            LoadNumber::new("added_mass", "Coefficient of added mass", None, added_mass),
+            LoadNumber::new("density", "Density", Some(DENSITY), Needed(&mut self.density)),
+            LoadNumber::new("drag", "Coefficient of drag across the line", None, Optional(&mut self.drag)),
+            LoadNumber::new("tangential_drag", "Coefficient of drag along the line", None, Optional(&mut self.tangential_drag)),
+            LoadNumber::new("added_mass", "Coefficient of added mass", None, Optional(&mut self.added_mass)),
         ];
         numbers
     }
@@ -161,11 +143,7 @@ impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
         key != "added_mass" || !scene.is_paid_out(self.on)
     }
 
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D> {
         let cable = self.on;
         let mut strips = Vec::new();
         for ends in builder.segments(cable)?.windows(2) {

@@ -1,18 +1,7 @@
 //! Limits of coordinates of joints.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, ResolvedLoadKind, SceneLoad};
-use crate::scene::assemble::Builder;
-use crate::scene::description::CoordinateKind;
-use crate::scene::resolved::{JointCoordinate, Resolved};
-use crate::scene::unit::{
-    NEWTON_METRE_PER_RADIAN, NEWTON_PER_METRE, SECOND_PER_METRE, SECOND_PER_RADIAN, Unit,
-};
-use crate::scene::validate::checks::{expected, finite, not_negative, positive};
-use crate::scene::{Error, number, words};
-use crate::system::loads::{AppliedLoad, JointLimit};
+use super::*;
+use crate::system::loads::JointLimit;
 
 /// Limits of a coordinate of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,15 +45,11 @@ fn units(is_angle: bool) -> [Unit; 2] {
 }
 
 impl SceneLoad for JointLimitLoad {
-    type Resolved<'a> = ResolvedJointLimit<'a>;
+    type Acting<'a> = ResolvedJointLimit<'a>;
 
     const EXERTS: Exerts = Exerts::ByCoordinate;
 
-    fn resolve<'a>(
-        &'a self,
-        path: &str,
-        scene: &Resolved<'a>,
-    ) -> Result<ResolvedJointLimit<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let on = scene.require_loaded(path, &self.joint, self.coordinate)?;
         let units = units(on.is_angle()).map(|unit| unit.text());
         positive(&format!("{path}.stiffness"), &units[0], self.stiffness)?;
@@ -86,7 +71,11 @@ impl SceneLoad for JointLimitLoad {
     }
 
     fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
-        LoadNumber::damper(units(is_angle), &mut self.stiffness, &mut self.damping)
+        damper(
+            units(is_angle),
+            Needed(&mut self.stiffness),
+            Optional(&mut self.damping),
+        )
     }
 }
 
@@ -103,11 +92,7 @@ impl<'a> ActingLoad<'a> for ResolvedJointLimit<'a> {
         true
     }
 
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        _path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
         Ok(AppliedLoad::JointLimit(JointLimit {
             coordinate: Box::new(builder.coordinate(&self.on)),
             limits: [

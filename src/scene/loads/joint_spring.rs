@@ -1,19 +1,6 @@
 //! Springs with dampers on coordinates of joints.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, SceneLoad};
-use crate::scene::assemble::Builder;
-use crate::scene::description::CoordinateKind;
-use crate::scene::resolved::{JointCoordinate, Resolved};
-use crate::scene::unit::{
-    NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
-    NEWTON_SECOND_PER_METRE, Unit,
-};
-use crate::scene::validate::checks::{finite, spring_damper};
-use crate::scene::{Error, number, words};
-use crate::system::loads::AppliedLoad;
+use super::*;
 
 /// A spring and a damper on a coordinate of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -57,15 +44,11 @@ fn units(is_angle: bool) -> [Unit; 2] {
 }
 
 impl SceneLoad for JointSpringLoad {
-    type Resolved<'a> = ResolvedJointSpring<'a>;
+    type Acting<'a> = ResolvedJointSpring<'a>;
 
     const EXERTS: Exerts = Exerts::ByCoordinate;
 
-    fn resolve<'a>(
-        &'a self,
-        path: &str,
-        scene: &Resolved<'a>,
-    ) -> Result<ResolvedJointSpring<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let on = scene.require_loaded(path, &self.joint, self.coordinate)?;
         if let Some(rest) = self.rest {
             finite(&format!("{path}.rest"), rest)?;
@@ -80,7 +63,11 @@ impl SceneLoad for JointSpringLoad {
     }
 
     fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
-        LoadNumber::damper(units(is_angle), &mut self.stiffness, &mut self.damping)
+        damper(
+            units(is_angle),
+            Optional(&mut self.stiffness),
+            Optional(&mut self.damping),
+        )
     }
 }
 
@@ -93,11 +80,7 @@ impl<'a> ActingLoad<'a> for ResolvedJointSpring<'a> {
         self.on.stiffness(self.sizes[0])
     }
 
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        _path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
         let coordinate = builder.coordinate(&self.on);
         Ok(builder.joint_spring(coordinate, self.sizes, self.given.rest))
     }

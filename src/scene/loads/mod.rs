@@ -1,5 +1,5 @@
-//! Loads of a scene. One file holds the scene side of a kind: its keys and their checks, what its names refer to, its parameters and words,
-//! and what it becomes in the system.
+//! Loads of a scene. One file holds the scene side of a kind: keys and their checks, resolved references, parameters, words, and the load of
+//! the system that is built of them.
 
 mod action;
 mod bushing;
@@ -18,24 +18,33 @@ pub use fluid::ResolvedFluid;
 pub use number::{LoadNumber, NumberMut};
 pub use place::{Exerts, LoadPlace};
 
-use schemars::JsonSchema;
-use serde::Serialize;
+// What follows is there for the files of the kinds too.
+use std::ops::Deref;
 
-use super::Error;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::assemble::Builder;
-use super::description::Value;
 use super::description::tagged::{Kinds, kinds, part};
-use super::resolved::{LoadId, Resolved, ResolvedMarker};
-use super::validate::checks::expected;
+use super::description::{CoordinateKind, SceneVector, Value};
+use super::resolved::{
+    Cable, Ends, First, Form, JointCoordinate, LoadId, Resolved, ResolvedMarker,
+};
+use super::unit::*;
+use super::validate::checks::{
+    components, direction, expected, finite, needed, not_negative, positive, quoted, spring_damper,
+    unknown, value,
+};
+use super::{Error, number, words};
+use crate::system::Signal;
 use crate::system::loads::AppliedLoad;
-use action::{DistributedForceLoad, DistributedMomentLoad, ForceLoad, MomentLoad, Torque};
-use bushing::{BushingLoad, ResolvedBushing};
-use contact::{ContactLoad, ResolvedContact};
-use fluid::FluidLoad;
-use joint_limit::{JointLimitLoad, ResolvedJointLimit};
-use joint_spring::{JointSpringLoad, ResolvedJointSpring};
-use spring_damper::{ResolvedSpring, SpringDamper};
-use table_spring::{ResolvedTableSpring, TableSpringLoad};
+use NumberMut::{Axes, Needed, Optional};
+use number::damper;
+
+/// What a check finds, or what is wrong.
+type Found<T> = Result<T, Error>;
+/// A load of the system, or what is wrong with a mesh or an expression along a body.
+type Built<const D: usize> = Result<AppliedLoad<D>, Error>;
 
 /// A load that is known in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -84,10 +93,10 @@ pub struct LoadWords {
 /// Load as a scene describes it: one struct of keys for each kind.
 ///
 /// A new kind of load is one file with its `SceneLoad` and [`ActingLoad`], and one line among the kinds below. A default of an item is right
-/// for a load that depends on the motion alone, without parameters.
+/// for a load without parameters and functions of time that no output reads.
 trait SceneLoad: Clone {
     /// The load with its references resolved.
-    type Resolved<'a>: ActingLoad<'a>
+    type Acting<'a>: ActingLoad<'a>
     where
         Self: 'a;
 
@@ -98,8 +107,7 @@ trait SceneLoad: Clone {
     ///
     /// # Errors
     /// A missing key, a reference that does not exist, or a value out of range.
-    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>)
-    -> Result<Self::Resolved<'a>, Error>;
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>>;
 
     /// Whether it is a force or a moment, as inputs are.
     fn is_action(&self) -> bool {
@@ -118,7 +126,7 @@ trait SceneLoad: Clone {
 }
 
 /// Load with its references resolved.
-trait ActingLoad<'a>: Clone {
+pub trait ActingLoad<'a> {
     /// Returns the place of the load on bodies.
     fn place(&self) -> LoadPlace<'a>;
 
@@ -146,17 +154,16 @@ trait ActingLoad<'a>: Clone {
     ///
     /// # Errors
     /// A mesh that is not possible, or an expression that has no value at a Gauss point.
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        path: &str,
-    ) -> Result<AppliedLoad<D>, Error>;
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D>
+    where
+        Self: Sized;
 
     /// Describes the load in a scene of this dimension.
     fn words(&self, dimension: usize) -> LoadWords;
 }
 
-/// Declares the kinds of load with the structs of their keys and of what their names refer to, and passes each item of [`SceneLoad`] and [`ActingLoad`] to the kind at hand.
+/// Declares the kinds of load with the structs of their keys and of what their names refer to, and passes each item of [`SceneLoad`] and
+/// [`ActingLoad`] to the kind at hand.
 macro_rules! loads {
     ($($(#[$doc:meta])* $kind:ident($load:ty): $resolved:ty,)*) => {
         kinds! {
@@ -176,11 +183,7 @@ macro_rules! loads {
             /// Forces and moments that outputs read, in the order of the kinds.
             const EXERTS: &'static [Exerts] = &[$(<$load as SceneLoad>::EXERTS,)*];
 
-            fn resolve<'a>(
-                &'a self,
-                path: &str,
-                scene: &Resolved<'a>,
-            ) -> Result<ResolvedLoadKind<'a>, Error> {
+            fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<ResolvedLoadKind<'a>> {
                 Ok(match self {
                     $(Self::$kind(load) => ResolvedLoadKind::$kind(load.resolve(path, scene)?),)*
                 })
@@ -217,59 +220,19 @@ macro_rules! loads {
                 exerts.at(&self.place())
             }
 
-            /// Returns the place of the load on bodies.
-            pub fn place(&self) -> LoadPlace<'a> {
-                match self {
-                    $(Self::$kind(load) => load.place(),)*
-                }
-            }
-
-            /// Returns the force or moment, of a load that is one.
-            pub fn action(&self) -> Option<&Action<'a>> {
-                match self {
-                    $(Self::$kind(load) => load.action(),)*
-                }
-            }
-
-            /// Returns the largest stiffness against displacements (N/m, of contacts of bodies N/m per length) and against rotations (N m/rad).
-            pub fn stiffness(&self) -> [f64; 2] {
-                match self {
-                    $(Self::$kind(load) => load.stiffness(),)*
-                }
-            }
-
-            /// Whether it acts now and then: on one side of a limit or a surface alone.
-            pub fn is_one_sided(&self) -> bool {
-                match self {
-                    $(Self::$kind(load) => load.is_one_sided(),)*
-                }
-            }
-
-            /// Whether the number with this key is a parameter in this scene.
-            pub fn has_number(&self, key: &str, scene: &Resolved<'_>) -> bool {
-                match self {
-                    $(Self::$kind(load) => load.has_number(key, scene),)*
-                }
-            }
-
-            /// Builds the load of the system.
-            ///
-            /// # Errors
-            /// A mesh that is not possible, or an expression that has no value at a Gauss point.
-            pub(super) fn assemble<const D: usize>(
-                &self,
-                builder: &mut Builder<'_, D>,
-                path: &str,
-            ) -> Result<AppliedLoad<D>, Error> {
+            fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D> {
                 match self {
                     $(Self::$kind(load) => load.assemble(builder, path),)*
                 }
             }
+        }
 
-            /// Describes the load in a scene of this dimension.
-            pub fn words(&self, dimension: usize) -> LoadWords {
+        impl<'a> Deref for ResolvedLoadKind<'a> {
+            type Target = dyn ActingLoad<'a> + 'a;
+
+            fn deref(&self) -> &Self::Target {
                 match self {
-                    $(Self::$kind(load) => load.words(dimension),)*
+                    $(Self::$kind(load) => load,)*
                 }
             }
         }
@@ -278,54 +241,51 @@ macro_rules! loads {
 
 loads! {
     /// Force at a marker, N.
-    Force(ForceLoad): Action<'a>,
+    Force(action::ForceLoad): Action<'a>,
     /// Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow,
     /// and its work then depends on the way that the body turns.
-    Moment(MomentLoad): Action<'a>,
+    Moment(action::MomentLoad): Action<'a>,
     /// Moment on the second marker of a joint about its axis, opposite on its first, N m.
-    Torque(Torque): Action<'a>,
+    Torque(action::Torque): Action<'a>,
     /// Force in global axes per reference length of a cable, rod or beam, N/m.
-    DistributedForce(DistributedForceLoad): Action<'a>,
+    DistributedForce(action::DistributedForceLoad): Action<'a>,
     /// Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
     /// global axes where it does not follow, and its work then depends on the way that sections turn.
-    DistributedMoment(DistributedMomentLoad): Action<'a>,
+    DistributedMoment(action::DistributedMomentLoad): Action<'a>,
     /// Spring and damper side by side between two points.
-    SpringDamper(SpringDamper): ResolvedSpring<'a>,
+    SpringDamper(spring_damper::SpringDamper): spring_damper::ResolvedSpring<'a>,
     /// Spring and damper side by side between two points, whose forces are tables over length and over its rate.
-    TableSpring(TableSpringLoad): ResolvedTableSpring<'a>,
+    TableSpring(table_spring::TableSpringLoad): table_spring::ResolvedTableSpring<'a>,
     /// Spring and damper side by side on a coordinate of a joint.
-    JointSpring(JointSpringLoad): ResolvedJointSpring<'a>,
+    JointSpring(joint_spring::JointSpringLoad): joint_spring::ResolvedJointSpring<'a>,
     /// Springs and dampers between two bodies in space, three along and three about the axes of the first one's body (of ground: the
     /// global ones), from how they stand at the start: the rotation is measured by its vector, angle along axis.
-    Bushing(BushingLoad): ResolvedBushing<'a>,
+    Bushing(bushing::BushingLoad): bushing::ResolvedBushing<'a>,
     /// One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
     /// force is continuous in time (Hunt and Crossley 1975).
-    JointLimit(JointLimitLoad): ResolvedJointLimit<'a>,
+    JointLimit(joint_limit::JointLimitLoad): joint_limit::ResolvedJointLimit<'a>,
     /// A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
     /// and others 1950). The added mass counts in all directions alike.
-    Fluid(FluidLoad): ResolvedFluid<'a>,
+    Fluid(fluid::FluidLoad): ResolvedFluid<'a>,
     /// Contact of a marker, or of the line of a cable, rod or beam, with a surface of the ground: a one-sided spring and damper along the
     /// normal (Hunt and Crossley 1975) and friction along the surface, which is none at rest, so that an equilibrium has none.
-    Contact(ContactLoad): ResolvedContact<'a>,
+    Contact(contact::ContactLoad): contact::ResolvedContact<'a>,
 }
 
 impl LoadKind {
-    /// Names of the kinds that exert something on a load of their own, and of those that do so by the coordinate of a joint, for messages.
+    /// Names of the kinds whose force or moment outputs read, and of those where that is by the coordinate of a joint.
     pub(super) fn exerting(is_moment: bool) -> [Vec<&'static str>; 2] {
-        let kinds = || Self::all().into_iter().zip(Self::EXERTS);
-        let always = |exerts: Exerts| match exerts {
-            Exerts::Force => !is_moment,
-            Exerts::ForceAndMoment => true,
-            Exerts::Nothing | Exerts::ByCoordinate => false,
-        };
-        let named = |is_meant: &dyn Fn(Exerts) -> bool| {
-            let kinds = kinds().filter(|(_, exerts)| is_meant(**exerts));
+        let named = |meant: &[Exerts]| {
+            let kinds = Self::all().into_iter().zip(Self::EXERTS);
+            let kinds = kinds.filter(|(_, exerts)| meant.contains(exerts));
             kinds.map(|(kind, _)| kind.name).collect()
         };
-        [
-            named(&always),
-            named(&|exerts| exerts == Exerts::ByCoordinate),
-        ]
+        let always = if is_moment {
+            &[Exerts::ForceAndMoment][..]
+        } else {
+            &[Exerts::Force, Exerts::ForceAndMoment]
+        };
+        [named(always), named(&[Exerts::ByCoordinate])]
     }
 }
 

@@ -33,27 +33,27 @@ impl<'a> LoadNumber<'a> {
         key: &'static str,
         what: &'static str,
         unit: Option<Unit>,
-        value: impl Into<NumberMut<'a>>,
+        value: NumberMut<'a>,
     ) -> Self {
         Self {
             key,
             what,
             unit,
-            value: value.into(),
+            value,
         }
     }
+}
 
-    /// Declares a stiffness and a damping, with their units.
-    pub(super) fn damper(
-        [by_way, by_rate]: [Unit; 2],
-        stiffness: impl Into<NumberMut<'a>>,
-        damping: impl Into<NumberMut<'a>>,
-    ) -> Vec<Self> {
-        vec![
-            Self::new("stiffness", "Stiffness", Some(by_way), stiffness),
-            Self::new("damping", "Damping", Some(by_rate), damping),
-        ]
-    }
+/// Declares a stiffness and a damping, with their units.
+pub(super) fn damper<'a>(
+    [by_way, by_rate]: [Unit; 2],
+    stiffness: NumberMut<'a>,
+    damping: NumberMut<'a>,
+) -> Vec<LoadNumber<'a>> {
+    vec![
+        LoadNumber::new("stiffness", "Stiffness", Some(by_way), stiffness),
+        LoadNumber::new("damping", "Damping", Some(by_rate), damping),
+    ]
 }
 
 impl NumberMut<'_> {
@@ -78,24 +78,6 @@ impl NumberMut<'_> {
             Self::Optional(of) => *of = Some(value),
             Self::Axes(of) => of.get_or_insert_default()[axis] = value,
         }
-    }
-}
-
-impl<'a> From<&'a mut f64> for NumberMut<'a> {
-    fn from(value: &'a mut f64) -> Self {
-        Self::Needed(value)
-    }
-}
-
-impl<'a> From<&'a mut Option<f64>> for NumberMut<'a> {
-    fn from(value: &'a mut Option<f64>) -> Self {
-        Self::Optional(value)
-    }
-}
-
-impl<'a> From<&'a mut Option<[f64; 3]>> for NumberMut<'a> {
-    fn from(values: &'a mut Option<[f64; 3]>) -> Self {
-        Self::Axes(values)
     }
 }
 

@@ -1,18 +1,8 @@
 //! Springs with dampers between two points.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{ActingLoad, Exerts, LoadNumber, LoadPlace, LoadWords, SceneLoad, TimedKey};
+use super::*;
 use crate::math::function::Function;
-use crate::scene::assemble::Builder;
-use crate::scene::description::{SceneVector, Value};
-use crate::scene::resolved::{Ends, Resolved};
-use crate::scene::unit::{NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, Unit};
-use crate::scene::validate::checks::{not_negative, spring_damper, value};
-use crate::scene::{Error, number, words};
-use crate::system::Signal;
-use crate::system::loads::{AppliedLoad, Spring};
+use crate::system::loads::Spring;
 
 /// Units of stiffness and damping.
 const UNITS: [Unit; 2] = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
@@ -50,15 +40,11 @@ pub struct ResolvedSpring<'a> {
 }
 
 impl SceneLoad for SpringDamper {
-    type Resolved<'a> = ResolvedSpring<'a>;
+    type Acting<'a> = ResolvedSpring<'a>;
 
     const EXERTS: Exerts = Exerts::Force;
 
-    fn resolve<'a>(
-        &'a self,
-        path: &str,
-        scene: &Resolved<'a>,
-    ) -> Result<ResolvedSpring<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let ends = scene.require_pair(path, &self.markers, self.point)?;
         spring_damper(path, self.stiffness, self.damping, UNITS)?;
         let place = format!("{path}.length");
@@ -84,7 +70,11 @@ impl SceneLoad for SpringDamper {
     }
 
     fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
-        LoadNumber::damper(UNITS, &mut self.stiffness, &mut self.damping)
+        damper(
+            UNITS,
+            Optional(&mut self.stiffness),
+            Optional(&mut self.damping),
+        )
     }
 }
 
@@ -97,11 +87,7 @@ impl<'a> ActingLoad<'a> for ResolvedSpring<'a> {
         [self.given.stiffness.unwrap_or_default(), 0.0]
     }
 
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        _path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
         let ends = builder.ends(self.ends);
         let now = || Signal::Function(Function::Constant(builder.distance_at_start(&ends)));
         Ok(AppliedLoad::Spring(Spring {

@@ -1,16 +1,8 @@
 //! Springs with dampers between two points, by tables.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{ActingLoad, Exerts, LoadPlace, LoadWords, SceneLoad};
+use super::*;
 use crate::math::curve::Curve;
-use crate::scene::assemble::Builder;
-use crate::scene::description::SceneVector;
-use crate::scene::resolved::{Ends, Resolved};
-use crate::scene::validate::checks::expected;
-use crate::scene::{Error, words};
-use crate::system::loads::{AppliedLoad, TableSpring};
+use crate::system::loads::TableSpring;
 
 /// A spring and a damper by tables between two points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -43,15 +35,11 @@ pub struct ResolvedTableSpring<'a> {
 }
 
 impl SceneLoad for TableSpringLoad {
-    type Resolved<'a> = ResolvedTableSpring<'a>;
+    type Acting<'a> = ResolvedTableSpring<'a>;
 
     const EXERTS: Exerts = Exerts::Force;
 
-    fn resolve<'a>(
-        &'a self,
-        path: &str,
-        scene: &Resolved<'a>,
-    ) -> Result<ResolvedTableSpring<'a>, Error> {
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let curve = |key: &str, points: &[[f64; 2]]| {
             Curve::new(points).map_err(|message| Error::new(format!("{path}.{key}"), message))
         };
@@ -81,11 +69,7 @@ impl<'a> ActingLoad<'a> for ResolvedTableSpring<'a> {
         [self.spring.steepest(), 0.0]
     }
 
-    fn assemble<const D: usize>(
-        &self,
-        builder: &mut Builder<'_, D>,
-        _path: &str,
-    ) -> Result<AppliedLoad<D>, Error> {
+    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
         Ok(AppliedLoad::TableSpring(TableSpring {
             ends: builder.ends(self.ends),
             spring: self.spring.clone(),
