@@ -91,10 +91,11 @@ impl<'a> Resolved<'a> {
             .partition(|kind| kind.action().is_some());
         let loads = others.into_iter().chain(actions);
         found.extend(loads.flat_map(|kind| kind.place().markers()));
-        found.extend(self.inputs.iter().flat_map(|input| match &input.kind {
-            InputKind::Action(action) => action.marker(),
-            InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
-        }));
+        for input in &self.inputs {
+            if let InputKind::Action(action) = &input.kind {
+                found.extend(action.on.markers());
+            }
+        }
         found
     }
 }

@@ -38,8 +38,8 @@ pub use description::{
 };
 pub use elements::Chosen;
 pub use loads::{
-    ActingLoad, Action, Exerts, LoadNumber, LoadPlace, LoadTarget, LoadWords, NumberMut,
-    ResolvedFluid, ResolvedLoad, ResolvedLoadKind, TimedKey,
+    ActingLoad, Action, Exerts, LoadNumber, LoadPlace, LoadWords, NumberMut, ResolvedFluid,
+    ResolvedLoad, ResolvedLoadKind, TimedKey,
 };
 pub use remarks::remarks;
 pub use resolved::{

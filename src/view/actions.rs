@@ -4,7 +4,7 @@ use crate::math::function::Function;
 use crate::math::space::spins;
 use crate::picture::known_actions;
 use crate::scene::{
-    self, Along, ConstraintOwnerId, LoadId, LoadPlace, LoadTarget, MarkerId, MotionKind, Resolved,
+    self, Along, ConstraintOwnerId, LoadId, LoadPlace, MarkerId, MotionKind, Resolved,
 };
 use crate::simulation::{Error, Quantity, Simulation};
 use crate::system::Signal;
@@ -213,9 +213,10 @@ fn of_action<'a>(
         follower: action.follower,
         components: action.kind.components(dimension),
         on: match action.on {
-            LoadTarget::Marker(marker) => Where::Marker(marker.id),
-            LoadTarget::Joint(pivot) => Where::Joint(pivot.ends.second.id, pivot.joint.index()),
-            LoadTarget::Cable(cable) => Where::Body(cable.id.body_index()),
+            LoadPlace::Marker(marker) => Where::Marker(marker.id),
+            LoadPlace::Ends(ends) => Where::Marker(ends.second.id),
+            LoadPlace::Coordinate(on) => Where::Joint(on.ends().second.id, on.joint().index()),
+            LoadPlace::Line(cable) => Where::Body(cable.id.body_index()),
         },
         of: Origin::Components(&action.components, &action.along),
     }

@@ -6,7 +6,7 @@ use crate::page::canvas::{Point, direction, moved};
 use crate::picture::palette::LOAD;
 use crate::picture::symbols;
 use crate::picture::{KnownAction, known_actions};
-use crate::scene::{self, Cable, InputKind, LoadTarget, Resolved, ResolvedMarker};
+use crate::scene::{self, Cable, InputKind, LoadPlace, Resolved, ResolvedMarker};
 use crate::system::Signal;
 
 /// Arrows at most that stand for a distributed force: on a short body as many as have room.
@@ -76,15 +76,6 @@ fn way(components: &[f64]) -> Point {
 }
 
 impl<'a> DrawnAction<'a> {
-    /// The marker that it acts on, or the second one of a joint; none on a cable as a whole.
-    pub(super) fn marker(&self) -> Option<ResolvedMarker<'a>> {
-        match self.action.on {
-            LoadTarget::Marker(marker) => Some(marker),
-            LoadTarget::Joint(pivot) => Some(pivot.ends.second),
-            LoadTarget::Cable(_) => None,
-        }
-    }
-
     /// Direction of a force in the image, from the direction at its marker.
     pub(super) fn way(&self, [x, y]: Point) -> Point {
         match self.components[..] {
@@ -100,16 +91,15 @@ impl<'a> DrawnAction<'a> {
 impl<'a> Picture<'a> {
     pub(super) fn actions(&mut self) {
         for action in actions(self.resolved) {
-            match action.action.on {
-                LoadTarget::Marker(marker) if action.action.kind.is_force() => {
-                    self.force(&action, marker)
-                }
-                LoadTarget::Marker(marker) => self.turn(marker),
-                LoadTarget::Joint(pivot) => self.turn(pivot.ends.second),
-                LoadTarget::Cable(cable) => {
+            let (on, is_force) = (action.action.on, action.action.kind.is_force());
+            match (on, on.second()) {
+                (LoadPlace::Line(cable), _) => {
                     let along = action.way([1.0, 0.0]);
-                    self.distributed(action.label, cable, along, action.action.kind.is_force());
+                    self.distributed(action.label, cable, along, is_force);
                 }
+                (_, Some(marker)) if is_force => self.force(&action, marker),
+                (_, Some(marker)) => self.turn(marker),
+                (_, None) => {}
             }
         }
         self.fluids();

@@ -119,7 +119,7 @@ impl<'a> Picture<'a> {
     /// Names of moments; forces have theirs at the tail and take the side that they come from.
     fn add_actions(&self, labels: &mut [Label<'a>]) {
         for action in actions(self.resolved) {
-            let Some(place) = action.marker().map(|marker| self.place(marker)) else {
+            let Some(place) = action.action.on.second().map(|marker| self.place(marker)) else {
                 continue;
             };
             let Some(label) = self.label_at(labels, place.point) else {

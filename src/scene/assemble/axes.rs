@@ -12,11 +12,7 @@ use crate::system::{Attachment, AxisTurn, Direction, reach};
 
 impl<const D: usize> Builder<'_, D> {
     /// A direction at the start, fixed in the body of an end; of a cable its own.
-    pub(in crate::scene) fn fixed(
-        &self,
-        end: &Attachment<D>,
-        direction: Vector<D>,
-    ) -> Direction<D> {
+    pub(crate) fn fixed(&self, end: &Attachment<D>, direction: Vector<D>) -> Direction<D> {
         let Attachment::Body(marker) = end else {
             return Direction::Fixed(direction);
         };
@@ -29,7 +25,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A marker in the directions of the axes of its body's frame.
-    pub(in crate::scene) fn frame_axes(&self, marker: resolved::ResolvedMarker<'_>) -> [Marker; D] {
+    pub(crate) fn frame_axes(&self, marker: resolved::ResolvedMarker<'_>) -> [Marker; D] {
         let built = self.marker(marker);
         std::array::from_fn(|k| match marker.place {
             Place::Point(rigid, _) if built.is_framed() => {

@@ -261,7 +261,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A marker of a cable at a material coordinate in [0, 1].
-    pub(in crate::scene) fn along(&self, cable: Cable<'_>, s: f64) -> Marker {
+    pub(crate) fn along(&self, cable: Cable<'_>, s: f64) -> Marker {
         match cable.id.form {
             Form::Chain(chain) => {
                 let (chain, marker) =

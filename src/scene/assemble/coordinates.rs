@@ -37,7 +37,7 @@ impl<const D: usize> Builder<'_, D> {
         Coordinate::Angle(Angle { ends, turn }, index)
     }
 
-    pub(in crate::scene) fn coordinate(&mut self, of: &JointCoordinate<'_>) -> Coordinate<D> {
+    pub(crate) fn coordinate(&mut self, of: &JointCoordinate<'_>) -> Coordinate<D> {
         match of {
             JointCoordinate::Displacement(slider) => Coordinate::Translation(self.way(slider)),
             JointCoordinate::Angle(pivot) => self.counted(pivot),
@@ -51,7 +51,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A spring and a damper on a coordinate of a joint.
-    pub(in crate::scene) fn joint_spring(
+    pub(crate) fn joint_spring(
         &self,
         coordinate: Coordinate<D>,
         [stiffness, damping]: [f64; 2],

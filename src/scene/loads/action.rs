@@ -76,8 +76,8 @@ pub struct DistributedMomentLoad {
 pub struct Action<'a> {
     /// Which.
     pub kind: ActionKind,
-    /// Marker, joint or line body that the load acts on, depending on its kind.
-    pub on: LoadTarget<'a>,
+    /// Marker, joint or line body that it acts on, depending on its kind; in a joint on the second marker, and opposite on the first.
+    pub on: LoadPlace<'a>,
     /// Whether it turns with the marker.
     pub follower: bool,
     /// Components, as many as the kind has. Components that vary along a body are zero here.
@@ -86,17 +86,6 @@ pub struct Action<'a> {
     pub along: Vec<(usize, &'a str)>,
     /// Components as written in the scene; none of an input.
     pub given: &'a [Value],
-}
-
-/// Marker, joint or line body that a force or a moment acts on.
-#[derive(Clone, Copy, Debug)]
-pub enum LoadTarget<'a> {
-    /// A marker.
-    Marker(ResolvedMarker<'a>),
-    /// A joint: its second marker, and the opposite on its first.
-    Joint(Pivot<'a>),
-    /// A cable, per reference length.
-    Cable(Cable<'a>),
 }
 
 /// A load that is a force or a moment.
@@ -165,11 +154,7 @@ impl<L: Acts> SceneLoad for L {
 
 impl<'a> ActingLoad<'a> for Action<'a> {
     fn place(&self) -> LoadPlace<'a> {
-        match self.on {
-            LoadTarget::Marker(marker) => LoadPlace::Marker(marker),
-            LoadTarget::Joint(pivot) => LoadPlace::Coordinate(JointCoordinate::Angle(pivot)),
-            LoadTarget::Cable(cable) => LoadPlace::Line(cable),
-        }
+        self.on
     }
 
     fn action(&self) -> Option<&Action<'a>> {
@@ -179,7 +164,7 @@ impl<'a> ActingLoad<'a> for Action<'a> {
     /// Components that vary along a body are parsed for every Gauss point.
     fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D> {
         let mut load = builder.action(self);
-        if let LoadTarget::Cable(cable) = self.on {
+        if let LoadPlace::Line(cable) = self.on {
             let (along, path) = (&self.along[..], format!("{path}.value"));
             match &mut load {
                 AppliedLoad::DistributedForce(on) => {
@@ -205,27 +190,8 @@ impl<'a> ActingLoad<'a> for Action<'a> {
         };
         LoadWords {
             kind: format!("{what}{turning}, {unit}"),
-            on: words::code(self.on()),
+            on: words::code(self.on.name()),
             size: words::values(self.given),
-        }
-    }
-}
-
-impl<'a> Action<'a> {
-    /// The marker, if it acts on one.
-    pub fn marker(&self) -> Option<ResolvedMarker<'a>> {
-        match self.on {
-            LoadTarget::Marker(marker) => Some(marker),
-            LoadTarget::Joint(_) | LoadTarget::Cable(_) => None,
-        }
-    }
-
-    /// Name of the marker, joint or cable that it acts on.
-    pub fn on(&self) -> &'a str {
-        match self.on {
-            LoadTarget::Marker(marker) => marker.name,
-            LoadTarget::Joint(pivot) => pivot.name,
-            LoadTarget::Cable(cable) => &cable.body.name,
         }
     }
 }
@@ -253,7 +219,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A missing key, a reference that does not exist, or a moment in the plane that follows.
-    pub(in crate::scene) fn resolve_action(
+    pub(crate) fn resolve_action(
         &self,
         path: &str,
         Acting { kind, on, follower }: Acting<'a>,
@@ -266,14 +232,17 @@ impl<'a> Resolved<'a> {
         let at = |key: &str| format!("{path}.{key}");
         let on = match kind.acts_on() {
             // A direction is what a moment turns and what a follower turns with.
-            ActsOn::Marker => LoadTarget::Marker(if follower || !kind.is_force() {
+            ActsOn::Marker => LoadPlace::Marker(if follower || !kind.is_force() {
                 self.require_spinning(&at("marker"), on)?
             } else {
                 self.require_marker(&at("marker"), on)?
             }),
-            ActsOn::Joint => LoadTarget::Joint(self.require_pivot(&at("joint"), on)?),
-            ActsOn::Cable => LoadTarget::Cable(self.require_cable(&at("body"), on)?),
-            ActsOn::Sections => LoadTarget::Cable(self.require_sections(&at("body"), on)?),
+            ActsOn::Joint => {
+                let pivot = self.require_pivot(&at("joint"), on)?;
+                LoadPlace::Coordinate(JointCoordinate::Angle(pivot))
+            }
+            ActsOn::Cable => LoadPlace::Line(self.require_cable(&at("body"), on)?),
+            ActsOn::Sections => LoadPlace::Line(self.require_sections(&at("body"), on)?),
         };
         Ok(Action {
             kind,
@@ -288,7 +257,7 @@ impl<'a> Resolved<'a> {
 
 impl<const D: usize> Builder<'_, D> {
     /// A force or a moment, without what varies along a body.
-    pub(in crate::scene) fn action(&self, action: &Action<'_>) -> AppliedLoad<D> {
+    pub(crate) fn action(&self, action: &Action<'_>) -> AppliedLoad<D> {
         let components = &action.components;
         let moment = |ends| {
             AppliedLoad::Moment(Moment {
@@ -297,18 +266,21 @@ impl<const D: usize> Builder<'_, D> {
             })
         };
         match action.on {
-            LoadTarget::Marker(marker) if action.kind.is_force() => AppliedLoad::Force(Force {
+            LoadPlace::Marker(marker) if action.kind.is_force() => AppliedLoad::Force(Force {
                 marker: self.marker(marker),
                 follower: action.follower,
                 components: each(components),
                 axes: self.frame_axes(marker),
             }),
-            LoadTarget::Marker(marker) if D == 3 => self.moment_on(marker, action),
-            LoadTarget::Joint(pivot) if D == 3 => self.torque(pivot, action),
-            LoadTarget::Marker(marker) => moment(self.on_marker(marker)),
-            LoadTarget::Joint(pivot) => moment(self.ends(pivot.ends)),
-            LoadTarget::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
-            LoadTarget::Cable(cable) => AppliedLoad::DistributedForce(DistributedForce {
+            LoadPlace::Marker(marker) if D == 3 => self.moment_on(marker, action),
+            LoadPlace::Coordinate(JointCoordinate::Angle(pivot)) if D == 3 => {
+                self.torque(pivot, action)
+            }
+            LoadPlace::Marker(marker) => moment(self.on_marker(marker)),
+            LoadPlace::Coordinate(on) => moment(self.ends(on.ends())),
+            LoadPlace::Ends(ends) => moment(self.ends(ends)),
+            LoadPlace::Line(cable) if !action.kind.is_force() => self.moment_along(cable, action),
+            LoadPlace::Line(cable) => AppliedLoad::DistributedForce(DistributedForce {
                 on: self.line(cable),
                 density: uniform(components),
             }),

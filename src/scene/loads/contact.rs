@@ -47,16 +47,7 @@ pub struct ResolvedContact<'a> {
     /// As described.
     given: &'a ContactLoad,
     /// Marker or line body that touches the surface.
-    by: ContactBody<'a>,
-}
-
-/// Marker or line body that touches a surface.
-#[derive(Clone, Copy, Debug)]
-enum ContactBody<'a> {
-    /// A marker.
-    Marker(ResolvedMarker<'a>),
-    /// A cable along its line.
-    Cable(Cable<'a>),
+    by: LoadPlace<'a>,
 }
 
 impl ContactLoad {
@@ -81,12 +72,10 @@ impl SceneLoad for ContactLoad {
             (Some(_), Some(_)) => {
                 return Err(expected(&at("body"), "nothing beside `marker`", "a name"));
             }
-            (Some(marker), None) => {
-                ContactBody::Marker(scene.require_marker(&at("marker"), marker)?)
-            }
+            (Some(marker), None) => LoadPlace::Marker(scene.require_marker(&at("marker"), marker)?),
             (None, body) => {
                 let body = needed(path, "body", "a name", body.as_deref())?;
-                ContactBody::Cable(scene.require_cable(&at("body"), body)?)
+                LoadPlace::Line(scene.require_cable(&at("body"), body)?)
             }
         };
         (self.surface).validate(&at("surface"), scene.scene.dimension)?;
@@ -127,10 +116,7 @@ impl SceneLoad for ContactLoad {
 
 impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
     fn place(&self) -> LoadPlace<'a> {
-        match self.by {
-            ContactBody::Marker(marker) => LoadPlace::Marker(marker),
-            ContactBody::Cable(cable) => LoadPlace::Line(cable),
-        }
+        self.by
     }
 
     fn stiffness(&self) -> [f64; 2] {
@@ -143,11 +129,13 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
 
     fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
         let places = match self.by {
-            ContactBody::Marker(marker) => vec![ContactPoint {
-                marker: builder.marker(marker),
-                weight: 1.0,
-            }],
-            ContactBody::Cable(cable) => builder.places(cable),
+            LoadPlace::Line(cable) => builder.places(cable),
+            on => { on.markers().into_iter() }
+                .map(|marker| ContactPoint {
+                    marker: builder.marker(marker),
+                    weight: 1.0,
+                })
+                .collect(),
         };
         Ok(AppliedLoad::Contact(Box::new(Contact {
             places,
@@ -160,9 +148,9 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
     }
 
     fn words(&self, dimension: usize) -> LoadWords {
-        let (by, unit) = match self.by {
-            ContactBody::Marker(marker) => (marker.name, "N/m"),
-            ContactBody::Cable(cable) => (&*cable.body.name, "N/m per length"),
+        let unit = match self.by {
+            LoadPlace::Line(_) => "N/m per length",
+            _ => "N/m",
         };
         let vector = |of: &SceneVector| words::vector(dimension, of.full());
         let surface = match &self.given.surface {
@@ -194,7 +182,7 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         });
         LoadWords {
             kind: format!("contact with a {}", self.given.surface.name()),
-            on: words::code(by),
+            on: words::code(self.by.name()),
             size: format!("{surface}; {k} {unit}, {a} s/m{friction}"),
         }
     }

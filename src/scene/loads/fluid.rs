@@ -251,7 +251,7 @@ impl<'a> ResolvedLoadKind<'a> {
 
 impl Resolved<'_> {
     /// Mass of all fluids that move along with a body at a section, kg/m.
-    pub(in crate::scene) fn added_mass(&self, body: usize, section: &SectionNumbers) -> f64 {
+    pub(crate) fn added_mass(&self, body: usize, section: &SectionNumbers) -> f64 {
         let fluids = self.loads.iter().filter_map(|load| load.kind.fluid());
         let fluids = fluids.filter(|fluid| fluid.on.id.body_index() == body);
         fluids.map(|fluid| fluid.added(section)).sum()
@@ -261,7 +261,7 @@ impl Resolved<'_> {
     ///
     /// # Errors
     /// A fluid that does not exist, or a current that is not given by finite numbers.
-    pub(in crate::scene) fn set_current(
+    pub(crate) fn set_current(
         &mut self,
         path: &str,
         name: &str,

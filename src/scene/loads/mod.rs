@@ -13,7 +13,7 @@ mod place;
 mod spring_damper;
 mod table_spring;
 
-pub use action::{Action, LoadTarget};
+pub use action::Action;
 pub use fluid::ResolvedFluid;
 pub use number::{LoadNumber, NumberMut};
 pub use place::{Exerts, LoadPlace};

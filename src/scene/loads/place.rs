@@ -27,6 +27,16 @@ impl<'a> LoadPlace<'a> {
         }
     }
 
+    /// Name of the marker, the second one of two, the joint or the body.
+    pub fn name(&self) -> &'a str {
+        match self {
+            Self::Marker(marker) => marker.name,
+            Self::Ends(ends) => ends.second.name,
+            Self::Coordinate(on) => on.name(),
+            Self::Line(cable) => &cable.body.name,
+        }
+    }
+
     /// Both ends, where there are two.
     pub fn ends(&self) -> Option<Ends<'a>> {
         match self {

@@ -41,7 +41,7 @@ impl<'a> Resolved<'a> {
             let path = format!("inputs[{index}]");
             let (kind, start) = self.resolve_input(&path, input, first)?;
             let of = match &kind {
-                resolved::InputKind::Action(action) => action.on(),
+                resolved::InputKind::Action(action) => action.on.name(),
                 resolved::InputKind::RestLength(name)
                 | resolved::InputKind::Release(name)
                 | resolved::InputKind::Current(name) => name,

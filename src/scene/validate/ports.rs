@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{expected, not_negative, quoted, spring_damper};
 use crate::scene::Error;
 use crate::scene::description::{ActionKind, Along, MotionPort, OutputKind, Port, PortKind};
-use crate::scene::loads::{Action, LoadTarget};
+use crate::scene::loads::{Action, LoadPlace};
 use crate::scene::resolved::{
     self, Coupling, CouplingId, DirectionSource, Incoming, InputKind, MotionKind, Output,
     OutputTarget, Resolved, ResolvedMarker, ResolvedMotion,
@@ -136,7 +136,7 @@ impl<'a> Resolved<'a> {
         resolved::Input {
             kind: InputKind::Action(Action {
                 kind,
-                on: LoadTarget::Marker(marker),
+                on: LoadPlace::Marker(marker),
                 follower: false,
                 components: (0..count).map(|k| Signal::Input(first + k)).collect(),
                 along: Vec::new(),

@@ -14,7 +14,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist. The error lists similar names.
-    pub(in crate::scene) fn require_marker(
+    pub(crate) fn require_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -33,7 +33,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist or has no direction, or the scene is in space.
-    pub(in crate::scene) fn require_turning(
+    pub(crate) fn require_turning(
         &self,
         path: &str,
         name: &'a str,
@@ -50,7 +50,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body does not rotate.
-    pub(in crate::scene) fn require_spinning(
+    pub(crate) fn require_spinning(
         &self,
         path: &str,
         name: &'a str,
@@ -65,7 +65,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist or has no orientation, or the scene is planar.
-    pub(in crate::scene) fn require_standing(
+    pub(crate) fn require_standing(
         &self,
         path: &str,
         name: &'a str,
@@ -88,7 +88,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, is on a rod, or its body lacks inertia about an axis.
-    pub(in crate::scene) fn require_driven(
+    pub(crate) fn require_driven(
         &self,
         path: &str,
         name: &'a str,
@@ -111,7 +111,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body has no inertia.
-    pub(in crate::scene) fn require_directed(
+    pub(crate) fn require_directed(
         &self,
         path: &str,
         name: &'a str,
@@ -129,7 +129,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or is on a rigid body.
-    pub(in crate::scene) fn require_cable_marker(
+    pub(crate) fn require_cable_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -145,7 +145,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, is on another body, or the scene is planar.
-    pub(in crate::scene) fn require_rod_marker(
+    pub(crate) fn require_rod_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -166,7 +166,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The marker does not exist, or its body is rigid.
-    pub(in crate::scene) fn require_flexible_marker(
+    pub(crate) fn require_flexible_marker(
         &self,
         path: &str,
         name: &'a str,
@@ -182,11 +182,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The body does not exist, or is of kind `rigid`.
-    pub(in crate::scene) fn require_cable(
-        &self,
-        path: &str,
-        name: &str,
-    ) -> Result<Cable<'a>, Error> {
+    pub(crate) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) => Ok(*cable),
             _ => Err(self.no_line(path, "cable", |_| true, name)),
@@ -197,11 +193,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The body does not exist, or is no rod or beam.
-    pub(in crate::scene) fn require_sections(
-        &self,
-        path: &str,
-        name: &str,
-    ) -> Result<Cable<'a>, Error> {
+    pub(crate) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
             _ => Err(self.no_line(path, "rod or beam", LineBody::is_rod, name)),
@@ -228,7 +220,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The body does not exist, or is rigid.
-    pub(in crate::scene) fn require_flexible(
+    pub(crate) fn require_flexible(
         &self,
         path: &str,
         name: &str,
@@ -241,7 +233,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A marker that does not exist, both ends on one body, or a point where there is no ground.
-    pub(in crate::scene) fn require_pair(
+    pub(crate) fn require_pair(
         &self,
         path: &str,
         markers: &'a [String; 2],
@@ -274,11 +266,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// Both markers are on one body.
-    pub(in crate::scene) fn require_two(
-        &self,
-        path: &str,
-        [a, b]: [usize; 2],
-    ) -> Result<(), Error> {
+    pub(crate) fn require_two(&self, path: &str, [a, b]: [usize; 2]) -> Result<(), Error> {
         if a != b {
             return Ok(());
         }
@@ -294,7 +282,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist. The error lists similar names.
-    pub(in crate::scene) fn require_joint(
+    pub(crate) fn require_joint(
         &self,
         path: &str,
         name: &str,
@@ -304,7 +292,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// Describes a reference to a joint that does not exist.
-    pub(in crate::scene) fn no_joint(&self, path: &str, name: &str) -> Error {
+    pub(crate) fn no_joint(&self, path: &str, name: &str) -> Error {
         let known = self.joints.iter().map(|joint| joint.name);
         unknown(path, "a joint of this scene", name, known)
     }
@@ -313,11 +301,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist, or has no displacement.
-    pub(in crate::scene) fn require_slider(
-        &self,
-        path: &str,
-        name: &str,
-    ) -> Result<Slider<'a>, Error> {
+    pub(crate) fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
         let slider = self.require_joint(path, name)?.slider();
         let wanted = "a joint along a line of the ground or of a rigid body";
         slider.ok_or_else(|| expected(path, wanted, quoted(name)))
@@ -327,7 +311,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist, or has no such coordinate.
-    pub(in crate::scene) fn require_coordinate(
+    pub(crate) fn require_coordinate(
         &self,
         path: &str,
         name: &str,
@@ -359,11 +343,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// The joint does not exist, or has no angle.
-    pub(in crate::scene) fn require_pivot(
-        &self,
-        path: &str,
-        name: &str,
-    ) -> Result<Pivot<'a>, Error> {
+    pub(crate) fn require_pivot(&self, path: &str, name: &str) -> Result<Pivot<'a>, Error> {
         let joint = self.require_joint(path, name)?;
         let is_in_plane = self.scene.dimension == 2;
         let pivot = joint.pivot();

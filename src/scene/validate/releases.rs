@@ -2,7 +2,7 @@
 
 use super::checks::{expected, quoted};
 use crate::scene::Error;
-use crate::scene::loads::{LoadPlace, LoadTarget};
+use crate::scene::loads::LoadPlace;
 use crate::scene::resolved::{ConstraintOwnerId, DirectionSource, InputKind, MotionKind, Resolved};
 use crate::system::Release;
 
@@ -68,9 +68,9 @@ impl Resolved<'_> {
         }
         for input in &self.inputs {
             if let InputKind::Action(action) = &input.kind
-                && let LoadTarget::Joint(pivot) = action.on
+                && let LoadPlace::Coordinate(on) = action.on
             {
-                found.push((pivot.joint, action.kind.words()[0]));
+                found.push((on.joint(), action.kind.words()[0]));
             }
         }
         found

@@ -190,7 +190,7 @@ fn words(
 fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     let (key, what, unit, ways) = words(input);
     let of = match &input.kind {
-        InputKind::Action(action) => action.on(),
+        InputKind::Action(action) => action.on.name(),
         InputKind::RestLength(of) | InputKind::Release(of) | InputKind::Current(of) => of,
     };
     let (name, before) = (
