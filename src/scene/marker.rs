@@ -339,7 +339,7 @@ impl<'a> ResolvedJoint<'a> {
         primitives.any(|of| !of.is_directional() && !is_spring(of))
     }
 
-    /// As a joint with an angle: its ends turn about one point.
+    /// As a joint with an angle: its ends rotate about one point.
     pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
         if self
             .primitives

@@ -130,12 +130,12 @@ fn takes_rates(named: Integrator) -> Result<(), Error> {
     let found = format!("{named:?}").to_lowercase();
     let message = format!(
         "expected \"auto\", \"radau\", \"rk4\" or \"dopri853\" where accelerations read rates (damping, joints that \
-         keep multipliers, a turning frame, the energy of inputs), found \"{found}\""
+         keep multipliers, a rotating frame, the energy of inputs), found \"{found}\""
     );
     Err(Error::new("method.integrator", message))
 }
 
-/// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the turning of its frame;
+/// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the rotation of its frame;
 /// where it has none of them, by its slowest bending (or stretching) or by its springs.
 fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kinetic: f64) -> f64 {
     let (size, mass) = (system.size(), system.mass());

@@ -1,7 +1,7 @@
-//! Rods that turn so quickly that the propeller moment counts, which they do not have.
+//! Rods that rotate so quickly that the propeller moment counts, which they do not have.
 //!
-//! A section of unequal second moments that turns at `w1`, `w2` about its axes takes the moment `rho (I2 - I1) w1 w2` about the
-//! tangent, per length. Where a rod turns at `w` across its line, that is up to `rho |I2 - I1| w^2` times a small twist: a
+//! A section of unequal second moments that rotates at `w1`, `w2` about its axes takes the moment `rho (I2 - I1) w1 w2` about the
+//! tangent, per length. Where a rod rotates at `w` across its line, that is up to `rho |I2 - I1| w^2` times a small twist: a
 //! stiffness, which stands against that of torsion, `G J (PI / (2 L))^2` in the lowest shape of a rod held at one end.
 //!
 //! Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed. (2020), section 3.6 (Euler's equations, here of a section).
@@ -34,7 +34,7 @@ struct Rod {
     is_told: bool,
 }
 
-/// A rod that turns too quickly to leave the propeller moment out.
+/// A rod that rotates too quickly to leave the propeller moment out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoPropeller<'a> {
     /// The body.
@@ -47,7 +47,7 @@ impl fmt::Display for NoPropeller<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{}: turns so quickly that the propeller moment of its sections, which a rod does not have, is about {:.1e} of its stiffness \
+            "{}: rotates so quickly that the propeller moment of its sections, which a rod does not have, is about {:.1e} of its stiffness \
              of torsion; a beam has it",
             self.body, self.share
         )
@@ -87,7 +87,7 @@ impl PropellerWatch {
 }
 
 impl<const D: usize> Engine<D> {
-    /// Looks at a communication point at how fast rods turn across their lines.
+    /// Looks at a communication point at how fast rods rotate across their lines.
     pub(super) fn watch_propeller(&mut self, state: &State, inputs: &Inputs) {
         let mut watch = std::mem::take(&mut self.propeller);
         for rod in watch.rods.iter_mut().filter(|rod| rod.found.is_none()) {
@@ -100,7 +100,7 @@ impl<const D: usize> Engine<D> {
         self.propeller = watch;
     }
 
-    /// A rod that turns too quickly and that has not been told of.
+    /// A rod that rotates too quickly and that has not been told of.
     pub(super) fn next_without_propeller(&mut self) -> Option<NoPropeller<'_>> {
         let mut rods = self.propeller.rods.iter_mut();
         let rod = rods.find(|rod| rod.found.is_some() && !rod.is_told)?;

@@ -82,7 +82,7 @@ pub enum Quantity {
     GearTorque(ConstraintOwnerId),
     /// Component of the force on what drives a marker: opposite to the reaction.
     MotionForce(ConstraintOwnerId, usize),
-    /// Component of the moment on what turns a marker; in the plane the third.
+    /// Component of the moment on what rotates a marker; in the plane the third.
     MotionMoment(ConstraintOwnerId, usize),
     /// Component of the force of a coupling on what it couples to.
     CouplingForce(CouplingId, usize),
@@ -218,7 +218,7 @@ fn sliding<const D: usize, N: Number>(
     })
 }
 
-/// How the rigid body that a marker belongs to stands and turns.
+/// How the rigid body that a marker belongs to stands and rotates.
 fn turning<const D: usize, N: Number>(
     quantity: Quantity,
     values: &Evaluation<D, N>,

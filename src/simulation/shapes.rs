@@ -17,7 +17,7 @@ pub struct Pose {
     /// Position (m) and slope of every node along a cable, rod or beam, between which its line is the cubic of Hermite; of a rigid body
     /// its origin and the first axis of its frame. Third components are zero in the plane.
     pub nodes: Vec<[[f64; 3]; 2]>,
-    /// Axes of the sections of a rod or beam at its nodes, the normal first; of a rigid body that turns in space the axes of its frame;
+    /// Axes of the sections of a rod or beam at its nodes, the normal first; of a rigid body that rotates in space the axes of its frame;
     /// else none. In global components.
     pub axes: Vec<[[f64; 3]; 3]>,
 }

@@ -58,7 +58,7 @@ impl Simulation {
         self.fast.next()
     }
 
-    /// The next rod that turns so quickly that the propeller moment counts, which rods do not have; each is told once.
+    /// The next rod that rotates so quickly that the propeller moment counts, which rods do not have; each is told once.
     pub fn next_without_propeller(&mut self) -> Option<NoPropeller<'_>> {
         let engine = self.engine.as_mut();
         engine.and_then(AnyEngine::next_without_propeller)

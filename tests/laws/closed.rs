@@ -122,7 +122,7 @@ fn a_mass_on_a_link_swings_with_its_frequency() {
     near(&frequencies(&mass, 1), &[(G / 0.7_f64).sqrt()]);
 }
 
-/// A point mass on an isotropic suspension in a turning frame: `w0 +- rotation`, as seen from the frame.
+/// A point mass on an isotropic suspension in a rotating frame: `w0 +- rotation`, as seen from the frame.
 #[test]
 fn a_spinning_frame_splits_a_frequency_in_two() {
     let (m, k, rotation) = (2.0, 50.0, 1.3);

@@ -294,7 +294,7 @@ impl Mechanism {
         })
     }
 
-    /// Whether a point has a direction that can turn, or is the ground.
+    /// Whether a point has a direction that can rotate, or is the ground.
     pub fn turns(&self, point: Point) -> bool {
         match point {
             Point::Ground(_) => true,

@@ -47,7 +47,7 @@ pub fn mechanisms(scope: Scope) -> impl Strategy<Value = Mechanism> {
     })
 }
 
-/// Two bodies that can turn, from numbers; a first hold names a place on each, a second one two places on
+/// Two bodies that can rotate, from numbers; a first hold names a place on each, a second one two places on
 /// the first body.
 pub fn pair(numbers: Vec<f64>) -> Mechanism {
     let mut builder = Builder::new(numbers, ALL);

@@ -39,7 +39,7 @@ fn near(found: &[Eigenvalue], exact: &[[f64; 2]], allowed: f64) {
     }
 }
 
-/// A rigid disc in the middle of four springs that pull with `k` per length each, in a turning frame.
+/// A rigid disc in the middle of four springs that pull with `k` per length each, in a rotating frame.
 fn disc([mass, inertia]: [f64; 2], [stiffness, damping]: [f64; 2], rotation: f64) -> Mechanism {
     let mut made = bodies(&[(rigid(mass, inertia), [0.0; 3])]);
     made.gravity *= 0.0;
@@ -55,7 +55,7 @@ fn disc([mass, inertia]: [f64; 2], [stiffness, damping]: [f64; 2], rotation: f64
     made
 }
 
-/// Jeffcott's rotor with damping that turns along: with `z = x + i y` in the turning frame
+/// Jeffcott's rotor with damping that turns along: with `z = x + i y` in the rotating frame
 /// `z'' + (2 i W + 2 d) z' + (w^2 - W^2) z = 0`, `s = -(d + i W) +- sqrt(d^2 + 2 i d W - w^2)`. It whirls forward and
 /// grows above the critical speed. Its spin is free: 0 twice.
 #[test]

@@ -66,7 +66,7 @@ struct Cost {
     singular: Vec<Singular>,
     /// A mesh that is too coarse, in words.
     unresolved: Option<String>,
-    /// Functions of time that steps do not follow, and rods that turn too quickly, in words.
+    /// Functions of time that steps do not follow, and rods that rotate too quickly, in words.
     told: Vec<String>,
 }
 

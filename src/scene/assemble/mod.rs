@@ -253,7 +253,7 @@ impl<const D: usize> Builder<'_, D> {
             if marker.is_framed() {
                 continue;
             }
-            // Of a planar beam its inertia turns with the section.
+            // Of a planar beam its inertia rotates with the section.
             let section = Some(self.marker(mass.marker));
             let section = section.filter(|of| D == 2 && of.nodes != marker.nodes);
             let inertia = if section.is_some() { 0.0 } else { mass.inertia };

@@ -93,7 +93,7 @@ impl SceneLoad for FluidLoad {
             return Err(expected(&at("diameter"), wanted, "nothing"));
         }
         if scene.scene.turns() {
-            let wanted = "0 where a fluid acts, which does not turn with the frame";
+            let wanted = "0 where a fluid acts, which does not rotate with the frame";
             let found = format!("{:?}", scene.scene.rotation.full());
             return Err(expected("rotation", wanted, found));
         }

@@ -174,8 +174,8 @@ impl RigidBody {
             vector(&place, dimension, point)?;
             if !self.inertia().is_some() && point.full() != [0.0; 3] {
                 let wanted = match dimension {
-                    2 => "[0, 0] in a body without inertia, which does not turn",
-                    _ => "[0, 0, 0] in a body without inertia, which does not turn",
+                    2 => "[0, 0] in a body without inertia, which does not rotate",
+                    _ => "[0, 0, 0] in a body without inertia, which does not rotate",
                 };
                 return Err(expected(&place, wanted, format!("{:?}", point.given())));
             }
@@ -190,7 +190,7 @@ impl RigidBody {
         }
         let spin = self.motion.spin.full();
         if !self.inertia().is_some() && spin != [0.0; 3] {
-            let wanted = "0 in a body without inertia, which does not turn";
+            let wanted = "0 in a body without inertia, which does not rotate";
             let found = match dimension {
                 2 => spin[2].to_string(),
                 _ => format!("{spin:?}"),
@@ -297,7 +297,7 @@ impl RigidBody {
         Ok(())
     }
 
-    /// In space a thin rod has no points beside its axis: nothing says how they turn about it.
+    /// In space a thin rod has no points beside its axis: nothing says how they rotate about it.
     fn validate_thin(
         &self,
         place: &str,
@@ -328,7 +328,7 @@ impl RigidBody {
             ));
         }
         if !self.inertia().is_some() {
-            let wanted = "nothing of a body without inertia, which does not turn";
+            let wanted = "nothing of a body without inertia, which does not rotate";
             return Err(expected(path, wanted, "an orientation"));
         }
         let numbers = orientation.numbers();

@@ -30,7 +30,7 @@ impl JointKind {
         let place = format!("{path}.direction");
         match (self, dimension, self.directions()) {
             (Self::Revolute(_), 3, [None, _]) => {
-                let wanted = "the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`)";
+                let wanted = "the axis [x, y, z] that a revolute joint rotates about (a ball joint is `spherical`)";
                 Err(expected(&place, wanted, "nothing"))
             }
             (Self::Prismatic(_), 3, [None, _]) => {
@@ -229,8 +229,8 @@ impl<'a> Resolved<'a> {
         Ok(())
     }
 
-    /// In space: a thin rod has no inertia that could follow a joint which turns it about its own axis, and does not turn
-    /// about it. So a joint holds that axis alone, or stands on the ground and turns the rod across it.
+    /// In space: a thin rod has no inertia that could follow a joint which rotates it about its own axis, and does not rotate
+    /// about it. So a joint holds that axis alone, or stands on the ground and rotates the rod across it.
     fn require_moments(path: &str, joint: &JointKind, ends: &Ends<'a>) -> Result<(), Error> {
         let primitives = joint.primitives();
         let first = match ends.first {
@@ -270,7 +270,7 @@ impl<'a> Resolved<'a> {
                 | JointPrimitive::PointOnCurve => true,
             };
             if matches!(joint, JointKind::Generic(_)) || !primitives.iter().all(may_hold) {
-                let wanted = "a body with a moment of inertia about every axis, which the joint turns it about";
+                let wanted = "a body with a moment of inertia about every axis, about which the joint rotates it";
                 let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
             }

@@ -103,7 +103,7 @@ impl<'a> Resolved<'a> {
         Ok(())
     }
 
-    /// Axes of a body are those of a rigid body in space that turns.
+    /// Axes of a body are those of a rigid body in space that rotates.
     fn validate_axes(
         &self,
         path: &str,

@@ -120,7 +120,7 @@ impl<'a> Resolved<'a> {
         if marker.place.turns() {
             return Ok(marker);
         }
-        let wanted = "a marker that can turn";
+        let wanted = "a marker that can rotate";
         let found = format!("{}, whose body has no inertia", quoted(name));
         Err(expected(path, wanted, found))
     }
@@ -360,7 +360,7 @@ impl<'a> Resolved<'a> {
                 let found = format!("{}, where {body} has no inertia", quoted(name));
                 return Err(expected(
                     path,
-                    "a joint between bodies that can turn",
+                    "a joint between bodies that can rotate",
                     found,
                 ));
             }

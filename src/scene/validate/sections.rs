@@ -196,7 +196,7 @@ impl LineBody {
     }
 }
 
-const OF_RODS: &str = "nothing of a cable (an element of \"rod\" has sections that turn)";
+const OF_RODS: &str = "nothing of a cable (an element of \"rod\" has sections that rotate)";
 const OF_SPACE: &str =
     "nothing in the plane, where nothing twists and sections bend about one axis";
 
@@ -431,7 +431,7 @@ impl Section {
                 format!("it at {center:?} m"),
             ));
         }
-        // Velocities of points across the line that turns of the section give, and products of inertia with its twist.
+        // Velocities of points across the line that rotations of the section give, and products of inertia with its twist.
         let apart = [(0, 3), (1, 3), (1, 4), (1, 5), (2, 3), (2, 4), (2, 5)].map(|at| (at, 1e-6));
         let products = [(3, 4), (3, 5)].map(|at| (at, 1e-9));
         for ((r, c), part) in apart.into_iter().chain(products) {

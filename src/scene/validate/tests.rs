@@ -251,13 +251,13 @@ fn joints_take_what_is_theirs_and_no_more() {
         /joints/5/length | 1 | joints[5].length: expected a key of the kind
         /joints/2/direction | null | joints[2].direction: expected a direction [x, y], found nothing
         /joints/2/direction | [0, 0] | joints[2].direction: expected a direction that is not zero
-        /joints/2/markers | ["load.eye", "cart.top"] | joints[2].markers[0]: expected a marker that can turn
+        /joints/2/markers | ["load.eye", "cart.top"] | joints[2].markers[0]: expected a marker that can rotate
         /joints/1/point | [1, 0] | joints[1].point: expected nothing between two bodies
         /joints/1/markers | ["rod.top", "crank.a"] | joints[1].markers[0]: expected a marker of this scene
         /joints/1/markers | ["rod.tip", "ground"] | joints[1].markers[1]: expected a marker of this scene
         /joints/1/markers | ["rod.tip", "rod.root"] | joints[1].markers: expected markers of two bodies, found "rod" twice
-        /joints/1/markers | ["rod.tip", "load.eye"] | joints[1].markers[1]: expected a marker that can turn
-        /joints/6/markers | ["load.eye", "rope.tip"] | joints[6].markers[0]: expected a marker that can turn
+        /joints/1/markers | ["rod.tip", "load.eye"] | joints[1].markers[1]: expected a marker that can rotate
+        /joints/6/markers | ["load.eye", "rope.tip"] | joints[6].markers[0]: expected a marker that can rotate
         /joints/1/stiffness | -1 | joints[1].stiffness: expected zero or a positive number (N m/rad)
         /joints/1 | {"name": "knee", "kind": "revolute", "markers": ["rod.tip", "crank.a"]} | accepted
         /joints/1 | {"name": "knee", "kind": "revolute", "markers": ["rod.tip", "crank.a"], "angle": 1} | joints[1].angle: expected a stiffness or a damping beside the angle of a revolute joint, found neither
@@ -302,7 +302,7 @@ fn motions_drive_what_can_be_driven_once() {
         /motions/1/marker | "rod.tip" | motions[1].marker: expected a key of the kind
         /motions/2/marker | null | motions[2].marker: expected a name, found nothing
         /motions/2/joint | "pin" | motions[2].joint: expected a key of the kind
-        /motions/3/marker | "load.eye" | motions[3].marker: expected a marker that can turn
+        /motions/3/marker | "load.eye" | motions[3].marker: expected a marker that can rotate
         /motions/2/value | {"input": 3} | motions[2].value.input: expected 0, 1 or 2, found 3
         /motions/2/value | 1 | motions[2].value: expected 2 values [x, y] or
         /motions/0/value | [1, 2] | motions[0].value: expected one value, found 2
@@ -327,11 +327,11 @@ fn loads_take_what_is_theirs_and_no_more() {
         /loads/0/marker | null | loads[0].marker: expected a name, found nothing
         /loads/0/value | null | loads[0].value: expected a value, found nothing
         /loads/0/value | 1 | loads[0].value: expected 2 values [x, y], found 1
-        /loads/0/marker | "load.eye" | loads[0].marker: expected a marker that can turn
+        /loads/0/marker | "load.eye" | loads[0].marker: expected a marker that can rotate
         /loads/0/joint | "pin" | loads[0].joint: expected a key of the kind
         /loads/1/follower | true | loads[1].follower: expected nothing for a moment in the plane, found true
         /loads/2/follower | true | loads[2].follower: expected a key of the kind
-        /loads/1/marker | "load.eye" | loads[1].marker: expected a marker that can turn
+        /loads/1/marker | "load.eye" | loads[1].marker: expected a marker that can rotate
         /loads/1/value | [1, 2] | loads[1].value: expected one value, found 2
         /loads/1/value | "1 +" | loads[1].value: expected a number, t, a function
         /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint
@@ -364,7 +364,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /inputs/2/follower | true | inputs[2].follower: expected nothing for a moment in the plane
         /inputs/0/joint | "pin" | inputs[0].joint: expected a key of the kind
         /inputs/0/start | [1] | inputs[0].start: expected 2 component(s), found 1
-        /inputs/2/marker | "load.eye" | inputs[2].marker: expected a marker that can turn
+        /inputs/2/marker | "load.eye" | inputs[2].marker: expected a marker that can rotate
         /inputs/3/joint | "link" | inputs[3].joint: expected a revolute joint
         /inputs/4/body | "load" | inputs[4].body: expected the name of a cable
         /inputs/5/loads | "tie" | inputs[5].loads: expected one of the keys kind, load, start, found "loads"; did you mean `load`
@@ -374,8 +374,8 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /loads/5/length | "1+t" | inputs[5].load: expected a spring-damper whose length is a number
         /outputs/0 | {"kind": "position"} | outputs[0].marker: expected a name, found nothing
         /outputs/0 | {"kind": "strain", "marker": "crank.a"} | outputs[0].marker: expected a marker of a cable
-        /outputs/0 | {"kind": "angle", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
-        /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
+        /outputs/0 | {"kind": "angle", "marker": "load.eye"} | outputs[0].marker: expected a marker that can rotate
+        /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can rotate
         /outputs/0 | {"kind": "angular_velocity", "marker": "crank.a", "axes": "body"} | outputs[0].axes: expected nothing in the plane, found axes of a body
         /outputs/0 | {"kind": "torque", "marker": "rod.tip"} | outputs[0].marker: expected a marker of a rod or beam in space: nothing is twisted in the plane
         /outputs/0 | {"kind": "direction", "joint": "knee"} | outputs[0].joint: expected a key of the kind direction
@@ -409,7 +409,7 @@ fn ports_take_what_is_theirs_and_no_more() {
         /ports/0/kind | "flow" | ports[0].kind: expected "
         /ports/0/stiff | 1 | ports[0].stiff: expected one of the keys name, marker
         /ports/0/marker | "rod.top" | ports[0].marker: expected a marker of this scene, found "rod.top"; did you mean `rod.tip`
-        /ports/0/marker | "load.eye" | ports[0].marker: expected a marker that can turn
+        /ports/0/marker | "load.eye" | ports[0].marker: expected a marker that can rotate
         /ports/0 | {"name": "plug", "marker": "load.eye", "kind": "force"} | accepted
         /ports/0/stiffness | 1 | ports[0].stiffness: expected a key of the kind
         /ports/0/rotational_damping | 1 | ports[0].rotational_damping: expected a key of the kind

@@ -62,7 +62,7 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
     }
 }
 
-/// How the frame of a rigid body is to stand, and how it is to turn: what a motion or a port of this name drives, or pulls.
+/// How the frame of a rigid body is to stand, and how it is to rotate: what a motion or a port of this name drives, or pulls.
 fn add_orientation(
     list: &mut List,
     attitude: Attitude,

@@ -11,7 +11,7 @@ pub fn all() -> Vec<Specimen> {
     vec![turning(), turning_in_space(), line(), arc()]
 }
 
-/// A particle in a turning frame: Coriolis and centrifugal force.
+/// A particle in a rotating frame: Coriolis and centrifugal force.
 fn turning() -> Specimen {
     let (m, rate, place, speed, g) = (1.7, 0.9, [0.6, -0.4], [0.5, 1.2], [0.3, -2.0]);
     let scene = json!({

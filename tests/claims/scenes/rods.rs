@@ -171,7 +171,7 @@ fn hinged() -> Specimen {
     specimen
 }
 
-/// Energies, momentum and centre of mass of a rod that turns about the pin, with mass and inertia at its outer end.
+/// Energies, momentum and centre of mass of a rod that rotates about the pin, with mass and inertia at its outer end.
 fn swung(
     specimen: Specimen,
     (spin, g): (f64, f64),

@@ -1,4 +1,4 @@
-//! Forces in sections of cables where something acts inside, on a cable that it moves with, and in a turning frame.
+//! Forces in sections of cables where something acts inside, on a cable that it moves with, and in a rotating frame.
 
 use serde_json::{Value, json};
 

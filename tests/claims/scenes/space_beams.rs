@@ -381,7 +381,7 @@ fn spun(
     vector(specimen, "angular_momentum", "N.m.s", found)
 }
 
-/// A clamped beam that is stiff but for torsion turns at `w = pi c / (2 L)`, `c^2 = G J / (rho (I1 + I2))`; with damping in proportion to
+/// A clamped beam that is stiff but for torsion rotates at `w = pi c / (2 L)`, `c^2 = G J / (rho (I1 + I2))`; with damping in proportion to
 /// stiffness that decays at `tau w^2 / 2`.
 fn damped() -> Specimen {
     let (time, moment, torsion) = (0.02, 1e-3, 1e-6);

@@ -35,7 +35,7 @@ fn fluids_have_a_density_and_stream_past_lines() {
         /loads/0 | {"name": "sea", "kind": "fluid", "body": "rod"} | loads[0].density: expected a density, found nothing
         /loads/0 | {"name": "sea", "kind": "fluid", "density": 1025} | loads[0].body: expected a name, found nothing
         /loads/0 | {"name": "sea", "kind": "distributed_force", "body": "rod", "value": [1, 0], "drag": 1} | loads[0].drag: expected a key of the kind
-        /rotation | 1.5 | rotation: expected 0 where a fluid acts, which does not turn with the frame, found
+        /rotation | 1.5 | rotation: expected 0 where a fluid acts, which does not rotate with the frame, found
         /initial | {"state": "static_equilibrium", "loads": [{"name": "air", "kind": "fluid", "body": "rod", "density": 1}]} | initial.loads[0].kind: expected a force, a moment, a torque or a distributed one, found a fluid
         "#,
     );

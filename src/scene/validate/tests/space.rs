@@ -95,7 +95,7 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /joints/1 | {"name": "knot", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia or of a rod, which has axes
         /joints/2/kind | "cylindrical" | joints[2].markers[1]: expected a marker of a rigid body with inertia
         /joints/2/kind | "planar" | joints[2].markers[1]: expected a marker of a rigid body with inertia
-        /joints/1 | {"name": "h", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
+        /joints/1 | {"name": "h", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected the axis [x, y, z] that a revolute joint rotates about (a ball joint is `spherical`), found nothing
         /joints/1 | {"name": "h", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "stiffness": 1, "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia
         /motions/0 | {"name": "lift", "kind": "angle", "marker": "rope.tip", "value": 0} | motions[0].marker: expected nothing in space, where
         /motions/0 | {"name": "lift", "kind": "angle", "joint": "knot", "value": 0} | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one
@@ -105,7 +105,7 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /outputs/0 | {"kind": "angle", "marker": "rod.tip"} | outputs[0].marker: expected nothing in space, where
         /outputs/0 | {"kind": "angle", "joint": "knot"} | outputs[0].joint: expected a revolute joint with a direction
         /outputs/0 | {"kind": "direction", "marker": "rod.tip"} | accepted
-        /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
+        /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can rotate
         /outputs/0 | {"kind": "angular_velocity", "marker": "rod.tip"} | outputs[0].marker: expected a marker of a rigid body with inertia
         /outputs/0 | {"kind": "orientation", "marker": "load.eye"} | outputs[0].marker: expected a marker of a rigid body with inertia
         /outputs/1 | {"kind": "reaction_moment", "joint": "clamp"} | accepted
@@ -355,10 +355,10 @@ fn joints_hold_axes_of_the_ground_and_of_rigid_bodies() {
     check(
         mechanism,
         r#"
-        /joints/0/direction | null | joints[0].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
+        /joints/0/direction | null | joints[0].direction: expected the axis [x, y, z] that a revolute joint rotates about (a ball joint is `spherical`), found nothing
         /joints/0/kind | "spherical" | joints[0].direction: expected a key of the kind
         /joints/0/direction | [0, 0, 0] | joints[0].direction: expected a direction that is not zero
-        /joints/1/direction | null | joints[1].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
+        /joints/1/direction | null | joints[1].direction: expected the axis [x, y, z] that a revolute joint rotates about (a ball joint is `spherical`), found nothing
         /joints/1/stiffness | null | joints[1].angle: expected a stiffness or a damping beside the angle of a revolute joint, found neither
         /joints/2/second_direction | null | joints[2].second_direction: expected a direction [x, y, z], found nothing
         /joints/2/second_direction | [0, 0, 0] | joints[2].second_direction: expected a direction that is not zero
