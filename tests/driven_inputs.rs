@@ -358,7 +358,10 @@ fn a_rod_without_its_propeller_moment_is_told_once() {
     assert!(share(slow) < 1e-3 && share(fast) > 1e-3);
     let found = told("rod", fast);
     assert_eq!(found.len(), 1, "{found:?}");
-    assert!(found[0].starts_with("strip: rotates so quickly"), "{found:?}");
+    assert!(
+        found[0].starts_with("strip: rotates so quickly"),
+        "{found:?}"
+    );
     let wanted = format!("about {:.1e} of its stiffness", share(fast));
     assert!(found[0].contains(&wanted), "{found:?}, expected {wanted}");
     assert!(told("rod", slow).is_empty());

@@ -477,7 +477,7 @@ impl<'a> MotionKind<'a> {
     /// Name of the marker or joint that is driven.
     pub fn of(&self) -> &'a str {
         match self {
-            Self::Angle(turning, _) => turning.name(),
+            Self::Angle(source, _) => source.name(),
             Self::Position(marker, _) | Self::Orientation(marker, _) | Self::Winch(marker, _) => {
                 marker.name
             }
@@ -488,7 +488,7 @@ impl<'a> MotionKind<'a> {
     /// The marker that is driven, or the second one of the joint.
     pub fn marker(&self) -> ResolvedMarker<'a> {
         match self {
-            Self::Angle(turning, _) => turning.marker(),
+            Self::Angle(source, _) => source.marker(),
             Self::Position(marker, _) | Self::Orientation(marker, _) | Self::Winch(marker, _) => {
                 *marker
             }

@@ -184,8 +184,8 @@ impl Signals {
                 From::Quaternion(parts, order, component) => {
                     let settings = parts.map(|part| simulation.setting(part));
                     let at = |time: f64| {
-                        let turning = self.turning(parts, settings, row, time);
-                        turning[order - 1][*component]
+                        let rotating = self.rotating(parts, settings, row, time);
+                        rotating[order - 1][*component]
                     };
                     let now = at(time);
                     let change = if h > 0.0 {
@@ -203,7 +203,7 @@ impl Signals {
 
     /// Angular velocity and acceleration of a quaternion, of any length, on its curve; parts without a column keep what they are
     /// set to. With `p = q' q^-1`: `w = 2 vec p`, `w' = 2 vec(q'' q^-1) - 2 (scalar p) w`.
-    fn turning(
+    fn rotating(
         &self,
         parts: &[usize; 4],
         settings: [f64; 4],

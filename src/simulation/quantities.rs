@@ -132,7 +132,7 @@ pub(super) fn value<const D: usize, N: Number>(
     let on = |id: MarkerId| -> Marker<N> { assembled.marker(id).lift() };
     let at = |id: MarkerId| assembled.marker(id);
     let joint_of = |joint: ConstraintOwnerId| &system.joints()[joint.index()];
-    let (ends, turn) = (|joint| joint_of(joint).ends, |joint| joint_of(joint).turn);
+    let (ends, rotation) = (|joint| joint_of(joint).ends, |joint| joint_of(joint).turn);
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
@@ -144,9 +144,9 @@ pub(super) fn value<const D: usize, N: Number>(
         | Quaternion(id, ..)
         | RotationVector(id, ..)
         | AngularVelocity(id, ..)
-        | AngularAcceleration(id, ..) => turning(quantity, values, assembled, at(id)),
-        JointVelocity(joint) => match turn(joint) {
-            Some(turn) => turn.rate(&values.x, &values.v),
+        | AngularAcceleration(id, ..) => rotational(quantity, values, assembled, at(id)),
+        JointVelocity(joint) => match rotation(joint) {
+            Some(rotation) => rotation.rate(&values.x, &values.v),
             None => {
                 let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
                 b - a
@@ -156,7 +156,7 @@ pub(super) fn value<const D: usize, N: Number>(
             let (x, v, a) = (&values.x[..], &values.v[..], &values.acceleration[..]);
             let rate = |end: Attachment<D>| end.lift().spin_rate(x, v, a);
             let [first, second] = ends(joint).map(rate);
-            turn(joint).map_or(second - first, |turn| turn.second([x, v, a]))
+            rotation(joint).map_or(second - first, |rotation| rotation.second([x, v, a]))
         }
         Strain(id) => values.strain(system, at(id)).0,
         Curvature(id) => values.strain(system, at(id)).1,
@@ -219,7 +219,7 @@ fn sliding<const D: usize, N: Number>(
 }
 
 /// How the rigid body that a marker belongs to stands and rotates.
-fn turning<const D: usize, N: Number>(
+fn rotational<const D: usize, N: Number>(
     quantity: Quantity,
     values: &Evaluation<D, N>,
     assembled: &Assembled<D>,
@@ -245,7 +245,7 @@ fn turning<const D: usize, N: Number>(
             let rate = values.spin_rate(&assembled.system, marker).into();
             component(rate, axis, along, axes)
         }
-        _ => unreachable!("what else is read of a body does not turn"),
+        _ => unreachable!("what else is read of a body is no rotation"),
     }
 }
 

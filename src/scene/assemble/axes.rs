@@ -45,8 +45,8 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// Returns the rotation of a joint about its axis. `None` for a marker.
-    pub(super) fn axis_turn(&self, turning: &DirectionSource<'_>) -> Option<AxisTurn<D>> {
-        match turning {
+    pub(super) fn axis_turn(&self, source: &DirectionSource<'_>) -> Option<AxisTurn<D>> {
+        match source {
             DirectionSource::Pivot(pivot) => self.turn(*pivot),
             DirectionSource::Marker(_) => None,
         }

@@ -294,8 +294,8 @@ impl<const D: usize> Builder<'_, D> {
         [ground, Attachment::Body(self.marker(marker))]
     }
 
-    fn turning(&self, turning: &DirectionSource<'_>) -> [Attachment<D>; 2] {
-        match turning {
+    fn ends_of(&self, source: &DirectionSource<'_>) -> [Attachment<D>; 2] {
+        match source {
             DirectionSource::Marker(marker) => self.on_marker(*marker),
             DirectionSource::Pivot(pivot) => self.ends(pivot.ends),
         }
@@ -313,8 +313,8 @@ impl<const D: usize> Builder<'_, D> {
 
     /// Angles that are read, as the scene numbers them; those of hinges and ports follow.
     fn angles(&mut self) {
-        for turning in &self.resolved.angles {
-            self.count_angle(self.turning(turning), self.axis_turn(turning));
+        for source in &self.resolved.angles {
+            self.count_angle(self.ends_of(source), self.axis_turn(source));
         }
     }
 

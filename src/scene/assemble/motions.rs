@@ -20,13 +20,13 @@ impl<const D: usize> Builder<'_, D> {
 
     fn motion(&mut self, motion: &MotionKind<'_>) {
         match motion {
-            MotionKind::Angle(turning, drive) => {
-                let (turn, drive) = (self.axis_turn(turning), self.drive(drive));
+            MotionKind::Angle(source, drive) => {
+                let (turn, drive) = (self.axis_turn(source), self.drive(drive));
                 let driven = match turn {
                     Some(turn) => Primitive::DrivenTurn(DrivenTurn { turn, drive }),
                     None => Primitive::DrivenDirection(drive),
                 };
-                self.hold(driven, self.turning(turning));
+                self.hold(driven, self.ends_of(source));
             }
             MotionKind::Position(marker, drives) => {
                 let drives = std::array::from_fn(|k| self.drive(&drives[k]));

@@ -231,7 +231,7 @@ impl<'a> Resolved<'a> {
         }
         let at = |key: &str| format!("{path}.{key}");
         let on = match kind.acts_on() {
-            // A direction is what a moment turns and what a follower turns with.
+            // A direction is what a moment rotates and what a follower rotates with.
             ActsOn::Marker => LoadPlace::Marker(if follower || !kind.is_force() {
                 self.require_spinning(&at("marker"), on)?
             } else {

@@ -36,7 +36,7 @@ pub enum OutputTarget<'a> {
     /// A marker of a cable, and another one of the same body.
     Deflected(ResolvedMarker<'a>, Option<ResolvedMarker<'a>>),
     /// Marker or joint with an angle.
-    Turning(DirectionSource<'a>),
+    Rotation(DirectionSource<'a>),
     /// Marker or joint with an angle that is counted over full turns.
     Angle(DirectionSource<'a>, AngleId),
     /// Points of the section at a marker: the first, and the points as described.

@@ -62,7 +62,7 @@ impl<'a> Resolved<'a> {
                 Kind::Orientation(marker, self.quaternion_of_drives(&at_value, &of.value)?)
             }
             Given::Angle(of) => {
-                let turning = match (&of.marker, &of.joint) {
+                let source = match (&of.marker, &of.joint) {
                     (Some(marker), None) => {
                         DirectionSource::Marker(self.require_turning(&at_marker, marker, NO_ANGLE)?)
                     }
@@ -74,7 +74,7 @@ impl<'a> Resolved<'a> {
                         return Err(expected(path, "either a marker or a joint", found));
                     }
                 };
-                Kind::Angle(turning, self.one_drive(&at_value, &of.value)?)
+                Kind::Angle(source, self.one_drive(&at_value, &of.value)?)
             }
             Given::Winch(of) => {
                 let marker = self.require_paid_out(&at_marker, &of.marker)?;
@@ -125,7 +125,7 @@ impl<'a> Resolved<'a> {
         given: &MotionValue,
     ) -> Result<Vec<Drive>, Error> {
         match given {
-            MotionValue::Input(input) => Ok(self.turned(derivatives(path, input.input)?)),
+            MotionValue::Input(input) => Ok(self.rotation_drives(derivatives(path, input.input)?)),
             MotionValue::Vector(values) if values.len() == 4 => {
                 let values = values.iter().enumerate();
                 let part = |(k, of)| value(&format!("{path}[{k}]"), of, true);
@@ -143,7 +143,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// The parts of an orientation that the master drives, with as many derivatives.
-    pub(super) fn turned(&mut self, derivatives: usize) -> Vec<Drive> {
+    pub(super) fn rotation_drives(&mut self, derivatives: usize) -> Vec<Drive> {
         let first = self.numbers;
         let attitude = Attitude { first, derivatives };
         self.place(attitude.count());

@@ -165,7 +165,7 @@ impl<'a> Resolved<'a> {
                 OutputTarget::Deflected(marker, self.deflected_from(path, of, &marker)?)
             }
             Output::Angle(of) => {
-                let turning = match joint_or_marker(path, &of.joint, &of.marker, Along::Global)? {
+                let source = match joint_or_marker(path, &of.joint, &of.marker, Along::Global)? {
                     Either::First(joint) => {
                         DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
                     }
@@ -175,18 +175,20 @@ impl<'a> Resolved<'a> {
                         NO_ANGLE,
                     )?),
                 };
-                self.count_angle(turning)
+                self.count_angle(source)
             }
-            Output::AngularVelocity(of) | Output::AngularAcceleration(of) => OutputTarget::Turning(
-                match joint_or_marker(path, &of.joint, &of.marker, of.axes)? {
-                    Either::First(joint) => {
-                        DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
-                    }
-                    Either::Last(marker) => {
-                        DirectionSource::Marker(self.require_spinning(&at("marker"), marker)?)
-                    }
-                },
-            ),
+            Output::AngularVelocity(of) | Output::AngularAcceleration(of) => {
+                OutputTarget::Rotation(
+                    match joint_or_marker(path, &of.joint, &of.marker, of.axes)? {
+                        Either::First(joint) => {
+                            DirectionSource::Pivot(self.require_pivot(&at("joint"), joint)?)
+                        }
+                        Either::Last(marker) => {
+                            DirectionSource::Marker(self.require_spinning(&at("marker"), marker)?)
+                        }
+                    },
+                )
+            }
             Output::Orientation(of) | Output::Quaternion(of) | Output::RotationVector(of) => {
                 OutputTarget::Marker(self.require_standing(&at("marker"), &of.marker)?)
             }
@@ -258,9 +260,9 @@ impl<'a> Resolved<'a> {
         Ok(Some(from))
     }
 
-    pub(super) fn count_angle(&mut self, turning: DirectionSource<'a>) -> OutputTarget<'a> {
-        self.angles.push(turning);
-        OutputTarget::Angle(turning, AngleId(self.angles.len() - 1))
+    pub(super) fn count_angle(&mut self, source: DirectionSource<'a>) -> OutputTarget<'a> {
+        self.angles.push(source);
+        OutputTarget::Angle(source, AngleId(self.angles.len() - 1))
     }
 
     fn travel(&self, path: &str, name: &str) -> Result<OutputTarget<'a>, Error> {
@@ -352,11 +354,11 @@ impl<'a> Resolved<'a> {
             let wanted = "a motion other than a winch, whose force is `axial_force` of its marker";
             return Err(expected(path, wanted, quoted(marker.name)));
         }
-        let turns = matches!(
+        let is_rotational = matches!(
             motion.kind,
             MotionKind::Angle(..) | MotionKind::Orientation(..)
         );
-        if turns != is_moment {
+        if is_rotational != is_moment {
             let wanted = if is_moment {
                 "a motion driven by a moment"
             } else {

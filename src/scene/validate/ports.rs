@@ -15,21 +15,21 @@ use crate::system::Signal;
 
 impl MotionPort {
     fn validate_springs(&self, path: &str) -> Result<(), Error> {
-        let turning = [
+        let rotational = [
             ("rotational_stiffness", self.rotational_stiffness, "N m/rad"),
             ("rotational_damping", self.rotational_damping, "N m s/rad"),
         ];
-        let is_turning = turning.iter().any(|(_, value, _)| value.is_some());
-        if !self.is_coupling() && !is_turning {
+        let is_rotational = rotational.iter().any(|(_, value, _)| value.is_some());
+        if !self.is_coupling() && !is_rotational {
             return Ok(());
         }
         let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
         spring_damper(path, self.stiffness, self.damping, units)?;
-        if self.rotation && !is_turning {
+        if self.rotation && !is_rotational {
             let wanted = "a rotational stiffness or a rotational damping";
             return Err(expected(path, wanted, "neither"));
         }
-        for (key, value, unit) in turning {
+        for (key, value, unit) in rotational {
             if let Some(value) = value {
                 not_negative(&format!("{path}.{key}"), unit, value)?;
             }
@@ -107,12 +107,12 @@ impl<'a> Resolved<'a> {
         let mut outputs = vec![(Position, of), (Velocity, of), (Acceleration, of)];
         if port.turns() {
             inputs.push(self.action_input(ActionKind::Moment, marker));
-            let turning = DirectionSource::Marker(marker);
+            let source = DirectionSource::Marker(marker);
             let stands = match self.scene.dimension {
-                2 => (Angle, self.count_angle(turning)),
+                2 => (Angle, self.count_angle(source)),
                 _ => (Quaternion, of),
             };
-            let of = OutputTarget::Turning(turning);
+            let of = OutputTarget::Rotation(source);
             outputs.extend([stands, (AngularVelocity, of), (AngularAcceleration, of)]);
         }
         let outputs = outputs.into_iter();
@@ -158,7 +158,7 @@ impl<'a> Resolved<'a> {
     fn angle(&mut self, marker: ResolvedMarker<'a>, derivatives: usize) -> MotionKind<'a> {
         match self.scene.dimension {
             2 => MotionKind::Angle(DirectionSource::Marker(marker), self.driven(derivatives)),
-            _ => MotionKind::Orientation(marker, self.turned(derivatives)),
+            _ => MotionKind::Orientation(marker, self.rotation_drives(derivatives)),
         }
     }
 

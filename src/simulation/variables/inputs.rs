@@ -85,7 +85,7 @@ fn add_orientation(
         });
     }
     let place = list.variables.len();
-    for (order, (key, kind, unit)) in TURNING.iter().enumerate().skip(1) {
+    for (order, (key, kind, unit)) in ROTATION.iter().enumerate().skip(1) {
         for (k, axis) in AXES
             .iter()
             .enumerate()
@@ -126,7 +126,7 @@ fn words(
     &'static [&'static str],
 ) {
     const AXES: [&str; 3] = ["component x", "component y", "component z"];
-    const TURNING: [&str; 3] = [
+    const ROTATION: [&str; 3] = [
         "along the x axis of its frame",
         "along the y axis of its frame",
         "along the z axis of its frame",
@@ -149,13 +149,13 @@ fn words(
     let is_spatial = input.start.len() == 3;
     let (key, what, unit, ways): (_, _, _, &[_]) = match (action.kind, action.follower) {
         (ActionKind::Force, true) => {
-            let ways: &[_] = if is_spatial { &TURNING } else { &ALONG };
+            let ways: &[_] = if is_spatial { &ROTATION } else { &ALONG };
             ("follower_force", "Force that turns along, on", NEWTON, ways)
         }
         (ActionKind::Force, false) => ("force", "Force on", NEWTON, &AXES),
         (ActionKind::Moment, true) => {
             let what = "Moment that turns along, on";
-            ("follower_moment", what, NEWTON_METRE, &TURNING)
+            ("follower_moment", what, NEWTON_METRE, &ROTATION)
         }
         (ActionKind::Moment, false) => {
             let ways: &[_] = if is_spatial {
@@ -217,7 +217,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
 }
 
 /// Keys, meanings and units of an angle and its derivatives.
-const TURNING: [(&str, &str, Unit); 3] = [
+const ROTATION: [(&str, &str, Unit); 3] = [
     ("angle", "Angle", RADIAN),
     ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND),
     (
@@ -230,7 +230,7 @@ const TURNING: [(&str, &str, Unit); 3] = [
 /// Keys, meanings and units of a motion and its derivatives.
 fn orders(kind: &MotionKind<'_>) -> [(&'static str, &'static str, Unit); 3] {
     match kind {
-        MotionKind::Angle(..) | MotionKind::Orientation(..) => TURNING,
+        MotionKind::Angle(..) | MotionKind::Orientation(..) => ROTATION,
         MotionKind::Position(..) | MotionKind::Displacement(..) | MotionKind::Winch(..) => [
             match kind {
                 MotionKind::Position(..) => ("position", "Position", METRE),

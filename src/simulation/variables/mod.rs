@@ -142,9 +142,9 @@ pub enum Parameter {
     /// Damping of a coupling.
     CouplingDamping(usize),
     /// Rotational stiffness of a coupling.
-    TurningStiffness(usize),
+    RotationalStiffness(usize),
     /// Rotational damping of a coupling.
-    TurningDamping(usize),
+    RotationalDamping(usize),
     /// Component of gravity.
     Gravity(usize),
     /// Rate of the frame.

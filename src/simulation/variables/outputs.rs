@@ -15,8 +15,8 @@ enum OutputShape {
     Scalar,
     /// One an axis.
     Vector,
-    /// One an axis to turn about: in the plane the third alone.
-    Turn,
+    /// One an axis of rotation: in the plane the third alone.
+    Rotational,
     /// Three by three, by rows.
     Matrix,
     /// A scalar part and one an axis.
@@ -34,7 +34,7 @@ enum Read {
     /// Quantity of a marker relative to another one.
     Deflected(fn(MarkerId, Option<MarkerId>, usize) -> Quantity),
     /// Quantities of a marker and of a joint with an angle.
-    Turning(
+    Rotation(
         fn(MarkerId, usize, Along) -> Quantity,
         fn(ConstraintOwnerId) -> Quantity,
     ),
@@ -69,7 +69,7 @@ struct OutputLabel {
 fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
     use OutputKind as Kind;
     use Quantity::*;
-    use OutputShape::{List, Matrix, Points as AtPoints, Quaternion as Four, Scalar, Turn, Vector};
+    use OutputShape::{List, Matrix, Points as AtPoints, Quaternion as Four, Scalar, Rotational, Vector};
     match kind {
         Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
@@ -85,16 +85,16 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         ],
         Kind::Angle => vec![("angle", "Direction {}, counted on over full turns", Some(RADIAN), Scalar, Read::Counted(Angle))],
         Kind::AngularVelocity => vec![
-            ("angular_velocity", "Angular velocity of {}", Some(RADIAN_PER_SECOND), Turn, Read::Turning(AngularVelocity, JointVelocity)),
+            ("angular_velocity", "Angular velocity of {}", Some(RADIAN_PER_SECOND), Rotational, Read::Rotation(AngularVelocity, JointVelocity)),
         ],
         Kind::AngularAcceleration => vec![
-            ("angular_acceleration", "Angular acceleration of {}", Some(RADIAN_PER_SECOND_2), Turn,
-                Read::Turning(AngularAcceleration, JointAcceleration)),
+            ("angular_acceleration", "Angular acceleration of {}", Some(RADIAN_PER_SECOND_2), Rotational,
+                Read::Rotation(AngularAcceleration, JointAcceleration)),
         ],
         Kind::Strain => vec![("strain", "Axial strain at {}", None, Scalar, Read::Marker(|m, _| Strain(m)))],
         Kind::Curvature => vec![("curvature", "Curvature at {}", Some(PER_METRE), Scalar, Read::Marker(|m, _| Curvature(m)))],
         Kind::AxialForce => vec![("axial_force", "Axial force at {}", Some(NEWTON), Scalar, Read::Marker(|m, _| AxialForce(m)))],
-        Kind::BendingMoment => vec![("bending_moment", "Bending moment at {}", Some(NEWTON_METRE), Turn, Read::Marker(BendingMoment))],
+        Kind::BendingMoment => vec![("bending_moment", "Bending moment at {}", Some(NEWTON_METRE), Rotational, Read::Marker(BendingMoment))],
         Kind::Torque => vec![("torque", "Torque about the tangent at {}", Some(NEWTON_METRE), Scalar, Read::Marker(|m, _| Torque(m)))],
         Kind::Stress => vec![("stress", "Normal stress at {}", Some(PASCAL), AtPoints, Read::Points(Stress))],
         Kind::TorsionStress => vec![("torsion_stress", "Shear stress by torsion at {}", Some(PASCAL), AtPoints, Read::Points(TorsionStress))],
@@ -103,7 +103,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         ],
         Kind::Travel => vec![("travel", "Length along the cable at which {} stands", Some(METRE), Scalar, Read::Slide(Travel))],
         Kind::Reaction => vec![("reaction", "Force of {}", Some(NEWTON), Vector, Read::ConstraintOwner(Reaction))],
-        Kind::ReactionMoment => vec![("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::ConstraintOwner(ReactionMoment))],
+        Kind::ReactionMoment => vec![("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Rotational, Read::ConstraintOwner(ReactionMoment))],
         Kind::Energy => energies(resolved),
         Kind::Work => vec![
             ("energy.input", "Work that loads, inputs and motions have done since the start", Some(JOULE), Scalar, Read::Scene(|_| Input)),
@@ -111,7 +111,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         ],
         Kind::Momentum => vec![
             ("momentum", "Linear momentum", Some(NEWTON_SECOND), Vector, Read::Scene(Momentum)),
-            ("angular_momentum", "Angular momentum about the origin", Some(NEWTON_METRE_SECOND), Turn, Read::Scene(AngularMomentum)),
+            ("angular_momentum", "Angular momentum about the origin", Some(NEWTON_METRE_SECOND), Rotational, Read::Scene(AngularMomentum)),
         ],
         Kind::CenterOfMass => vec![("center_of_mass", "Centre of mass", Some(METRE), Vector, Read::Scene(CenterOfMass))],
         Kind::Resolution => vec![
@@ -141,12 +141,12 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
 fn exerted(kind: OutputKind) -> Vec<OutputRow> {
     use OutputKind as Kind;
     use Quantity::*;
-    use OutputShape::{Scalar, Turn, Vector};
+    use OutputShape::{Scalar, Rotational, Vector};
     match kind {
         Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
         Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
         Kind::LoadForce => vec![("force", "Force of {}", Some(NEWTON), Vector, Read::Load(LoadForce))],
-        _ => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Load(LoadMoment))],
+        _ => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Rotational, Read::Load(LoadMoment))],
     }
 }
 
@@ -203,7 +203,7 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         };
         let shape = match (shape, output.of) {
             // A joint has one axis, in space too.
-            (OutputShape::Turn, OutputTarget::Turning(DirectionSource::Pivot(_))) => {
+            (OutputShape::Rotational, OutputTarget::Rotation(DirectionSource::Pivot(_))) => {
                 OutputShape::Scalar
             }
             (OutputShape::Vector, OutputTarget::Sliding(_)) => OutputShape::Scalar,
@@ -251,10 +251,10 @@ fn words<'a>(of: &OutputTarget<'a>) -> (&'a str, String) {
             );
             (marker.name, what)
         }
-        OutputTarget::Turning(DirectionSource::Marker(marker)) => {
+        OutputTarget::Rotation(DirectionSource::Marker(marker)) => {
             (marker.name, format!("the direction at {}", marker.name))
         }
-        OutputTarget::Turning(DirectionSource::Pivot(pivot)) => (pivot.name, second(pivot.name)),
+        OutputTarget::Rotation(DirectionSource::Pivot(pivot)) => (pivot.name, second(pivot.name)),
         OutputTarget::Angle(DirectionSource::Marker(marker), _) => {
             (marker.name, format!("at {}", marker.name))
         }
@@ -299,10 +299,10 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         (Read::Deflected(quantity), OutputTarget::Deflected(marker, from)) => {
             quantity(marker.id, from.map(|from| from.id), k)
         }
-        (Read::Turning(quantity, _), OutputTarget::Turning(DirectionSource::Marker(marker))) => {
+        (Read::Rotation(quantity, _), OutputTarget::Rotation(DirectionSource::Marker(marker))) => {
             quantity(marker.id, k, along)
         }
-        (Read::Turning(_, quantity), OutputTarget::Turning(DirectionSource::Pivot(pivot))) => {
+        (Read::Rotation(_, quantity), OutputTarget::Rotation(DirectionSource::Pivot(pivot))) => {
             quantity(pivot.joint)
         }
         (Read::Moving(quantity, _), OutputTarget::Marker(marker)) => quantity(marker.id, k),
@@ -349,7 +349,7 @@ fn add_port_force(list: &mut List, port: &ResolvedPort<'_>) {
                 MotionForce(position.holder, axis)
             });
             if let Some(angle) = angle {
-                add(moment.0, moment.1, OutputShape::Turn, &|axis| {
+                add(moment.0, moment.1, OutputShape::Rotational, &|axis| {
                     MotionMoment(angle.holder, axis)
                 });
             }
@@ -359,7 +359,7 @@ fn add_port_force(list: &mut List, port: &ResolvedPort<'_>) {
                 CouplingForce(position.id, axis)
             });
             if let Some(angle) = angle {
-                add(moment.0, moment.1, OutputShape::Turn, &|axis| {
+                add(moment.0, moment.1, OutputShape::Rotational, &|axis| {
                     CouplingMoment(angle.id, axis)
                 });
             }
@@ -375,8 +375,8 @@ fn has_springs(resolved: &Resolved<'_>) -> bool {
     let hinges = hinges.map(|[stiffness, _]| stiffness);
     let couplings = resolved.ports.iter().filter_map(|port| match &port.kind {
         PortKind::Coupling { position, angle } => {
-            let turning = angle.as_ref().map_or(0.0, |angle| angle.stiffness);
-            Some(position.stiffness.max(turning))
+            let rotational = angle.as_ref().map_or(0.0, |angle| angle.stiffness);
+            Some(position.stiffness.max(rotational))
         }
         PortKind::Force { .. } | PortKind::Motion { .. } => None,
     });
@@ -402,7 +402,9 @@ impl List {
         let OutputLabel { name, what, unit } = label;
         match (shape, count) {
             (OutputShape::Scalar, _) => self.output(name.clone(), what.clone(), *unit, source(0)),
-            (OutputShape::Turn, 2) => self.output(name.clone(), what.clone(), *unit, source(2)),
+            (OutputShape::Rotational, 2) => {
+                self.output(name.clone(), what.clone(), *unit, source(2))
+            }
             (OutputShape::Matrix, _) => (0..9).for_each(|k| {
                 let what = format!("{what}, {} of the {} axis", AXES[k / 3], AXES[k % 3]);
                 self.output(component(name, k), what, *unit, source(k));

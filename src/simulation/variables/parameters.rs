@@ -242,9 +242,9 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
             #[rustfmt::skip] // a table
             let rows = [
                 ("rotational_stiffness", "Rotational stiffness", Some(NEWTON_METRE_PER_RADIAN),
-                    TurningStiffness(i), angle.stiffness),
+                    RotationalStiffness(i), angle.stiffness),
                 ("rotational_damping", "Rotational damping", Some(NEWTON_METRE_SECOND_PER_RADIAN),
-                    TurningDamping(i), angle.damping),
+                    RotationalDamping(i), angle.damping),
             ];
             list.parameters(port.name, "of", &rows);
         }
@@ -328,8 +328,8 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         Load(i, number, axis) => scene.set_load_number(i, number, axis, value),
         CouplingStiffness(i) => scene.motion_port_mut(i).stiffness = Some(value),
         CouplingDamping(i) => scene.motion_port_mut(i).damping = Some(value),
-        TurningStiffness(i) => scene.motion_port_mut(i).rotational_stiffness = Some(value),
-        TurningDamping(i) => scene.motion_port_mut(i).rotational_damping = Some(value),
+        RotationalStiffness(i) => scene.motion_port_mut(i).rotational_stiffness = Some(value),
+        RotationalDamping(i) => scene.motion_port_mut(i).rotational_damping = Some(value),
         Gravity(axis) => scene.gravity[axis] = value,
         Rotation(axis) => scene.rotation.set(axis, value),
         RelativeTolerance => scene.set_relative_tolerance(value),
