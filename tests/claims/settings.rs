@@ -177,8 +177,8 @@ keys! {
     HingeDamping => "joints", "/damping", "N.m.s/rad";
     CouplingStiffness => "ports", "/stiffness", "N/m";
     CouplingDamping => "ports", "/damping", "N.s/m";
-    TurningStiffness => "ports", "/rotational_stiffness", "N.m/rad";
-    TurningDamping => "ports", "/rotational_damping", "N.m.s/rad";
+    RotationalStiffness => "ports", "/rotational_stiffness", "N.m/rad";
+    RotationalDamping => "ports", "/rotational_damping", "N.m.s/rad";
 }
 
 /// What the master sets, by list of the scene, and its unit.
