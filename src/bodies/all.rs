@@ -154,7 +154,7 @@ impl<const D: usize> Bodies<D> {
         found.next()
     }
 
-    /// Whether a winch pays out any of the lines: their meshes lengthen.
+    /// Whether a winch pays out any of the lines: their meshes scale.
     pub fn pays_out(&self) -> bool {
         self.pays_out
     }

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 
 use crate::math::householder::{reflect, reflector};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, carried, moment};
+use crate::math::space::{Vector, frame_acceleration, moment};
 use crate::math::vector::{dot, norm};
 
 /// Coordinates of a node in `D` dimensions: position, then direction (the slope of a cable, the unit vector of a
@@ -38,12 +38,12 @@ pub fn add_node<const D: usize>(to: &mut Node<D>, factor: f64, node: &Node<D>) {
 }
 
 /// [`carried`] of both vectors of a node.
-pub fn carried_node<const D: usize, N: Number>(
+pub fn node_frame_acceleration<const D: usize, N: Number>(
     rate: [f64; 3],
     x: &Node<D, N>,
     v: &Node<D, N>,
 ) -> Node<D, N> {
-    [0, 1].map(|part| carried(rate, x[part].into(), v[part].into()).into())
+    [0, 1].map(|part| frame_acceleration(rate, x[part].into(), v[part].into()).into())
 }
 
 /// A nodal vector of numbers made one by one.
@@ -52,7 +52,7 @@ pub fn map_node<const D: usize, A: Copy, B>(node: &Node<D, A>, of: impl Fn(A) ->
 }
 
 /// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes.
-pub fn largest_turn<const D: usize>(from: &[Node<D>], to: &[Node<D>]) -> f64 {
+pub fn largest_rotation<const D: usize>(from: &[Node<D>], to: &[Node<D>]) -> f64 {
     // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
     let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
     for (a, b) in from.iter().zip(to) {

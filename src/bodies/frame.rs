@@ -19,10 +19,10 @@
 
 mod body;
 mod derivatives;
+mod increment;
 mod section_frame;
 mod shear_rotation;
 mod tangent;
-mod turn;
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -32,9 +32,9 @@ use crate::math::space::{components, vector};
 
 pub(super) use body::unplaced;
 pub use derivatives::{AngularAccelerations, AxisMotion};
+pub use increment::RotationIncrement;
 pub use section_frame::{Derivative, SectionFrame, SectionFrameState};
-pub use tangent::turning_block;
-pub use turn::RotationIncrement;
+pub use tangent::rotation_block;
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
 pub const RENEWED: f64 = 0.5;
@@ -64,7 +64,7 @@ pub fn combined<N: Number>(axes: &Axes<N>, components: &Vector3<N>) -> Vector3<N
 }
 
 /// Rates of axes that turn at a spin along themselves.
-pub fn turned<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> {
+pub fn axis_rates<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> {
     [
         b * spin[2] - c * spin[1],
         c * spin[0] - a * spin[2],

@@ -60,7 +60,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     }
 
     fn add_inertia_now(&self, drives: &[[f64; 3]], a: &[Node<D>], f: &mut [Node<D>]) {
-        LineChain::add_inertia(self, self.length_now(drives).longer_by(), a, f);
+        LineChain::add_inertia(self, self.length_now(drives).length_ratio(), a, f);
     }
 
     fn add_weight(&self, gravity: &Vector<D>, f: &mut [Node<D>]) {
@@ -73,7 +73,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
         motion: NodalMotion<'_, D>,
         (f, _): (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
-        let longer = self.length_now(motion.drives).longer();
+        let longer = self.length_now(motion.drives).scaling();
         LineChain::add_force(self, motion.pair(), longer, f)
     }
 
@@ -82,7 +82,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
         motion: NodalMotion<'_, D, N>,
         (f, _): (&mut [Node<D, N>], &mut [[N; 3]]),
     ) {
-        let longer = self.length_now(motion.drives).longer();
+        let longer = self.length_now(motion.drives).scaling();
         LineChain::add_force_of(self, motion.pair(), longer, f);
     }
 
@@ -93,7 +93,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
         assembly: &Assembly<D>,
         [stiffness, damping]: [&mut Matrix<f64>; 2],
     ) {
-        let longer = self.length_now(motion.drives).longer();
+        let longer = self.length_now(motion.drives).scaling();
         let matrices = (stiffness, damping);
         LineChain::add_tangent(self, motion.pair(), longer, assembly, matrices);
     }
@@ -131,7 +131,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     }
 
     fn dissipation<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
-        let longer = self.length_now(motion.drives).longer();
+        let longer = self.length_now(motion.drives).scaling();
         LineChain::dissipation(self, motion.pair(), longer)
     }
 
@@ -141,7 +141,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
             let at: Nodal<D, N> = self.element(j, motion.x);
             let mut p = self.element(j, motion.v) * element.mass().map(N::of);
             if let Some((winch, now)) = &paid_out {
-                p = p / now.by + winch.passing_momentum(self, j, motion.x, now);
+                p = p / now.by + winch.convective_momentum(self, j, motion.x, now);
             }
             for k in 0..4 {
                 sum.add(at.column(k).into(), p.column(k).into(), k % 2 == 0);

@@ -153,7 +153,7 @@ impl<const D: usize> Bodies<D> {
         motion: NodalMotion<'_, D>,
         blocks: &mut NodeBlocks,
     ) {
-        blocks.add_turned(by_rates, self, motion.pair());
+        blocks.add_by_rates_of_axes(by_rates, self, motion.pair());
     }
 
     /// Adds the stiffness of the centrifugal force at a rotation of the frame of the scene, rad/s: the square of its matrix times the mass.

@@ -1,5 +1,5 @@
 //! From coordinates that are integrated to nodal coordinates `x`, and forces back. Nodes of cables are what is integrated. Nodes of rigid
-//! bodies and of sections follow from rotations (`frame.rs`), those of a cable on a winch from its length (`winch/lengthening.rs`).
+//! bodies and of sections follow from rotations (`frame.rs`), those of a cable on a winch from its length (`winch/scaling.rs`).
 
 use super::assembly::NodeBlock;
 use super::body::{BodyPart, NodalMotion, each};
@@ -57,7 +57,7 @@ impl<const D: usize> Bodies<D> {
         rotations: &mut Rotations,
         x: &mut [Node<D>],
     ) {
-        self.lengthen(drives, x);
+        self.scale(drives, x);
         each!(self, |body| BodyPart::place(body, from, rotations, x));
     }
 
@@ -70,7 +70,7 @@ impl<const D: usize> Bodies<D> {
         x: &[Node<D>],
         v: &mut [Node<D>],
     ) {
-        self.lengthen_rates(drives, x, v);
+        self.scale_rates(drives, x, v);
         each!(self, |body| BodyPart::place_rates(body, x, rotations, v));
     }
 
@@ -82,7 +82,7 @@ impl<const D: usize> Bodies<D> {
         x: &[Node<D, N>],
         dx: &mut [Node<D, N>],
     ) {
-        self.shorten(drives, dx);
+        self.pull_back_scaled(drives, dx);
         each!(self, |body| BodyPart::place_changes(body, x, dx));
     }
 
@@ -90,7 +90,7 @@ impl<const D: usize> Bodies<D> {
     #[inline(always)]
     pub fn add_bias<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
         each!(self, |body| BodyPart::add_centripetal(body, motion, a));
-        self.add_lengthened(motion, a);
+        self.add_scaling_bias(motion, a);
     }
 
     /// Takes forces on nodes back to what is integrated: forces, moments along axes. Gyroscopic moments and the moments `torques` of sections
@@ -102,7 +102,7 @@ impl<const D: usize> Bodies<D> {
         torques: &[[N; 3]],
         f: &mut [Node<D, N>],
     ) {
-        self.shorten(motion.drives, f);
+        self.pull_back_scaled(motion.drives, f);
         let rates = (motion.x, Some(motion.v));
         each!(self, |body| BodyPart::pull_back(body, rates, f));
         each!(self, |body| BodyPart::add_torques(body, torques, f));
@@ -120,7 +120,7 @@ impl<const D: usize> Bodies<D> {
     ) {
         let shortened;
         let block = if self.pays_out {
-            shortened = self.shorten_block((a, b), drives, block);
+            shortened = self.pull_back_scaled_block((a, b), drives, block);
             &shortened
         } else {
             block

@@ -2,7 +2,7 @@
 
 use super::assembly::{Assembly, NodeBlock};
 use super::body::{BodyPart, NodalMotion, each};
-use super::connectivity::{Node, carried_node, no_node};
+use super::connectivity::{Node, no_node, node_frame_acceleration};
 use super::{Bodies, RodChain};
 use crate::elements::beam::Force;
 use crate::math::jet::Number;
@@ -60,7 +60,7 @@ impl<const D: usize> Bodies<D> {
     ) -> f64 {
         let mut dissipated = 0.0;
         if self.pays_out {
-            self.add_lengthening(motion, other, f);
+            self.add_paid_out_forces(motion, other, f);
         }
         torques.fill([0.0; 3]);
         each!(self, |body| {
@@ -78,7 +78,7 @@ impl<const D: usize> Bodies<D> {
         is_elastic: bool,
     ) {
         if self.pays_out {
-            self.add_lengthening(motion, other, f);
+            self.add_paid_out_forces(motion, other, f);
         }
         torques.fill([N::of(0.0); 3]);
         if is_elastic {
@@ -98,7 +98,7 @@ impl<const D: usize> Bodies<D> {
         f: &mut [Node<D, N>],
     ) {
         for (carried, (x, v)) in other.iter_mut().zip(motion.x.iter().zip(motion.v)) {
-            *carried = carried_node(rotation, x, v);
+            *carried = node_frame_acceleration(rotation, x, v);
         }
         self.add_inertia(-1.0, other, f);
         each!(self, |body| BodyPart::add_frame_spin(

@@ -34,14 +34,14 @@ pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use body::NodalMotion;
 pub use chain::Chain;
 pub use connectivity::{
-    Cluster, ConnectivityRow, Dependent, Node, RANK_TOLERANCE, add_node, carried_node,
-    largest_turn, map_node, no_node, product, tied_with,
+    Cluster, ConnectivityRow, Dependent, Node, RANK_TOLERANCE, add_node, largest_rotation,
+    map_node, no_node, node_frame_acceleration, product, tied_with,
 };
 pub use drawn::LineStance;
 pub use elimination::Elimination;
 pub use frame::{
     AngularAccelerations, Axes, AxisMotion, Derivative, RENEWED, RigidBodyFrame, SectionFrame,
-    axes_at, combined, spin_at, turned, turning_block,
+    axes_at, axis_rates, combined, rotation_block, spin_at,
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use linearized::{ElementTangent, LinearTerms, LinearizationPoint};
@@ -51,7 +51,7 @@ pub use map::{Rotations, ScratchVectors};
 pub use marker::{Marker, Partial, block_of};
 pub use nodes::NodeKind;
 pub use probe::{NodeBlocks, Nodes, Probe, SKEW};
-pub use rod_chain::{RodChain, carried_nodes, middle, planar_axes, turn_inner, untwisted};
+pub use rod_chain::{RodChain, middle, planar_axes, rotate_inner, transported_nodes, untwisted};
 pub use stages::{RotatingNodes, STAGES};
 pub use tangent::Tangent;
 pub use winch::Winch;

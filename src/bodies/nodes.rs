@@ -150,7 +150,7 @@ impl<const D: usize> Bodies<D> {
 
     /// Takes forces on nodes back to what is integrated, without what rates ask for.
     pub fn pull_back<N: Number>(&self, drives: &[[N; 3]], x: &[Node<D, N>], f: &mut [Node<D, N>]) {
-        self.shorten(drives, f);
+        self.pull_back_scaled(drives, f);
         each!(self, |body| BodyPart::pull_back(body, (x, None), f));
     }
 
@@ -228,7 +228,7 @@ impl<const D: usize> Bodies<D> {
         let assembly = &elimination.assembly;
         let sections = self.sections.iter_mut();
         for frame in sections.flat_map(RodChain::section_frames_mut) {
-            for axis in 0..frame.turns() {
+            for axis in 0..frame.rotations() {
                 assembly.restrict_node(frame.node, &turned(axis, 1.0), &mut y);
                 let mut range = assembly.range_of(frame.node);
                 let place = range.clone().find(|at| y[*at] != 0.0);

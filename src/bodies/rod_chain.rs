@@ -3,12 +3,12 @@
 //! internal shear rotations alone. In the plane there are beams alone; the section at a node is a unit vector in one node (`plane.rs`).
 
 mod body;
+mod frame_spin;
 mod inertia;
 mod lanes;
 mod loaded;
 mod plane;
 mod shaped;
-mod turning;
 
 use std::ops::Range;
 
@@ -23,8 +23,8 @@ use crate::elements::section::{SectionElement, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
 use lanes::{Packed, packs};
-pub use plane::{axes as planar_axes, middle, turn_inner};
-pub use shaped::carried_nodes;
+pub use plane::{axes as planar_axes, middle, rotate_inner};
+pub use shaped::transported_nodes;
 
 /// Where the internal twist and a beam's two internal shear rotations stand in a node inside an element: part and axis. The first axis stands one
 /// further than the shear rotation, so that the node has a direction.
@@ -78,7 +78,9 @@ impl RodChain {
         first_section: usize,
     ) -> Self {
         let (nodes, stride) = (elements.len() + 1, D - 1);
-        let turns = elements.first().map_or(1, |(section, _)| section.turns());
+        let turns = elements
+            .first()
+            .map_or(1, |(section, _)| section.rotations());
         let mut made = Self {
             parts: if D == 2 { plane::PARTS } else { 0..turns },
             is_damped: elements.iter().any(|(section, _)| section.is_damped()),
@@ -173,7 +175,7 @@ impl RodChain {
     }
 
     /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam; in the plane 1.
-    pub fn turns(&self) -> usize {
+    pub fn rotations(&self) -> usize {
         self.parts.len()
     }
 

@@ -150,7 +150,7 @@ impl<const D: usize> Stages<D> {
         }
         assembly.prolong(y, &mut self.nodes);
         self.weigh(assembly, stage);
-        turn_all(&mut self.nodes, (&self.turned[stage], &self.base));
+        rotate_all(&mut self.nodes, (&self.turned[stage], &self.base));
         self.sections.rotate_to_tangent(stage, &mut self.nodes);
         assembly.restrict(&self.nodes, y);
         for f in &self.floating {
@@ -164,7 +164,7 @@ impl<const D: usize> Stages<D> {
             f.remember(|f| &f.momentum, y);
         }
         assembly.prolong(y, &mut self.nodes);
-        turn_all(&mut self.nodes, (&self.base, &self.turned[stage]));
+        rotate_all(&mut self.nodes, (&self.base, &self.turned[stage]));
         self.sections.rotate_to_stage(stage, &mut self.nodes);
         self.weigh(assembly, stage);
         assembly.restrict(&self.nodes, y);
@@ -464,7 +464,7 @@ fn unit_directions<const D: usize>(x: &[Node<D>], elastic: &[bool], units: &mut 
 }
 
 /// Turns the vectors of every node.
-fn turn_all<const D: usize>(
+fn rotate_all<const D: usize>(
     nodes: &mut [Node<D>],
     (from, to): (&[SVector<f64, D>], &[SVector<f64, D>]),
 ) {

@@ -13,7 +13,7 @@
 //! J. Sound Vib. 310 (2008) 493-511 (material that passes through a mesh); W. D. Zhu, J. Ni, Energetics and stability of translating media
 //! with an arbitrarily varying length, J. Vib. Acoust. 122 (2000) 295-304 (equation of motion, energy that comes in).
 
-mod lengthening;
+mod scaling;
 
 use std::ops::Range;
 
@@ -56,7 +56,11 @@ pub struct PaidOut<'a, const D: usize, N> {
 
 impl<const D: usize, N: Number> PaidOut<'_, D, N> {
     /// Velocity at which material passes a place of the mesh, from the slope `r'` there, m/s.
-    pub fn passing(&self, (element, at): (usize, f64), slope: Vector<D, N>) -> Vector<D, N> {
+    pub fn convective_velocity(
+        &self,
+        (element, at): (usize, f64),
+        slope: Vector<D, N>,
+    ) -> Vector<D, N> {
         let way = self.winch.way(self.chain, element, at);
         slope * (self.now.rate * N::of(way))
     }
@@ -68,8 +72,8 @@ impl<const D: usize, N: Number> PaidOut<'_, D, N> {
 }
 
 /// The length now over the reference length; 1 of what no winch pays out.
-pub fn longer_by<const D: usize, N: Number>(paid_out: Option<&PaidOut<'_, D, N>>) -> N {
-    paid_out.map_or_else(|| N::of(1.0), |paid_out| paid_out.now.longer_by())
+pub fn length_ratio<const D: usize, N: Number>(paid_out: Option<&PaidOut<'_, D, N>>) -> N {
+    paid_out.map_or_else(|| N::of(1.0), |paid_out| paid_out.now.length_ratio())
 }
 
 /// Ratio `g` of present and reference length of a cable, with its time derivatives.
@@ -87,12 +91,12 @@ pub struct Length<N> {
 
 impl<N: Number> Length<N> {
     /// Returns `1 / g` and `L' / L` (1/s), which the chain of the cable needs.
-    pub fn longer(&self) -> [N; 2] {
+    pub fn scaling(&self) -> [N; 2] {
         [self.by, self.rate]
     }
 
     /// `g`, the length now over the reference length.
-    pub fn longer_by(&self) -> N {
+    pub fn length_ratio(&self) -> N {
         N::of(1.0) / self.by
     }
 
@@ -172,7 +176,7 @@ impl<const D: usize> Winch<D> {
     }
 
     /// Velocity at which material passes a place of the mesh, `xi c L_0 r'`, m/s.
-    fn passing<N: Number>(
+    fn convective_velocity<N: Number>(
         &self,
         (chain, j, xi): (&LineChain<D>, usize, f64),
         e: &Nodal<D, N>,
@@ -180,7 +184,7 @@ impl<const D: usize> Winch<D> {
     ) -> Vector<D, N> {
         let slope = e * shape::slopes(N::of(xi), chain.element_length(j));
         let (winch, now) = (self, *now);
-        PaidOut { winch, chain, now }.passing((j, xi), slope)
+        PaidOut { winch, chain, now }.convective_velocity((j, xi), slope)
     }
 
     /// Inertia forces of the accelerations of the material that follow from positions and rates of the mesh, at the Gauss points of an
@@ -208,7 +212,7 @@ impl<const D: usize> Winch<D> {
     }
 
     /// Momentum of the material that passes through the mesh, over the coordinates of an element, kg m/s and kg m^2/s.
-    pub fn passing_momentum<N: Number>(
+    pub fn convective_momentum<N: Number>(
         &self,
         chain: &LineChain<D>,
         j: usize,
@@ -216,7 +220,8 @@ impl<const D: usize> Winch<D> {
         now: &Length<N>,
     ) -> Nodal<D, N> {
         let (e, density) = (chain.element(j, x), N::of(self.density) / now.by);
-        let passing = GAUSS_5.map(|point| self.passing((chain, j, point.at), &e, now) * density);
+        let passing =
+            GAUSS_5.map(|point| self.convective_velocity((chain, j, point.at), &e, now) * density);
         on_coordinates(&passing, chain.element_length(j))
     }
 
@@ -232,7 +237,7 @@ impl<const D: usize> Winch<D> {
             let (l, [e, rates]) = (element.length(), [x, v].map(|of| chain.element(j, of)));
             sum += (rates * element.mass().map(N::of)).dot(&rates) * N::of(0.5);
             for point in &GAUSS_5 {
-                let passing = self.passing((chain, j, point.at), &e, now);
+                let passing = self.convective_velocity((chain, j, point.at), &e, now);
                 let mesh = rates * shape::values(N::of(point.at), l);
                 let twice = passing.dot(&(mesh * N::of(2.0) + passing));
                 sum += twice * N::of(0.5 * self.density * point.weight * l);
@@ -256,7 +261,8 @@ impl<const D: usize> Winch<D> {
         let (element, [e, rates]) = (&chain.elements()[j], [x, v].map(|of| chain.element(j, of)));
         let l = element.length();
         let place = e * shape::values(N::of(xi), l);
-        let velocity = rates * shape::values(N::of(xi), l) + self.passing((chain, j, xi), &e, now);
+        let velocity =
+            rates * shape::values(N::of(xi), l) + self.convective_velocity((chain, j, xi), &e, now);
         let (at, rate) = (e * now.by, (rates - e * now.rate) * now.by);
         let strain = element.recovered_strain(&at, None, xi);
         let total = element.recovered_strain(&at, Some(&rate), xi);

@@ -108,7 +108,7 @@ pub type Vectors<N> = [[N; 3]; GAUSS_5.len()];
 
 impl SectionElement {
     /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam, 1 of one in the plane.
-    pub fn turns(&self) -> usize {
+    pub fn rotations(&self) -> usize {
         match self {
             Self::Rod(_) => 1,
             Self::Beam(_) => 3,

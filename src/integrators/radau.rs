@@ -32,7 +32,7 @@ const END: usize = 2;
 /// Most Newton iterations.
 const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
-const LARGEST_TURN: f64 = 1.5;
+const LARGEST_ROTATION: f64 = 1.5;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
 
@@ -418,7 +418,7 @@ impl OneStepMethod for Radau {
             return fail(self, factor);
         }
         self.place(END, q, v);
-        if dynamics.largest_turn(q, &self.stage_q) > LARGEST_TURN {
+        if dynamics.largest_rotation(q, &self.stage_q) > LARGEST_ROTATION {
             return fail(self, 0.5);
         }
         let error = self.estimate(dynamics, state, h, tolerance);

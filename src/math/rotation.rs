@@ -11,7 +11,7 @@ use super::jet::Number;
 pub type Quaternion<N = f64> = [N; 4];
 
 /// The rotation by nothing.
-pub const NO_TURN: Quaternion = [1.0, 0.0, 0.0, 0.0];
+pub const NO_ROTATION: Quaternion = [1.0, 0.0, 0.0, 0.0];
 
 /// Square of the sine of half an angle up to which the angle is summed as a series.
 const SMALL: f64 = 1e-2;
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn the_near_quaternion_is_on_the_side_of_the_other() {
-        let mut near = NO_TURN;
+        let mut near = NO_ROTATION;
         for k in 0..200 {
             let angle = 0.1 * f64::from(k);
             let matrix = Rotation3::new(Vector3::new(0.6, 0.0, 0.8) * angle);

@@ -94,7 +94,7 @@ pub fn spin_matrix<const D: usize>(spin: [f64; 3]) -> SMatrix<f64, D, D> {
 ///
 /// Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed., section 2.5.
 #[inline(always)]
-pub fn carried<const D: usize, N: Number>(
+pub fn frame_acceleration<const D: usize, N: Number>(
     rate: [f64; 3],
     r: Vector<D, N>,
     v: Vector<D, N>,

@@ -10,7 +10,7 @@ use super::resolved::{
 };
 use super::unit::{METRE, RADIAN, Unit};
 use super::{Body, LineBody, Model, RigidBody, Scene};
-use crate::math::rotation::{NO_TURN, Quaternion, quaternion};
+use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
 use crate::scene::description::JointPrimitive;
 use crate::system::Drive;
@@ -186,7 +186,7 @@ impl<'a> Place<'a> {
     /// Quaternion of the frame of a rigid body of space as described, scalar first and not negative.
     pub fn quaternion(self) -> Quaternion {
         let Self::Point(rigid, _) = self else {
-            return NO_TURN;
+            return NO_ROTATION;
         };
         let axes = rigid.body.axes();
         quaternion(&std::array::from_fn(|k| axes.column(k).into_owned()))

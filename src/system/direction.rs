@@ -18,7 +18,7 @@ pub enum Direction<const D: usize> {
 
 /// Rotation of one body relative to another about an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AxisTurn<const D: usize> {
+pub struct AxisRotation<const D: usize> {
     /// Unit vectors `n` and `m` across the axis, fixed in the first body.
     pub across: [Direction<D>; 2],
     /// Unit vector `u` across the axis, fixed in the second body.
@@ -51,7 +51,7 @@ impl<const D: usize> Direction<D> {
     }
 }
 
-impl<const D: usize> AxisTurn<D> {
+impl<const D: usize> AxisRotation<D> {
     /// Cosine and sine of the angle, times one factor: `n . u` and `m . u`.
     pub(super) fn products<N: Number>(&self, x: &[Node<D, N>]) -> [N; 2] {
         let u = self.of.value(x);

@@ -5,7 +5,7 @@ use nalgebra::SMatrix;
 use crate::bodies::{ConnectivityRow, Marker, Node, NodeBlock, block_of};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, perpendicular, perpendicular_matrix};
-use crate::system::direction::AxisTurn;
+use crate::system::direction::AxisRotation;
 
 /// A point of the ground or of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,13 +144,13 @@ pub struct Angle<const D: usize = 2> {
     /// From here to there.
     pub ends: [Attachment<D>; 2],
     /// In space, about what.
-    pub turn: Option<AxisTurn<D>>,
+    pub turn: Option<AxisRotation<D>>,
 }
 
 impl<const D: usize> Angle<D> {
     /// In space, about what; nothing in the plane, which is known when compiling.
     #[inline(always)]
-    pub fn about(&self) -> Option<&AxisTurn<D>> {
+    pub fn about(&self) -> Option<&AxisRotation<D>> {
         match D {
             2 => None,
             _ => self.turn.as_ref(),

@@ -21,7 +21,7 @@ mod workspace;
 pub use attitude::Attitude;
 pub use build::{BuildError, Parts};
 pub use coordinate::{Coordinate, Translation};
-pub use direction::{AxisTurn, Direction};
+pub use direction::{AxisRotation, Direction};
 pub use end::{Angle, Attachment, reach};
 pub use gradient::Gradient;
 pub use instant::Instant;
@@ -44,7 +44,7 @@ pub use start::steady::{NotSteady, Steady};
 pub use state::{DenseStep, MethodStatistics, State};
 pub use workspace::{Kinematics, Workspace};
 
-use crate::math::rotation::NO_TURN;
+use crate::math::rotation::NO_ROTATION;
 use crate::math::space::Vector;
 
 use crate::bodies::{Bodies, Elimination, Node};
@@ -162,7 +162,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Whether the frame turns that the scene is described in.
-    pub(in crate::system) fn is_turning(&self) -> bool {
+    pub(in crate::system) fn is_rotating(&self) -> bool {
         self.rotation != [0.0; 3]
     }
 
@@ -207,7 +207,7 @@ impl<const D: usize> System<D> {
             pace: MethodStatistics::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
-            frames: vec![NO_TURN; self.bodies.frame_count()],
+            frames: vec![NO_ROTATION; self.bodies.frame_count()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
             released: vec![0.0; self.releases.len()],

@@ -10,7 +10,7 @@ use crate::bodies::{
 };
 use crate::math::jet::Number;
 use crate::math::recent::Recent;
-use crate::math::rotation::{NO_TURN, Quaternion};
+use crate::math::rotation::{NO_ROTATION, Quaternion};
 
 /// Scratch of all stages of an evaluation, and the parts of a state that are needed beside `q`.
 #[derive(Clone, Debug)]
@@ -283,7 +283,7 @@ impl<const D: usize> Kinematics<D> {
             recent: vec![Recent::default(); system.drives.len()],
             releases: system.releases.clone(),
             released: vec![false; system.releases.len()],
-            frames: vec![NO_TURN; system.bodies.frame_count()],
+            frames: vec![NO_ROTATION; system.bodies.frame_count()],
             drives: vec![[0.0; 3]; system.drives.len()],
             targets: vec![[0.0; 3]; system.driven.len()],
             x: nodes.clone(),

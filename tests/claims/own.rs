@@ -277,7 +277,7 @@ fn a_stretch_counts_as_a_turn() {
         let mut scratch = vec![0.0; elimination.scratch()];
         elimination.reduce(&forces, &mut scratch, &mut q);
         let mut model = DrivenSystem::new(&system, &[], &mut work, &state);
-        model.largest_turn(&state.coordinates, &q)
+        model.largest_rotation(&state.coordinates, &q)
     };
     for factor in [1.4_f64, 0.6] {
         assert!(

@@ -8,7 +8,7 @@ use flexbody::system::loads::{
     self, AppliedLoad, BetweenFrames, BushingMeasure, JointLimit, JointSpring,
 };
 use flexbody::system::{
-    Angle, Attachment, AxisTurn, Coordinate, Direction, Drive, Parts, Translation,
+    Angle, Attachment, AxisRotation, Coordinate, Direction, Drive, Parts, Translation,
 };
 use nalgebra::{DVector, Matrix3, Rotation3};
 
@@ -188,7 +188,7 @@ impl Mechanism {
                 turn: [0.0, 1.0],
             });
         }
-        let turn = AxisTurn {
+        let turn = AxisRotation {
             across: [0, 1].map(|k| self.direction(held, 0, k)),
             of: self.direction(held, 1, 0),
         };

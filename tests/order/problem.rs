@@ -118,7 +118,7 @@ impl Dynamics for Problem {
         x.copy_from_slice(y.as_slice());
     }
 
-    fn largest_turn(&mut self, _from: &[f64], _to: &[f64]) -> f64 {
+    fn largest_rotation(&mut self, _from: &[f64], _to: &[f64]) -> f64 {
         0.0
     }
 

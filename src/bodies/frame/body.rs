@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SMatrix, Vector3};
 
 use super::tangent::transformed;
-use super::{Derivative, RigidBodyFrame, turned, turning_block};
+use super::{Derivative, RigidBodyFrame, axis_rates, rotation_block};
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
@@ -68,17 +68,17 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         let turn = &mut rotations.rigid[self.index];
         turn.rate = components(&v[self.node][1].into()).into();
         turn.spin = turn.spin_of(&turn.rate);
-        self.set_axes(&turned(&self.axes(x), &turn.spin), v);
+        self.set_axes(&axis_rates(&self.axes(x), &turn.spin), v);
     }
 
     fn place_changes<N: Number>(&self, x: &[Node<D, N>], dx: &mut [Node<D, N>]) {
         let turn = components(&dx[self.node][1].into()).into();
-        self.set_axes(&turned(&self.axes(x), &turn), dx);
+        self.set_axes(&axis_rates(&self.axes(x), &turn), dx);
     }
 
     /// `w x (w x e)` of each axis.
     fn add_centripetal<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
-        let by_spin = turned(&self.axes(motion.v), &self.spin(motion.x, motion.v));
+        let by_spin = axis_rates(&self.axes(motion.v), &self.spin(motion.x, motion.v));
         let sum = self.axes(a);
         self.set_axes(&std::array::from_fn(|k| sum[k] + by_spin[k]), a);
     }
@@ -134,7 +134,7 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         add: &mut impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
         let turned = self.geometric(f, x);
-        let block = turning_block(&((turned + turned.transpose()) * 0.5));
+        let block = rotation_block(&((turned + turned.transpose()) * 0.5));
         add(self.node, self.node, &block);
     }
 
@@ -222,12 +222,12 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
             // At rest without the moment that speeds the body up, which is none in equilibrium.
             turned = (turned + turned.transpose()) * 0.5;
         }
-        let block = turning_block(&turned);
+        let block = rotation_block(&turned);
         (at.assembly).add_block(node, &block, &mut terms.stiffness, &mut none);
         if spin != Vector3::zeros() {
             (terms.is_damped, terms.is_symmetric) = (true, false);
             let gyroscopic = self.inertia_rate(&spin) - self.momentum(&spin).cross_matrix();
-            let block = turning_block(&gyroscopic);
+            let block = rotation_block(&gyroscopic);
             (at.assembly).add_block(node, &block, &mut terms.damping, &mut none);
         }
         if at.rotation != [0.0; 3] {
@@ -255,7 +255,7 @@ impl RigidBodyFrame {
         }
         let by_rates = NodeBlocks::new(&nodes, whole);
         let mut blocks = NodeBlocks::new(&[self.node], DMatrix::zeros(2 * D, 2 * D));
-        blocks.add_turned(&by_rates, at.bodies, at.motion.pair());
+        blocks.add_by_rates_of_axes(&by_rates, at.bodies, at.motion.pair());
         blocks.add(at.assembly, &mut terms.stiffness, &mut none);
         let by_rates = by_rates.pulled(at.bodies, at.motion.x);
         by_rates.add(at.assembly, &mut terms.damping, &mut none);

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Axes, set_axes_at, turned};
+use super::{Axes, axis_rates, set_axes_at};
 use crate::bodies::Bodies;
 use crate::bodies::connectivity::Node;
 use crate::math::jet::{Jet, part, set_part};
@@ -79,7 +79,7 @@ impl<const D: usize> Bodies<D> {
                 set_part(rate, k, *value);
             }
             let mut sum = frame.axes(acceleration);
-            let by_rate = turned(&frame.axes(x), spin_rate);
+            let by_rate = axis_rates(&frame.axes(x), spin_rate);
             add_parts(k, &mut sum, &by_rate, &frame.axes(bias));
             frame.set_axes(&sum, acceleration);
         }
@@ -88,7 +88,7 @@ impl<const D: usize> Bodies<D> {
                 set_part(rate, k, *value);
             }
             let mut sum = frame.axes(acceleration);
-            let by_rate = frame.turned(x, acceleration, *spin_rate);
+            let by_rate = frame.axis_rates(x, acceleration, *spin_rate);
             add_parts(k, &mut sum, &by_rate, &frame.axes(bias));
             set_axes_at(frame.node, &sum, acceleration);
             acceleration[frame.node][0] = acceleration[frame.line][0];

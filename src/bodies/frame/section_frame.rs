@@ -14,7 +14,7 @@
 use nalgebra::Vector3;
 
 use super::shear_rotation::ShearRotation;
-use super::{Axes, axes_at, combined, set_axes_at, spin_at, turned};
+use super::{Axes, axes_at, axis_rates, combined, set_axes_at, spin_at};
 use crate::bodies::connectivity::Node;
 use crate::bodies::stages::rotated;
 use crate::math::jet::Number;
@@ -104,7 +104,7 @@ pub(super) fn angular<N: Number>(slope: &Vector3<N>, rate: &Vector3<N>, spin: N)
 }
 
 /// Rates of axes that turn at an angular velocity in global components.
-fn turned_by<N: Number>(axes: &Axes<N>, velocity: &Vector3<N>) -> Axes<N> {
+fn axis_rates_by<N: Number>(axes: &Axes<N>, velocity: &Vector3<N>) -> Axes<N> {
     axes.map(|axis| velocity.cross(&axis))
 }
 
@@ -125,7 +125,7 @@ impl SectionFrame {
     }
 
     /// How many coordinates it has.
-    pub fn turns(&self) -> usize {
+    pub fn rotations(&self) -> usize {
         if self.has_shear { 3 } else { 1 }
     }
 
@@ -147,7 +147,7 @@ impl SectionFrame {
     ) -> [N; 3] {
         let (axes, rates) = (self.axes(x), self.axes(a));
         let mut along = [N::of(0.0); 3];
-        for (k, along) in along.iter_mut().enumerate().take(self.turns()) {
+        for (k, along) in along.iter_mut().enumerate().take(self.rotations()) {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             *along = (axes[j].dot(&rates[i]) - axes[i].dot(&rates[j])) * N::of(0.5);
         }
@@ -192,7 +192,7 @@ impl SectionFrame {
 
     /// Changes of its axes by small rotations along them; of a rod's by one about the tangent and by the change of the slope in `dx`.
     /// So do angular accelerations.
-    pub fn turned<const D: usize, N: Number>(
+    pub fn axis_rates<const D: usize, N: Number>(
         &self,
         x: &[Node<D, N>],
         dx: &[Node<D, N>],
@@ -200,9 +200,9 @@ impl SectionFrame {
     ) -> Axes<N> {
         let axes = self.axes(x);
         if self.has_shear {
-            return turned(&axes, &spin.into());
+            return axis_rates(&axes, &spin.into());
         }
-        turned_by(&axes, &angular(&self.slope(x), &self.slope(dx), spin[0]))
+        axis_rates_by(&axes, &angular(&self.slope(x), &self.slope(dx), spin[0]))
     }
 
     /// Returns the gyroscopic term of a momentum conjugate to the spins, N m s. For a rod it is the force `P (t x t') /
@@ -301,13 +301,13 @@ impl SectionFrame {
         if self.has_shear {
             let rotation_rate = part(&v[self.node], 1);
             carry.shear_rotation.set_rates(rate, rotation_rate);
-            let axes = self.turned(x, v, carry.shear_rotation.spin.into());
+            let axes = self.axis_rates(x, v, carry.shear_rotation.spin.into());
             return self.set_axes(&axes, v);
         }
         carry.stretching = carry.tangent.dot(&rate) / carry.stretch;
         carry.rate = rate / carry.stretch - carry.tangent * carry.stretching;
         carry.spin = v[self.node][1][0] - carry.by_tangent().dot(&carry.rate);
-        let axes = self.turned(x, v, [carry.spin, 0.0, 0.0]);
+        let axes = self.axis_rates(x, v, [carry.spin, 0.0, 0.0]);
         self.set_axes(&axes, v);
     }
 
@@ -318,7 +318,7 @@ impl SectionFrame {
         dx: &mut [Node<D, N>],
     ) {
         let small: Vector3<N> = part(&dx[self.node], 1);
-        let axes = self.turned(x, dx, small.into());
+        let axes = self.axis_rates(x, dx, small.into());
         self.set_axes(&axes, dx);
         dx[self.node][0] = dx[self.line][0];
     }
@@ -331,7 +331,7 @@ impl SectionFrame {
     ) {
         let spin = self.spin(x, v);
         if self.has_shear {
-            let by_spin = turned(&self.axes(v), &spin.into());
+            let by_spin = axis_rates(&self.axes(v), &spin.into());
             let sum = self.axes(a);
             let sum = std::array::from_fn(|k| sum[k] + by_spin[k]);
             return self.set_axes(&sum, a);

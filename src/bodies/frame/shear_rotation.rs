@@ -24,7 +24,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::turn::spin_of;
+use super::increment::spin_of;
 use crate::math::jet::{Jet, Number, part};
 use crate::math::lanes::Real;
 use crate::math::rotation::{Quaternion, axes, product};

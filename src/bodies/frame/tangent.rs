@@ -3,14 +3,14 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::section_frame::angular;
-use super::{Axes, RigidBodyFrame, SectionFrame, axes_at, turned};
+use super::{Axes, RigidBodyFrame, SectionFrame, axes_at, axis_rates};
 use crate::bodies::Bodies;
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
 use crate::bodies::nodes::NodeOwner;
 
 /// The block of a node whose second vector stands for a rotation.
-pub fn turning_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
+pub fn rotation_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
     let mut block = no_block();
     for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
         block[1][i][1][j] = matrix[(i, j)];
@@ -80,7 +80,7 @@ impl RigidBodyFrame {
         let mut partial = no_block();
         let axes = self.axes(x);
         for turn in 0..D {
-            let [a, b, c] = turned(&axes, &Vector3::ith(turn, 1.0));
+            let [a, b, c] = axis_rates(&axes, &Vector3::ith(turn, 1.0));
             let changes = if is_second {
                 [b, c]
             } else {
@@ -215,7 +215,7 @@ impl SectionFrame {
         if self.has_shear {
             let (axes, forces) = (self.axes(x), axes_at(self.node, f));
             let turned = geometric(&axes, &forces);
-            let block = turning_block(&((turned + turned.transpose()) * 0.5));
+            let block = rotation_block(&((turned + turned.transpose()) * 0.5));
             return add(self.node, self.node, &block);
         }
         let (axes, forces, slope) = (self.axes(x), axes_at(self.node, f), self.slope(x));

@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 
+use super::frame_spin::along;
 use super::loaded::add_moment;
-use super::turning::along;
 use super::{RodChain, plane, untwisted};
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
@@ -57,7 +57,7 @@ impl<const D: usize> BodyPart<D> for RodChain {
     /// Of a section frame only rotations are coordinates: one about the tangent of a rod, three of a beam. Of an inner node only the internal
     /// twist and shear rotations are. In the plane the coordinates are the direction of a section and the angle of the section inside.
     fn add_fixed_numbers(&self, unplaced: &[Node<D>], fixed: &mut Vec<(NodeNumber, f64)>) {
-        let turns = if D == 2 { D } else { self.turns() };
+        let turns = if D == 2 { D } else { self.rotations() };
         let turns: Vec<_> = (0..turns).map(|axis| (1, axis)).collect();
         let inside: Vec<_> = self.inside().map(|(_, place)| place).collect();
         let frames = self.frames().map(|(node, _)| (node, &turns[..]));
@@ -266,7 +266,7 @@ impl<const D: usize> BodyPart<D> for RodChain {
     ) {
         // In the plane directions of sections have inertia as other directions have.
         for j in (0..self.count()).filter(|_| D > 2) {
-            let force = self.turning(j, motion.pair(), rotation);
+            let force = self.frame_spin_force(j, motion.pair(), rotation);
             self.add_load(j, &force, motion.x, f);
         }
     }
@@ -407,14 +407,14 @@ impl RodChain {
         let rotation = at.rotation;
         for j in 0..self.count() {
             let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
-                let force = self.turning(j, (x, v), rotation);
+                let force = self.frame_spin_force(j, (x, v), rotation);
                 self.add_load(j, &force, x, f);
             };
             let nodes = self.all_nodes(j);
             let blocks = at.probe.differentiate(&nodes, false, &force);
             let mut blocks = blocks.pulled(at.bodies, at.motion.x);
             let by_rates = at.probe.differentiate(&nodes, true, &force);
-            blocks.add_turned(&by_rates, at.bodies, at.motion.pair());
+            blocks.add_by_rates_of_axes(&by_rates, at.bodies, at.motion.pair());
             blocks.add(at.assembly, &mut terms.stiffness, &mut none);
             let by_rates = by_rates.pulled(at.bodies, at.motion.x);
             by_rates.add(at.assembly, &mut terms.damping, &mut none);

@@ -119,7 +119,7 @@ impl RodChain {
             on.iter_mut().zip(&asked).for_each(|(sum, f)| *sum += *f);
         }
         if rotation != [0.0; 3] {
-            force.add(&self.turning(j, (x, v), rotation));
+            force.add(&self.frame_spin_force(j, (x, v), rotation));
         }
         force
     }

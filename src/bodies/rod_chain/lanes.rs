@@ -161,7 +161,7 @@ impl RodChain {
             let ([_, first], [second, third]) = (&x[frame], &x[frame + 1]);
             // A rod asks for the second axis alone.
             let axes = [second, first, third];
-            for (to, axis) in pack.turn.iter_mut().zip(axes).take(self.turns()) {
+            for (to, axis) in pack.turn.iter_mut().zip(axes).take(self.rotations()) {
                 for d in 0..D.min(3) {
                     to[d][lane] = axis[d];
                 }
@@ -201,7 +201,7 @@ impl RodChain {
                     continue;
                 }
                 let moment = moments[self.first_section + j + end].iter_mut();
-                for (sum, m) in moment.zip(&f.moment[end]).take(self.turns()) {
+                for (sum, m) in moment.zip(&f.moment[end]).take(self.rotations()) {
                     *sum += m[lane];
                 }
             }

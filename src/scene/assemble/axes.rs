@@ -8,7 +8,7 @@ use crate::math::space::{Vector, components, moment, normal, normals, vector};
 use crate::scene::description::JointPrimitive;
 use crate::scene::resolved::{self, DirectionSource, Pivot, Place};
 use crate::system::joints::{Across, Clamp, Homokinetic, Perpendicular, Primitive};
-use crate::system::{Attachment, AxisTurn, Direction, reach};
+use crate::system::{Attachment, AxisRotation, Direction, reach};
 
 impl<const D: usize> Builder<'_, D> {
     /// A direction at the start, fixed in the body of an end; of a cable its own.
@@ -40,12 +40,12 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// In space, the turn that a joint with an axis lets its bodies make.
-    pub(super) fn turn_of(&self, joint: &resolved::ResolvedJoint<'_>) -> Option<AxisTurn<D>> {
+    pub(super) fn turn_of(&self, joint: &resolved::ResolvedJoint<'_>) -> Option<AxisRotation<D>> {
         self.turn(joint.pivot()?)
     }
 
     /// Returns the rotation of a joint about its axis. `None` for a marker.
-    pub(super) fn axis_turn(&self, source: &DirectionSource<'_>) -> Option<AxisTurn<D>> {
+    pub(super) fn axis_turn(&self, source: &DirectionSource<'_>) -> Option<AxisRotation<D>> {
         match source {
             DirectionSource::Pivot(pivot) => self.turn(*pivot),
             DirectionSource::Marker(_) => None,
@@ -53,11 +53,11 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The turn about the axis of a joint, zero at the start.
-    fn turn(&self, pivot: Pivot<'_>) -> Option<AxisTurn<D>> {
+    fn turn(&self, pivot: Pivot<'_>) -> Option<AxisRotation<D>> {
         let (ends, axis) = (self.ends(pivot.ends), super::unit(pivot.axis?));
         let across = normal(&axis, 0);
         let left = vector(moment(&axis, &across));
-        Some(AxisTurn {
+        Some(AxisRotation {
             across: [across, left].map(|direction| self.fixed(&ends[0], direction)),
             of: self.fixed(&ends[1], across),
         })

@@ -4,8 +4,8 @@ use super::Builder;
 use super::initial::BodyNodes;
 
 use crate::bodies::{
-    LineChain, LumpedMass, Marker, Node, RigidBodyFrame, RigidRod, RodChain, carried_nodes, middle,
-    planar_axes, untwisted,
+    LineChain, LumpedMass, Marker, Node, RigidBodyFrame, RigidRod, RodChain, middle, planar_axes,
+    transported_nodes, untwisted,
 };
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam};
@@ -170,7 +170,7 @@ impl<const D: usize> Builder<'_, D> {
         let steps = if rod.shape.is_plane() { 1 } else { STEPS };
         let axes = match D {
             2 => line.iter().map(|[_, slope]| [[0.0; D], *slope]).collect(),
-            _ => carried_nodes(&line, rod.first_axis(), (tangent, steps), twists),
+            _ => transported_nodes(&line, rod.first_axis(), (tangent, steps), twists),
         };
         let carried = self.parts.bodies.section_count();
         let length_of = |j: usize| (mesh[j + 1] - mesh[j]) * rod.shape.length();

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::bodies::{Node, add_node, no_node, turn_inner};
+use crate::bodies::{Node, add_node, no_node, rotate_inner};
 use crate::math::expression::Expression;
 use crate::math::space::{Vector, components, spun, vector};
 use crate::scene::{Error, InitialMotion};
@@ -115,7 +115,7 @@ impl<const D: usize> Motions<D> {
                 }
             }
             for node in *still..nodes.end {
-                turn_inner(&mut rates[node], spin[2]);
+                rotate_inner(&mut rates[node], spin[2]);
             }
             let moved = nodes.start..*still;
             let of_body = rates[moved.clone()].iter_mut().zip(&x[moved.clone()]);

@@ -25,7 +25,7 @@ use crate::math::space::{Vector, vector};
 use crate::scene::description::JointPrimitive;
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, Attachment, AxisTurn, BuildError, Coordinate, Parts, State, StressPoint, System,
+    Angle, Attachment, AxisRotation, BuildError, Coordinate, Parts, State, StressPoint, System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -306,7 +306,7 @@ impl<const D: usize> Builder<'_, D> {
         (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
 
-    fn count_angle(&mut self, ends: [Attachment<D>; 2], turn: Option<AxisTurn<D>>) -> usize {
+    fn count_angle(&mut self, ends: [Attachment<D>; 2], turn: Option<AxisRotation<D>>) -> usize {
         self.parts.angles.push(Angle { ends, turn });
         self.parts.angles.len() - 1
     }
@@ -423,7 +423,7 @@ impl<const D: usize> Builder<'_, D> {
         &mut self,
         hold: &JointPrimitive,
         ends: [Attachment<D>; 2],
-        turn: Option<AxisTurn<D>>,
+        turn: Option<AxisRotation<D>>,
     ) -> Option<usize> {
         let JointPrimitive::Spring {
             rest,

@@ -2,7 +2,7 @@
 
 use super::{Builder, unit};
 use crate::scene::resolved::{Form, MotionKind, Place, PortKind};
-use crate::system::joints::{Coupler, DrivenTurn, Primitive};
+use crate::system::joints::{Coupler, DrivenRotation, Primitive};
 use crate::system::{Coordinate, Drive};
 
 impl<const D: usize> Builder<'_, D> {
@@ -23,7 +23,7 @@ impl<const D: usize> Builder<'_, D> {
             MotionKind::Angle(source, drive) => {
                 let (turn, drive) = (self.axis_turn(source), self.drive(drive));
                 let driven = match turn {
-                    Some(turn) => Primitive::DrivenTurn(DrivenTurn { turn, drive }),
+                    Some(turn) => Primitive::DrivenRotation(DrivenRotation { turn, drive }),
                     None => Primitive::DrivenDirection(drive),
                 };
                 self.hold(driven, self.ends_of(source));

@@ -162,7 +162,11 @@ impl<'a> ActingLoad<'a> for Action<'a> {
     }
 
     /// Components that vary along a body are parsed for every Gauss point.
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        path: &str,
+    ) -> AssembledLoad<D> {
         let mut load = builder.action(self);
         if let LoadPlace::Line(cable) = self.on {
             let (along, path) = (&self.along[..], format!("{path}.value"));

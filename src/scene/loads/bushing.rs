@@ -95,7 +95,11 @@ impl<'a> ActingLoad<'a> for ResolvedBushing<'a> {
         (self.stiffness).map(|axes| axes.into_iter().fold(0.0, f64::max))
     }
 
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> AssembledLoad<D> {
         let ends = builder.ends(self.ends);
         let first = match self.ends.first {
             First::Marker(marker) => builder.frame_axes(marker).map(Direction::Of),

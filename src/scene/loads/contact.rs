@@ -127,7 +127,11 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         true
     }
 
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> AssembledLoad<D> {
         let places = match self.by {
             LoadPlace::Line(cable) => builder.places(cable),
             on => { on.markers().into_iter() }

@@ -143,7 +143,11 @@ impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
         key != "added_mass" || !scene.is_paid_out(self.on)
     }
 
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        path: &str,
+    ) -> AssembledLoad<D> {
         let cable = self.on;
         let mut strips = Vec::new();
         for ends in builder.segments(cable)?.windows(2) {

@@ -92,7 +92,11 @@ impl<'a> ActingLoad<'a> for ResolvedJointLimit<'a> {
         true
     }
 
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> AssembledLoad<D> {
         Ok(AppliedLoad::JointLimit(JointLimit {
             coordinate: Box::new(builder.coordinate(&self.on)),
             limits: [

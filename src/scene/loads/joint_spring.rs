@@ -80,7 +80,11 @@ impl<'a> ActingLoad<'a> for ResolvedJointSpring<'a> {
         self.on.stiffness(self.sizes[0])
     }
 
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> AssembledLoad<D> {
         let coordinate = builder.coordinate(&self.on);
         Ok(builder.joint_spring(coordinate, self.sizes, self.given.rest))
     }

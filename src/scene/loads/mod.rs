@@ -44,7 +44,7 @@ use number::damper;
 /// What a check finds, or what is wrong.
 type Found<T> = Result<T, Error>;
 /// A load of the system, or what is wrong with a mesh or an expression along a body.
-type Built<const D: usize> = Result<AppliedLoad<D>, Error>;
+type AssembledLoad<const D: usize> = Result<AppliedLoad<D>, Error>;
 
 /// A load that is known in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -154,7 +154,11 @@ pub trait ActingLoad<'a> {
     ///
     /// # Errors
     /// A mesh that is not possible, or an expression that has no value at a Gauss point.
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D>
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        path: &str,
+    ) -> AssembledLoad<D>
     where
         Self: Sized;
 
@@ -220,7 +224,7 @@ macro_rules! loads {
                 exerts.at(&self.place())
             }
 
-            fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> Built<D> {
+            fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, path: &str) -> AssembledLoad<D> {
                 match self {
                     $(Self::$kind(load) => load.assemble(builder, path),)*
                 }

@@ -87,7 +87,11 @@ impl<'a> ActingLoad<'a> for ResolvedSpring<'a> {
         [self.given.stiffness.unwrap_or_default(), 0.0]
     }
 
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> AssembledLoad<D> {
         let ends = builder.ends(self.ends);
         let now = || Signal::Function(Function::Constant(builder.distance_at_start(&ends)));
         Ok(AppliedLoad::Spring(Spring {

@@ -69,7 +69,11 @@ impl<'a> ActingLoad<'a> for ResolvedTableSpring<'a> {
         [self.spring.steepest(), 0.0]
     }
 
-    fn assemble<const D: usize>(&self, builder: &mut Builder<'_, D>, _path: &str) -> Built<D> {
+    fn assemble<const D: usize>(
+        &self,
+        builder: &mut Builder<'_, D>,
+        _path: &str,
+    ) -> AssembledLoad<D> {
         Ok(AppliedLoad::TableSpring(TableSpring {
             ends: builder.ends(self.ends),
             spring: self.spring.clone(),

@@ -6,7 +6,7 @@ mod coupler;
 mod direction;
 mod distance;
 mod driven_orientation;
-mod driven_turn;
+mod driven_rotation;
 mod homokinetic;
 mod line;
 mod linear_constraint;
@@ -23,7 +23,7 @@ pub use coupler::Coupler;
 pub use direction::AngleBetween;
 pub use distance::Distance;
 pub use driven_orientation::DrivenOrientation;
-pub use driven_turn::DrivenTurn;
+pub use driven_rotation::DrivenRotation;
 pub use homokinetic::Homokinetic;
 pub use line::PointOnLine;
 pub use linear_constraint::LinearConstraint;
@@ -35,7 +35,7 @@ pub use target::Target;
 pub use unit::UnitLength;
 
 use super::coordinate::Translation;
-use super::direction::AxisTurn;
+use super::direction::AxisRotation;
 use super::end::{Add, Attachment};
 use super::gradient::Gradient;
 use crate::bodies::{Bodies, ConnectivityRow, Marker, Node};
@@ -66,7 +66,7 @@ pub enum Primitive<const D: usize = 2> {
     /// The direction is at a driven angle from that of the first end.
     DrivenDirection(usize),
     /// The angle about an axis in space is driven.
-    DrivenTurn(DrivenTurn<D>),
+    DrivenRotation(DrivenRotation<D>),
     /// The orientation in space is driven: a marker in the directions of the axes of the body's frame, and the driven
     /// coordinates of a quaternion, scalar first.
     DrivenOrientation([Marker; 3], [usize; 4]),
@@ -90,7 +90,7 @@ pub struct JointEquations<const D: usize = 2> {
     /// Index of its spring among the loads.
     pub spring: Option<usize>,
     /// Rotation about the joint's axis in space, if it has an axis.
-    pub turn: Option<AxisTurn<D>>,
+    pub turn: Option<AxisRotation<D>>,
     /// Displacement of the second end along a line of the first, if the first is fixed or on a rigid body.
     pub way: Option<Translation<D>>,
     /// Time or input of the release, if the joint can be released.
@@ -299,7 +299,7 @@ constraints! {
         /// A right angle.
         Perpendicular(Perpendicular<D>),
         /// A driven turn.
-        DrivenTurn(DrivenTurn<D>),
+        DrivenRotation(DrivenRotation<D>),
     }
     many: {
         /// One condition of a driven orientation.
@@ -421,7 +421,9 @@ impl<const D: usize> JointEquations<D> {
                 Primitive::DrivenDirection(drive)
                 | Primitive::DrivenDistance(_, drive)
                 | Primitive::PaidOut(drive)
-                | Primitive::DrivenTurn(DrivenTurn { drive, .. }) => std::slice::from_ref(drive),
+                | Primitive::DrivenRotation(DrivenRotation { drive, .. }) => {
+                    std::slice::from_ref(drive)
+                }
                 Primitive::DrivenPosition(drives) => drives,
                 Primitive::DrivenOrientation(_, drives) => drives,
                 Primitive::Coupler(related) => related.drive.as_slice(),
@@ -489,7 +491,9 @@ impl<const D: usize> JointEquations<D> {
                     None
                 }
                 Primitive::DrivenDirection(drive) => motion::direction(&mut rows, *drive),
-                Primitive::DrivenTurn(driven) => Some(ConstraintKind::DrivenTurn(driven.clone())),
+                Primitive::DrivenRotation(driven) => {
+                    Some(ConstraintKind::DrivenRotation(driven.clone()))
+                }
                 Primitive::DrivenOrientation(axes, drives) => {
                     let about = |about| {
                         let (axes, drives) = (*axes, *drives);

@@ -10,7 +10,7 @@
 use nalgebra::SMatrix;
 
 use super::{Add, ForceElement, Instant};
-use crate::bodies::winch::{PaidOut, longer_by};
+use crate::bodies::winch::{PaidOut, length_ratio};
 use crate::bodies::{Bodies, Marker, Node};
 use crate::elements::shape::Values;
 use crate::math::jet::Number;
@@ -146,7 +146,7 @@ impl<const D: usize> Contact<D> {
         }
         let mut velocity: Vector<D, N> = marker.position(at.v);
         if let (Some(paid_out), Some(place)) = (paid_out, marker.element) {
-            velocity += paid_out.passing(place, marker.direction(at.x));
+            velocity += paid_out.convective_velocity(place, marker.direction(at.x));
         }
         let rate = -normal.dot(&velocity);
         let slip = velocity + normal * rate;
@@ -202,7 +202,7 @@ impl<const D: usize> Contact<D> {
     ) -> Values<D, N> {
         let places = &self.places[segment * GAUSS_5.len()..];
         let paid_out = self.paid_out(at);
-        let longer = longer_by(paid_out.as_ref());
+        let longer = length_ratio(paid_out.as_ref());
         std::array::from_fn(|k| {
             self.force(&places[k].marker.lift(), at, paid_out.as_ref()) * longer
         })
@@ -237,7 +237,7 @@ impl<const D: usize> Contact<D> {
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let paid_out = self.paid_out(at);
-        let longer = longer_by(paid_out.as_ref());
+        let longer = length_ratio(paid_out.as_ref());
         for place in &self.places[places] {
             let marker = place.marker.lift();
             let force = self.force(&marker, at, paid_out.as_ref());
@@ -254,7 +254,7 @@ impl<const D: usize> Contact<D> {
                 sum += of(&touch) * N::of(place.weight);
             }
         }
-        sum * longer_by(paid_out.as_ref())
+        sum * length_ratio(paid_out.as_ref())
     }
 
     /// Where it no longer pushes, what it has stored is lost.
@@ -309,7 +309,7 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
     /// the way along, so that iterations find it.
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let paid_out = self.paid_out(at);
-        let longer = longer_by(paid_out.as_ref());
+        let longer = length_ratio(paid_out.as_ref());
         for place in &self.places {
             let Some(touch) = self.touch(&place.marker, at, paid_out.as_ref()) else {
                 continue;

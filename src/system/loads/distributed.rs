@@ -2,7 +2,7 @@
 
 use super::line_load::LineLoad;
 use super::{ForceElement, Instant};
-use crate::bodies::winch::{PaidOut, longer_by};
+use crate::bodies::winch::{PaidOut, length_ratio};
 use crate::bodies::{LoadedLine, Node};
 use crate::elements::shape::{self, Values};
 use crate::math::jet::Number;
@@ -22,7 +22,7 @@ pub struct DistributedForce<const D: usize = 2> {
 impl<const D: usize> DistributedForce<D> {
     /// Returns the uniform part of the load in global axes, N/m.
     pub(in crate::system) fn uniform<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
-        self.density.uniform(at) * self.longer_by(at)
+        self.density.uniform(at) * self.length_ratio(at)
     }
 
     /// The cable, if a winch pays it out.
@@ -30,8 +30,8 @@ impl<const D: usize> DistributedForce<D> {
         self.on.paid_out(at.bodies, at.drives)
     }
 
-    fn longer_by<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        longer_by(self.paid_out(at).as_ref())
+    fn length_ratio<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        length_ratio(self.paid_out(at).as_ref())
     }
 
     /// Returns the varying part of the load at the Gauss points of a segment, N/m.
@@ -40,7 +40,7 @@ impl<const D: usize> DistributedForce<D> {
         at: Instant<'_, D, N>,
         segment: usize,
     ) -> Values<D, N> {
-        let longer = self.longer_by(at);
+        let longer = self.length_ratio(at);
         self.density.changing(at, segment).map(|load| load * longer)
     }
 
@@ -76,7 +76,7 @@ impl<const D: usize> DistributedForce<D> {
     }
 
     /// Power on the material that passes through the mesh of a cable that is paid out, W.
-    fn on_passing<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn on_convected<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let (mut sum, uniform) = (N::of(0.0), self.uniform(at));
         let Some(paid_out) = self.paid_out(at) else {
             return sum;
@@ -86,7 +86,7 @@ impl<const D: usize> DistributedForce<D> {
             let (e, l) = (chain.element(j, at.x), chain.element_length(j));
             for (point, load) in GAUSS_5.iter().zip(self.values(at, j)) {
                 let slope = e * shape::slopes(N::of(point.at), l);
-                let passing = paid_out.passing((j, point.at), slope);
+                let passing = paid_out.convective_velocity((j, point.at), slope);
                 sum += (uniform + load).dot(&passing) * N::of(point.weight * l);
             }
         }
@@ -109,7 +109,7 @@ impl<const D: usize> ForceElement<D> for DistributedForce<D> {
     }
 
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
-        [self.along(at, at.v) + self.on_passing(at), N::of(0.0)]
+        [self.along(at, at.v) + self.on_convected(at), N::of(0.0)]
     }
 
     fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {

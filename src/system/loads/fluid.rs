@@ -15,7 +15,7 @@ use nalgebra::SMatrix;
 
 use super::line_load::LineLoad;
 use super::{Add, ForceElement, Instant};
-use crate::bodies::winch::{PaidOut, longer_by};
+use crate::bodies::winch::{PaidOut, length_ratio};
 use crate::bodies::{Bodies, LinePoint, LoadedLine, Node, no_block};
 use crate::math::function::Function;
 use crate::math::jet::Number;
@@ -131,7 +131,7 @@ impl<const D: usize> Fluid<D> {
         let slope = place.sum(&place.slope, at.x);
         let mut velocity = place.sum(&place.position, at.v);
         if let Some(paid_out) = paid_out {
-            velocity += paid_out.passing((segment, xi), slope);
+            velocity += paid_out.convective_velocity((segment, xi), slope);
         }
         let past = current - velocity - carried;
         let tangent = slope / slope.norm();
@@ -143,7 +143,7 @@ impl<const D: usize> Fluid<D> {
             along,
             across,
             velocity,
-            counts: N::of(self.fraction) * longer_by(paid_out),
+            counts: N::of(self.fraction) * length_ratio(paid_out),
         }
     }
 

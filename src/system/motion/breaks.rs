@@ -158,9 +158,12 @@ impl<const D: usize> DrivenSystem<'_, D> {
             ..
         } = &mut *self.work;
         scratch.other.fill(no_node());
-        system
-            .bodies
-            .add_passing(&kinematics.drives, 1.0, &kinematics.x, &mut scratch.other);
+        system.bodies.add_convective_momentum(
+            &kinematics.drives,
+            1.0,
+            &kinematics.x,
+            &mut scratch.other,
+        );
         self.work.kinematics.smooth_interval = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
         let Workspace {

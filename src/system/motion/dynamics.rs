@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 
-use crate::bodies::{Node, RENEWED, largest_turn};
+use crate::bodies::{Node, RENEWED, largest_rotation};
 use crate::system::instant::Instant;
 use crate::system::loads::ForceElement as _;
 use crate::system::signal::{Trajectory, moved};
@@ -56,7 +56,7 @@ pub trait Dynamics {
     /// `R x`, in place.
     fn apply_damping(&mut self, x: &mut [f64]);
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations.
-    fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64;
+    fn largest_rotation(&mut self, from: &[f64], to: &[f64]) -> f64;
     /// Before a step: a state whose rotations are large is put in terms of smaller ones. Whether it was; its coordinates,
     /// rates and accelerations are others then, the motion is the same.
     fn renew(&mut self, _state: &mut State) -> bool {
@@ -242,10 +242,10 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         self.system.renew(state, size, self.work)
     }
 
-    /// The largest turn from one state to another, as [`Dynamics::largest_turn`].
-    pub fn turn_between(&mut self, [from, to]: [&State; 2]) -> f64 {
+    /// The largest turn from one state to another, as [`Dynamics::largest_rotation`].
+    pub fn rotation_between(&mut self, [from, to]: [&State; 2]) -> f64 {
         let [from, to] = [from, to].map(|state| self.system.nodes_of(state, self.work));
-        largest_turn(&from, &to)
+        largest_rotation(&from, &to)
     }
 
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
@@ -293,7 +293,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
             let work = load.work(start, end);
             add(-work, work.abs());
         }
-        if system.is_turning() {
+        if system.is_rotating() {
             let of = |x| system.bodies.centrifugal(system.rotation, x);
             let difference = of(after) - of(before);
             add(-difference, difference.abs());
@@ -440,7 +440,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
         self.system.back_from_tangent(0, self.work, x);
     }
 
-    fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64 {
+    fn largest_rotation(&mut self, from: &[f64], to: &[f64]) -> f64 {
         let (system, time) = (self.system, self.time);
         system.forward_kinematics(time, from, None, self.work);
         self.work
@@ -448,7 +448,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
             .other
             .copy_from_slice(&self.work.kinematics.x);
         system.forward_kinematics(time, to, None, self.work);
-        largest_turn(&self.work.scratch.other, &self.work.kinematics.x)
+        largest_rotation(&self.work.scratch.other, &self.work.kinematics.x)
     }
 
     fn renew(&mut self, state: &mut State) -> bool {

@@ -136,7 +136,7 @@ impl<const D: usize> System<D> {
         for load in &self.loads {
             load.add_force(at, f);
         }
-        if self.is_turning() {
+        if self.is_rotating() {
             (self.bodies).add_frame_inertia(self.rotation, motion, &mut scratch.other, f);
         }
     }
@@ -195,7 +195,7 @@ impl<const D: usize> System<D> {
                 &mut |a, b, block| self.add_block((a, b), block, (x, drives), damping),
             );
         }
-        if self.is_turning() {
+        if self.is_rotating() {
             (self.bodies).add_centrifugal(self.rotation, x, assembly, stiffness);
         }
         let view = self.view(kinematics);

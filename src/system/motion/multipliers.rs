@@ -79,7 +79,7 @@ impl<const D: usize> System<D> {
             }
             (constraints.jacobian).fill(&self.elimination, row, |tell| {
                 constraint.for_each_pulled(&view, |node, term| {
-                    tell(node, &self.bodies.shortened(node, view.drives, term));
+                    tell(node, &self.bodies.pull_back_force(node, view.drives, term));
                 });
             });
         }
@@ -136,7 +136,7 @@ impl<const D: usize> System<D> {
         {
             assembly.add_corner(*index, 1.0, matrix);
             constraint.for_each_pulled(view, |node, term| {
-                let term = self.bodies.shortened(node, view.drives, term);
+                let term = self.bodies.pull_back_force(node, view.drives, term);
                 assembly.add_gradient((*index, node), &term, matrix);
             });
         }

@@ -207,7 +207,9 @@ fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
                 pair.pins.push(row);
             }
             ConstraintKind::Perpendicular(right) if right.is_angle() => pair.turns.push(row),
-            ConstraintKind::DrivenTurn(_) | ConstraintKind::Homokinetic(_) => pair.turns.push(row),
+            ConstraintKind::DrivenRotation(_) | ConstraintKind::Homokinetic(_) => {
+                pair.turns.push(row)
+            }
             _ => return None,
         }
     }

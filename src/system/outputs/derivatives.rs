@@ -207,7 +207,7 @@ impl<const D: usize> Derivatives<D> {
         for load in &system.loads {
             load.add_force(at, &mut self.f);
         }
-        if system.is_turning() {
+        if system.is_rotating() {
             let (motion, other) = (values.motion(), &mut self.pulled);
             (system.bodies).add_frame_inertia(system.rotation, motion, other, &mut self.f);
         }
@@ -237,7 +237,7 @@ impl<const D: usize> Derivatives<D> {
         }
         (system.bodies).add_bias(self.values.motion(), &mut self.driven);
         if !system.constraints.is_empty() {
-            self.turn_constraints(system, k, work);
+            self.differentiate_constraints(system, k, work);
         }
         let q = &mut self.q[k - 1];
         system.elimination.reduce(&self.one, &mut work.scratch.y, q);
@@ -254,7 +254,7 @@ impl<const D: usize> Derivatives<D> {
         elimination.expand(q, &mut work.scratch.y, &mut self.other);
         let known = (&self.driven[..], &self.values.acceleration[..]);
         let (drives, value) = (&self.values.drives, &plain.acceleration);
-        (system.bodies).differentiate_lengthened(k, drives, value, known, &mut self.other);
+        (system.bodies).differentiate_scaled(k, drives, value, known, &mut self.other);
         let accelerations = self.values.acceleration.iter_mut().zip(&plain.acceleration);
         for ((a, plain), (moved, driven)) in accelerations.zip(self.other.iter().zip(&self.driven))
         {
@@ -288,7 +288,7 @@ impl<const D: usize> Derivatives<D> {
 
     /// Computes derivative `k` of the right-hand side of constraints. The effect of the present multipliers through the
     /// change of the Jacobian is subtracted from the forces.
-    fn turn_constraints(&mut self, system: &System<D>, k: usize, work: &mut Workspace<D>) {
+    fn differentiate_constraints(&mut self, system: &System<D>, k: usize, work: &mut Workspace<D>) {
         let below = if k == 1 {
             &work.acceleration
         } else {
@@ -304,7 +304,7 @@ impl<const D: usize> Derivatives<D> {
             right -= part(constraint.along(&view, &self.driven), k);
             constraint.for_each_pulled(&view, |node, term| {
                 // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
-                let term = system.bodies.shortened(node, view.drives, term);
+                let term = system.bodies.pull_back_force(node, view.drives, term);
                 for order in 1..=k {
                     let times = if (k, order) == (2, 1) { 2.0 } else { 1.0 };
                     let term = map_node(&term, |term| part(term, order));

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::bodies::{Marker, NodalMotion, Node, axes_at, combined, spin_at};
 use crate::elements::Element;
 use crate::math::jet::Number;
-use crate::math::rotation::{NO_TURN, Quaternion};
+use crate::math::rotation::{NO_ROTATION, Quaternion};
 use crate::math::space::{Vector, axis};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
@@ -58,7 +58,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             angles: vec![zero; system.angles.len()],
             travel: vec![zero; system.slides.len()],
             drives: vec![[zero; 3]; system.drives.len()],
-            frames: vec![NO_TURN; system.bodies.frame_count()],
+            frames: vec![NO_ROTATION; system.bodies.frame_count()],
             released: vec![false; system.releases.len()],
         }
     }
@@ -159,7 +159,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// the one now.
     pub fn held(&self, system: &System<D>, marker: &Marker) -> Quaternion {
         let index = system.bodies.frame_index(marker.nodes[0]);
-        index.map_or(NO_TURN, |index| self.frames[index])
+        index.map_or(NO_ROTATION, |index| self.frames[index])
     }
 
     /// Angular velocity at a marker, rad/s: in the plane, its third component, that of the direction; in space that of the rigid
@@ -273,7 +273,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let falls = system.weight.iter().zip(&self.x);
         let mut fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
         fall += (system.bodies).fall_of_paid_out(system.gravity, &self.drives, &self.x);
-        if !system.is_turning() {
+        if !system.is_rotating() {
             return -fall;
         }
         -fall - system.bodies.centrifugal(system.rotation, &self.x)

@@ -57,7 +57,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         chain: &LineChain<D>,
         drawn: &[Node<D>],
     ) -> RigidFit<N> {
-        let by = chain.length_now(&self.drives).longer_by();
+        let by = chain.length_now(&self.drives).length_ratio();
         let (drawn_mean, mean) = self.means(chain, drawn);
         let mut moments = Matrix3::<N>::zeros();
         let mut inertia = Matrix3::<f64>::zeros();
@@ -129,7 +129,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let Some(chain) = system.bodies.line(marker.body) else {
             return [N::of(0.0); 3];
         };
-        let by = chain.length_now(&self.drives).longer_by();
+        let by = chain.length_now(&self.drives).length_ratio();
         let as_drawn = |of: &Marker| full(of.position(drawn)).map(N::of) * by;
         let now = |of: &Marker| full(of.lift().position(&self.x));
         let fit = match from {
@@ -168,7 +168,7 @@ impl<const D: usize> Evaluation<D> {
         drawn: &[Node<D>],
     ) -> f64 {
         let fit = self.rigid_fit(system, chain, drawn);
-        let by = chain.length_now(&self.drives).longer_by();
+        let by = chain.length_now(&self.drives).length_ratio();
         let at = |x: &[Node<D>], node: usize| full(Vector::from(x[node][0]));
         let away = chain
             .range()

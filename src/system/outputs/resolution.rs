@@ -58,7 +58,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         // Curvatures are those by reference length, by which elements have not become longer.
         if largest > N::of(0.0) {
-            largest.root() * chain.length_now(&self.drives).longer_by()
+            largest.root() * chain.length_now(&self.drives).length_ratio()
         } else {
             largest
         }
@@ -85,7 +85,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let [a, b] = sums.map(|sum| sum.norm_squared());
         let square = if a > b { a } else { b };
         if square > N::of(0.0) {
-            square.root() * chain.length_now(&self.drives).longer_by()
+            square.root() * chain.length_now(&self.drives).length_ratio()
         } else {
             square
         }

@@ -10,7 +10,7 @@ use super::section::integral;
 use crate::bodies::{Marker, PANELS, RigidRod};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
-use crate::math::space::{Vector, carried, moment};
+use crate::math::space::{Vector, frame_acceleration, moment};
 use crate::system::System;
 use crate::system::end::Attachment;
 use crate::system::loads::ForceElement as _;
@@ -172,7 +172,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Absolute accelerations of position and direction of a marker, in the axes of the frame.
     fn inertia_at(&self, system: &System<D>, marker: &Marker<N>) -> Forces<D, N> {
-        let absolute = |[x, v, a]: [Vector<D, N>; 3]| a + carried(system.rotation, x, v);
+        let absolute = |[x, v, a]: [Vector<D, N>; 3]| a + frame_acceleration(system.rotation, x, v);
         let orders = [&self.x, &self.v, &self.acceleration];
         [
             absolute(orders.map(|order| marker.position(order))),

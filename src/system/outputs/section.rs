@@ -18,7 +18,7 @@ use crate::elements::shape::{self, Values};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, GAUSS_5, QuadraturePoint, integrals_to};
-use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
+use crate::math::space::{Vector, components, frame_acceleration, moment, vector as vector_of};
 use crate::system::System;
 use crate::system::loads::{AppliedLoad, ForceElement as _};
 
@@ -138,7 +138,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     ) -> (Nodal<D, N>, [Vector3<N>; 2]) {
         let part = &chain.elements()[j];
         let now = chain.length_now(&self.drives);
-        let (mut lack, _) = chain.force_of(j, (&self.x, &self.v), now.longer());
+        let (mut lack, _) = chain.force_of(j, (&self.x, &self.v), now.scaling());
         let weight = (system.gravity * part.weight().transpose()).map(N::of);
         lack += (weight - self.inertia(system, (chain, j)) * part.mass().map(N::of)) / now.by;
         let weights = shape::integrals(N::of(1.0), part.length());
@@ -170,7 +170,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     fn inertia(&self, system: &System<D>, (chain, j): (&LineChain<D>, usize)) -> Nodal<D, N> {
         let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let rate = system.rotation;
-        let of = |k: usize| carried(rate, e.column(k).into(), v.column(k).into());
+        let of = |k: usize| frame_acceleration(rate, e.column(k).into(), v.column(k).into());
         chain.element(j, &self.acceleration) + Nodal::from_columns(&[0, 1, 2, 3].map(of))
     }
 

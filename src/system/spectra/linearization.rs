@@ -73,7 +73,7 @@ impl<const D: usize> System<D> {
                 .filter(|row| work.constraints.jacobian.is_independent(*row))
                 .collect(),
         };
-        made.terms.is_damped = self.is_turning();
+        made.terms.is_damped = self.is_rotating();
         let mut probe = Probe::new(&work.kinematics.x, &work.kinematics.v);
         self.linearize_loads(time, work, at_rest, &mut probe, &mut made);
         let mut elsewhere = Vec::new();
@@ -107,7 +107,7 @@ impl<const D: usize> System<D> {
         );
         made.terms.stiffness.add_symmetric(1.0, &multipliers);
         add_elsewhere(&elsewhere, self.coordinates(), &mut made.border);
-        self.add_turning(work, at_rest, &mut made);
+        self.add_rotating_constraints(work, at_rest, &mut made);
         made
     }
 

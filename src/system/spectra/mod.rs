@@ -6,6 +6,6 @@ mod iteration;
 pub(in crate::system) mod linearization;
 pub(in crate::system) mod modes;
 pub(in crate::system) mod response;
+mod rotating_constraints;
 mod shifted;
 pub(in crate::system) mod spectrum;
-mod turning;

@@ -66,7 +66,7 @@ pub fn modes<const D: usize>(
     if is_small(&linear, count) {
         return all(&linear);
     }
-    let found = if linear.terms.is_symmetric && !system.is_turning() {
+    let found = if linear.terms.is_symmetric && !system.is_rotating() {
         iteration::lowest(system, work, &linear, count)
     } else {
         Err(NoEigenvalues::Missing(count))

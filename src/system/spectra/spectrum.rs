@@ -121,7 +121,7 @@ pub fn natural_frequencies<const D: usize>(
         return Err(SpectrumError::Count(count, modes));
     }
     let signed = |square: &f64| square.abs().sqrt().copysign(*square);
-    if !system.is_turning() {
+    if !system.is_rotating() {
         let squares = match &linear {
             linear if is_small(linear, count) => {
                 symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
@@ -189,7 +189,7 @@ pub fn eigenvalues<const D: usize>(
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));
     }
-    refuse_turning(system, &linear, state)?;
+    refuse_rotating(system, &linear, state)?;
     linear.hand_over(work);
     let mut found = if is_small(&linear, count) {
         all(&linear)?
@@ -258,7 +258,7 @@ fn refuse_paid_out<const D: usize>(
 
 /// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an
 /// eigenvalue for longer than an instant, and in the frame that turns with them gyroscopic forces act.
-fn refuse_turning<const D: usize>(
+fn refuse_rotating<const D: usize>(
     system: &System<D>,
     linear: &Linearization<'_, D>,
     state: &State,
@@ -372,7 +372,7 @@ pub(super) fn at_rest<'a, const D: usize>(
             body.expect("a load acts on a body"),
         ));
     }
-    refuse_turning(system, &linear, state)?;
+    refuse_rotating(system, &linear, state)?;
     linear.hand_over(work);
     Ok(linear)
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::placement::Gap;
-use crate::bodies::{Node, NodeKind, product, turn_inner};
+use crate::bodies::{Node, NodeKind, product, rotate_inner};
 use crate::math::space::{Vector, moment, rotated, spins};
 use crate::system::joints::{Constraint, ConstraintKind, Equation as _, Linear, View};
 use crate::system::{System, Workspace};
@@ -37,7 +37,7 @@ impl<const D: usize> System<D> {
                 NodeKind::Point => about + way + rotated(p - about, turn),
                 NodeKind::Axes => rotated(p, turn),
                 NodeKind::Inner => {
-                    turn_inner(&mut x[node], turn[2]);
+                    rotate_inner(&mut x[node], turn[2]);
                     continue;
                 }
             };

@@ -3,7 +3,7 @@
 
 use crate::bodies::{Node, add_node, no_node};
 use crate::math::function::Function;
-use crate::math::space::{Vector, carried};
+use crate::math::space::{Vector, frame_acceleration};
 use crate::system::loads::{AppliedLoad, ForceElement as _};
 use crate::system::signal::Drive;
 use crate::system::{Instant, System, Workspace};
@@ -72,7 +72,7 @@ impl<const D: usize> System<D> {
 
     /// Turns about a point at a rate, rad/s: loads get the centrifugal force.
     pub(in crate::system) fn turn(&mut self, rate: [f64; 3], center: Vector<D>) {
-        let arm = carried(rate, center, Vector::zeros());
+        let arm = frame_acceleration(rate, center, Vector::zeros());
         let mut arms = vec![[arm.into(), [0.0; D]]; self.bodies.reference.len()];
         self.bodies.clear_axes(&mut arms);
         let mut weight = std::mem::take(&mut self.weight);

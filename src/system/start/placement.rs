@@ -80,7 +80,7 @@ impl<const D: usize> System<D> {
             return Err(NotAssembled { gaps: drawn });
         }
         let mut x = nodes.to_vec();
-        self.turn_driven(&mut x, work);
+        self.rotate_driven(&mut x, work);
         let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
         (self.bodies).start_frames(nodes, &mut x, &mut state.frames);
@@ -262,10 +262,11 @@ impl<const D: usize> System<D> {
         } = &mut *work;
         if self.bodies.pays_out() {
             let (drives, x) = (&kinematics.drives, &kinematics.x);
-            self.bodies.add_passing(drives, -1.0, x, &mut scratch.other);
-            self.bodies.shorten(drives, &mut scratch.other);
+            self.bodies
+                .add_convective_momentum(drives, -1.0, x, &mut scratch.other);
+            self.bodies.pull_back_scaled(drives, &mut scratch.other);
             (self.elimination).reduce(&scratch.other, &mut scratch.y, change);
-            self.bodies.shorten_rates(drives, x, &mut kinematics.v);
+            self.bodies.unscale_rates(drives, x, &mut kinematics.v);
         }
         self.bodies
             .momentum_of(&kinematics.v, &kinematics.x, &mut forces.f);
@@ -284,7 +285,7 @@ impl<const D: usize> System<D> {
 
     /// Turns bodies, each about its centre, whose orientations are driven to where they are to be: conditions that are sines of
     /// angles lead there from less than a quarter of a turn away.
-    fn turn_driven(&self, x: &mut [Node<D>], work: &Workspace<D>) {
+    fn rotate_driven(&self, x: &mut [Node<D>], work: &Workspace<D>) {
         for constraint in &self.constraints {
             let ConstraintKind::DrivenOrientation(driven) = &constraint.kind else {
                 continue;

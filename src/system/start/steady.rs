@@ -7,7 +7,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::SteadyRotation;
-use crate::bodies::{Node, NodeKind, add_node, carried_node, no_node, product, turn_inner};
+use crate::bodies::{
+    Node, NodeKind, add_node, no_node, node_frame_acceleration, product, rotate_inner,
+};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins, spun};
 use crate::system::{State, System, Workspace};
@@ -116,7 +118,7 @@ impl<const D: usize> System<D> {
                 NodeKind::Axes => *rate = x[node].map(|axis| spun(steady.rate, axis.into()).into()),
                 NodeKind::Inner => {
                     *rate = no_node();
-                    turn_inner(rate, steady.rate[2]);
+                    rotate_inner(rate, steady.rate[2]);
                 }
             }
         }
@@ -231,7 +233,7 @@ impl<const D: usize> System<D> {
                 let of = |(node, c): &(usize, Node<D>)| {
                     let mut arm = x[*node];
                     add_node(&mut arm, -1.0, &[center.into(), [0.0; D]]);
-                    product(c, &carried_node(steady.rate, &arm, &no_node()))
+                    product(c, &node_frame_acceleration(steady.rate, &arm, &no_node()))
                 };
                 let has: f64 = linear.row.terms.iter().map(of).sum();
                 let wants = linear.target.derivatives(&work.kinematics.drives)[2];

@@ -143,8 +143,8 @@ impl Dynamics for Probe<'_> {
         self.model.apply_damping(x);
     }
 
-    fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64 {
-        self.model.largest_turn(from, to)
+    fn largest_rotation(&mut self, from: &[f64], to: &[f64]) -> f64 {
+        self.model.largest_rotation(from, to)
     }
 
     fn accepted(&mut self, state: &mut State) -> StepOutcome {

@@ -288,7 +288,7 @@ impl Path<'_> {
             let mut outcome = self.attempt((&before, &next), tries, work, (&from, state));
             // Far from the last equilibrium there may be another one, with a turn more.
             let mut model = DrivenSystem::new(&next, self.inputs, work, &from);
-            let turn = model.turn_between([&from, state]);
+            let turn = model.rotation_between([&from, state]);
             let leaps_on = turn > BRANCH;
             // Where joints close, it is an element that folded.
             let largest = if self.predicts {
@@ -431,7 +431,7 @@ fn first_step<const D: usize>(
     }
     let pairs = state.coordinates.iter().zip(&x);
     let moved: Vec<f64> = pairs.map(|(q, x)| q + part * x).collect();
-    let turn = model.largest_turn(&state.coordinates, &moved) / part;
+    let turn = model.largest_rotation(&state.coordinates, &moved) / part;
     if turn > FAR {
         (AIM / turn).max(SMALLEST)
     } else {

@@ -9,7 +9,7 @@
 //! of tension structures by dynamic relaxation, Int. J. Space Structures 14 (1999) (kinetic damping); E. Hairer, C. Lubich,
 //! Energy-diminishing integration of gradient systems, IMA J. Numer. Anal. 34 (2014) (implicit Euler).
 
-use super::newton::{AcceptanceTest, ESCAPES, LARGEST_TURN, NOISE, Newton};
+use super::newton::{AcceptanceTest, ESCAPES, LARGEST_ROTATION, NOISE, Newton};
 use super::{Failure, FoundEquilibrium, unsymmetric};
 use crate::bodies::{Node, NodeKind};
 use crate::math::space::Vector;
@@ -162,7 +162,7 @@ impl<const D: usize> Newton<'_, '_, D> {
             self.trial.clone_from(&state.coordinates);
             (self.trial.iter_mut().zip(&self.x)).for_each(|(q, x)| *q += x);
             let correction = norm(&self.x);
-            let is_far = self.model.largest_turn(&from, &self.trial) > LARGEST_TURN;
+            let is_far = self.model.largest_rotation(&from, &self.trial) > LARGEST_ROTATION;
             if !correction.is_finite() || is_far || (iteration > 2 && correction > 0.9 * before) {
                 return None;
             }

@@ -20,7 +20,7 @@ pub(super) const SHIFTS: usize = 60;
 /// Unstable equilibria that are left before the last one is answered.
 pub(super) const ESCAPES: usize = 8;
 /// Largest turn of a slope in one iteration, rad.
-pub(super) const LARGEST_TURN: f64 = 0.5;
+pub(super) const LARGEST_ROTATION: f64 = 0.5;
 /// Turn, or way relative to the size, with which an unstable equilibrium is left.
 const AWAY: f64 = 0.05;
 /// Way along the lowest mode, relative to the size, that forces have to ask for to show a side.
@@ -276,7 +276,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         for _ in 0..50 {
             let pairs = self.trial.iter_mut().zip(q.iter().zip(&self.x));
             pairs.for_each(|(trial, (q, x))| *trial = q + fraction * x);
-            if self.model.largest_turn(q, &self.trial) <= LARGEST_TURN {
+            if self.model.largest_rotation(q, &self.trial) <= LARGEST_ROTATION {
                 break;
             }
             fraction *= 0.5;
@@ -372,7 +372,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         self.trial.clone_from(&q);
         let probe = 1e-3 * size;
         (self.trial.iter_mut().zip(&self.mode)).for_each(|(q, m)| *q += probe * m);
-        let turn = self.model.largest_turn(&q, &self.trial).max(1e-3);
+        let turn = self.model.largest_rotation(&q, &self.trial).max(1e-3);
         let way = probe * AWAY / turn;
         for (trial, (q, m)) in self.trial.iter_mut().zip(q.iter().zip(&self.mode)) {
             *trial = q + way * m;

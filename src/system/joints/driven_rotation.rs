@@ -5,19 +5,19 @@ use nalgebra::SMatrix;
 
 use super::{Equation, Gradient, View};
 use crate::math::jet::Number;
-use crate::system::direction::{AxisTurn, Direction};
+use crate::system::direction::{AxisRotation, Direction};
 use crate::system::end::{Add, Attachment, bilinear};
 
 /// A driven turn.
 #[derive(Clone, Debug)]
-pub struct DrivenTurn<const D: usize> {
+pub struct DrivenRotation<const D: usize> {
     /// Driven rotation about an axis.
-    pub turn: AxisTurn<D>,
+    pub turn: AxisRotation<D>,
     /// Driven coordinate: the angle, rad.
     pub drive: usize,
 }
 
-impl<const D: usize> DrivenTurn<D> {
+impl<const D: usize> DrivenRotation<D> {
     /// The driven angle with two derivatives, its sine and cosine.
     fn drive<N: Number>(&self, view: &View<'_, D, N>) -> ([N; 3], [N; 2]) {
         let drive = view.drives[self.drive];
@@ -31,7 +31,7 @@ impl<const D: usize> DrivenTurn<D> {
     }
 }
 
-impl<const D: usize> Equation<D> for DrivenTurn<D> {
+impl<const D: usize> Equation<D> for DrivenRotation<D> {
     fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let (_, [sin, cos]) = self.drive(view);
         let [p, q] = self.turn.products(view.x);

@@ -22,7 +22,7 @@ fn change<const D: usize, N: Number>(to: &mut Node<D, N>, by: &Node<D, N>, of: i
 
 impl<const D: usize> Bodies<D> {
     /// Nodes of cables that are paid out, and how long these are.
-    fn lengthened<'a, N: Number>(
+    fn scaled_nodes<'a, N: Number>(
         &'a self,
         drives: &[[N; 3]],
     ) -> impl Iterator<Item = (&'a Winch<D>, usize, Length<N>)> {
@@ -47,8 +47,8 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Takes positions for `x_ref + u` to `x_ref + s u`.
-    pub(in crate::bodies) fn lengthen(&self, drives: &[[f64; 3]], x: &mut [Node<D>]) {
-        for (_, node, now) in self.lengthened(drives) {
+    pub(in crate::bodies) fn scale(&self, drives: &[[f64; 3]], x: &mut [Node<D>]) {
+        for (_, node, now) in self.scaled_nodes(drives) {
             let root = now.root[0];
             change(&mut x[node], &self.reference[node], |x, from| {
                 from + root * (x - from)
@@ -57,29 +57,33 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Takes rates from `u'` to `s u' + s' u` at positions `x`.
-    pub(in crate::bodies) fn lengthen_rates(
+    pub(in crate::bodies) fn scale_rates(
         &self,
         drives: &[[f64; 3]],
         x: &[Node<D>],
         v: &mut [Node<D>],
     ) {
-        for (_, node, now) in self.lengthened(drives) {
+        for (_, node, now) in self.scaled_nodes(drives) {
             let ([root, rate, _], way) = (now.root, self.way(node, x, &now));
             change(&mut v[node], &way, |v, u| root * v + rate * u);
         }
     }
 
     /// Takes rates of nodes for `u'` back from `x'` at positions `x`.
-    pub fn shorten_rates(&self, drives: &[[f64; 3]], x: &[Node<D>], v: &mut [Node<D>]) {
-        for (_, node, now) in self.lengthened(drives) {
+    pub fn unscale_rates(&self, drives: &[[f64; 3]], x: &[Node<D>], v: &mut [Node<D>]) {
+        for (_, node, now) in self.scaled_nodes(drives) {
             let ([root, rate, _], way) = (now.root, self.way(node, x, &now));
             change(&mut v[node], &way, |v, u| (v - rate * u) / root);
         }
     }
 
     /// Adds the accelerations of nodes that do not follow from those of coordinates, `2 s' u' + s'' u`.
-    pub fn add_lengthened<N: Number>(&self, motion: NodalMotion<'_, D, N>, out: &mut [Node<D, N>]) {
-        for (_, node, now) in self.lengthened(motion.drives) {
+    pub fn add_scaling_bias<N: Number>(
+        &self,
+        motion: NodalMotion<'_, D, N>,
+        out: &mut [Node<D, N>],
+    ) {
+        for (_, node, now) in self.scaled_nodes(motion.drives) {
             let ([root, rate, second], way) = (now.root, self.way(node, motion.x, &now));
             let twice = N::of(2.0) * rate / root;
             change(&mut out[node], &way, |sum, u| {
@@ -90,15 +94,15 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Takes forces on nodes to those on `u`, or second derivatives of `u` to what they are in those of the nodes.
-    pub fn shorten<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
-        for (_, node, now) in self.lengthened(drives) {
+    pub fn pull_back_scaled<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
+        for (_, node, now) in self.scaled_nodes(drives) {
             of[node] = map_node(&of[node], |number| number * now.root[0]);
         }
     }
 
     /// The force on one node as that on its coordinates.
     #[inline(always)]
-    pub fn shortened<N: Number>(
+    pub fn pull_back_force<N: Number>(
         &self,
         node: usize,
         drives: &[[N; 3]],
@@ -112,7 +116,7 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Takes a block over two nodes to one over their coordinates.
-    pub fn shorten_block(
+    pub fn pull_back_scaled_block(
         &self,
         (a, b): (usize, usize),
         drives: &[[f64; 3]],
@@ -124,16 +128,16 @@ impl<const D: usize> Bodies<D> {
 
     /// Adds what a cable that is paid out has more of than its reference to forces on nodes: weight, and inertia forces of the
     /// accelerations that do not follow from those of coordinates. These are left in `moved`.
-    pub fn add_lengthening<N: Number>(
+    pub fn add_paid_out_forces<N: Number>(
         &self,
         motion: NodalMotion<'_, D, N>,
         moved: &mut [Node<D, N>],
         force: &mut [Node<D, N>],
     ) {
         moved.fill([[N::of(0.0); D]; 2]);
-        self.add_lengthened(motion, moved);
+        self.add_scaling_bias(motion, moved);
         for (chain, winch) in self.winches() {
-            let longer = winch.now(motion.drives).longer_by();
+            let longer = winch.now(motion.drives).length_ratio();
             chain.add_weight(&(winch.gravity.map(N::of) * (longer - N::of(1.0))), force);
             chain.add_inertia(-longer, moved, force);
         }
@@ -156,11 +160,17 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Adds the momentum of material that passes through cables that are paid out, times a factor, to forces on nodes, kg m/s.
-    pub fn add_passing(&self, drives: &[[f64; 3]], factor: f64, x: &[Node<D>], f: &mut [Node<D>]) {
+    pub fn add_convective_momentum(
+        &self,
+        drives: &[[f64; 3]],
+        factor: f64,
+        x: &[Node<D>],
+        f: &mut [Node<D>],
+    ) {
         for (chain, winch) in self.winches() {
             let now = winch.now(drives);
             for j in 0..chain.elements().len() {
-                let momentum: Nodal<D> = winch.passing_momentum(chain, j, x, &now) * factor;
+                let momentum: Nodal<D> = winch.convective_momentum(chain, j, x, &now) * factor;
                 chain.add_to(j, &momentum, f);
             }
         }
@@ -170,7 +180,7 @@ impl<const D: usize> Bodies<D> {
     /// that are paid out changes with their length. `value` are the
     /// nodal accelerations, `acceleration` the same with the derivatives known, and `bias` the part of it that follows from positions and rates
     /// alone.
-    pub fn differentiate_lengthened(
+    pub fn differentiate_scaled(
         &self,
         k: usize,
         drives: &[[Jet; 3]],
@@ -208,7 +218,7 @@ impl<const D: usize> Bodies<D> {
         f: &mut [Node<D, N>],
     ) {
         for (line, winch) in self.winches() {
-            let more = winch.now(drives).longer_by() - N::of(1.0);
+            let more = winch.now(drives).length_ratio() - N::of(1.0);
             line.add_inertia(more, acceleration, f);
         }
     }

@@ -24,7 +24,7 @@ type Rotation = [f64; 3];
 
 impl RodChain {
     /// Returns the force that the rotation of the scene adds to the spin inertia of element `j`.
-    pub fn turning<const D: usize, N: Number>(
+    pub fn frame_spin_force<const D: usize, N: Number>(
         &self,
         j: usize,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
@@ -83,6 +83,6 @@ pub(super) fn along<const D: usize, N: Number>(
 ) -> [N; 3] {
     let rotation = Vector3::from(rotation.map(N::of));
     let mut along = frame.axes(x).map(|axis| axis.dot(&rotation));
-    along[frame.turns()..].fill(N::of(0.0));
+    along[frame.rotations()..].fill(N::of(0.0));
     along
 }

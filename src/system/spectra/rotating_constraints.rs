@@ -42,7 +42,7 @@ impl<const D: usize> Linearization<'_, D> {
 
 impl<const D: usize> System<D> {
     /// Adds the part of `K` due to the rotation of constraint directions.
-    pub(super) fn add_turning(
+    pub(super) fn add_rotating_constraints(
         &self,
         work: &Workspace<D>,
         at_rest: bool,
@@ -56,7 +56,7 @@ impl<const D: usize> System<D> {
         }
         made.terms.is_symmetric = false;
         let space = made.held();
-        let rates = space.combine(&self.turning_rows(work, &made.independent));
+        let rates = space.combine(&self.rotating_rows(work, &made.independent));
         let padded = vec![0.0; elimination.assembly.pattern().len()];
         let (mut y, mut x, mut sum) = (vec![0.0; n], padded.clone(), padded);
         for (i, mut rate) in rates.into_iter().enumerate() {
@@ -82,7 +82,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Rates of some rows of the Jacobian, in `q`.
-    fn turning_rows(&self, work: &Workspace<D>, rows: &[usize]) -> Vec<Vec<f64>> {
+    fn rotating_rows(&self, work: &Workspace<D>, rows: &[usize]) -> Vec<Vec<f64>> {
         let pairs = work.kinematics.x.iter().zip(&work.kinematics.v);
         let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
         let v = work.kinematics.v.iter().map(|v| map_node(v, Jet::from_re));
