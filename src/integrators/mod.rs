@@ -40,7 +40,7 @@ pub struct Tolerance {
 impl Tolerance {
     /// Size of an error: `max(|e_q|, |e_v| time) / (position relative)`, where 1 is just tolerated. With identity inertia the Euclidean
     /// norm of `q` is the mass norm of the displacement field.
-    pub fn norm(&self, position: &[f64], velocity: &[f64]) -> f64 {
+    pub fn error_norm(&self, position: &[f64], velocity: &[f64]) -> f64 {
         let p = size(position);
         let v = size(velocity) * self.time;
         // Not f64::max, which would hide a NaN.

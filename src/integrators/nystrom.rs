@@ -281,7 +281,8 @@ impl OneStepMethod for Nystrom {
         set(&mut self.error_q, &[], h * h, position, &self.a);
         set(&mut self.error_v, &[], h, velocity, &self.a);
         Attempt::Done(rescaled(
-            tolerance.norm(&self.error_q, &self.error_v) * dynamics.steps_in(tolerance.time, h),
+            tolerance.error_norm(&self.error_q, &self.error_v)
+                * dynamics.steps_in(tolerance.time, h),
             tableau.power,
         ))
     }

@@ -234,7 +234,7 @@ impl Radau {
         self.stage_v.copy_from_slice(v);
         self.f[0].copy_from_slice(&self.a);
         self.filter(dynamics, h);
-        let error = tolerance.norm(&self.error_q, &self.error_v);
+        let error = tolerance.error_norm(&self.error_q, &self.error_v);
         let is_doubted = self.rejected || self.last.is_none();
         if error < 1.0 || !error.is_finite() || !is_doubted {
             return error;
@@ -245,7 +245,7 @@ impl Radau {
         let lost = if dynamics.is_damped() {
             0.0
         } else {
-            tolerance.norm(&self.error_q, &[])
+            tolerance.error_norm(&self.error_q, &[])
         };
         for i in 0..q.len() {
             self.stage_q[i] = q[i] + self.error_q[i];
@@ -253,7 +253,7 @@ impl Radau {
         }
         dynamics.acceleration(time, &self.stage_q, &self.stage_v, &mut self.f[0]);
         self.filter(dynamics, h);
-        let filtered = tolerance.norm(&self.error_q, &self.error_v);
+        let filtered = tolerance.error_norm(&self.error_q, &self.error_v);
         if filtered < lost { lost } else { filtered }
     }
 

@@ -156,14 +156,14 @@ impl RungeKutta {
         for (out, stages) in self.error.iter_mut().zip(stages) {
             combine(out, scaled(h, method.error, stages));
         }
-        let norm = tolerance.norm(&self.error[0], &self.error[1]);
+        let norm = tolerance.error_norm(&self.error[0], &self.error[1]);
         if method.lower.is_empty() || norm == 0.0 {
             return norm;
         }
         for (out, stages) in self.lower.iter_mut().zip(stages) {
             combine(out, scaled(h, method.lower, stages));
         }
-        let lower = tolerance.norm(&self.lower[0], &self.lower[1]);
+        let lower = tolerance.error_norm(&self.lower[0], &self.lower[1]);
         let part = norm / norm.hypot(0.1 * lower);
         let errors = self.error.iter_mut().flatten();
         errors.for_each(|error| *error *= part);

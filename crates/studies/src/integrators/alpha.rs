@@ -185,7 +185,7 @@ impl OneStepMethod for Alpha {
         self.newton.solve_last(dynamics, &mut self.error);
         let scale = w.error() * h * h * weights[0];
         self.error.iter_mut().for_each(|e| *e *= scale);
-        Attempt::Done(rescaled(tolerance.norm(&self.error, &[]), 3.0))
+        Attempt::Done(rescaled(tolerance.error_norm(&self.error, &[]), 3.0))
     }
 
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {

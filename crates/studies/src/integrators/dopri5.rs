@@ -113,7 +113,10 @@ impl OneStepMethod for Dopri5 {
             p += of(&self.dq).powi(2);
             u += of(&self.dv).powi(2);
         }
-        Attempt::Done(rescaled(tolerance.norm(&[p.sqrt()], &[u.sqrt()]), 5.0))
+        Attempt::Done(rescaled(
+            tolerance.error_norm(&[p.sqrt()], &[u.sqrt()]),
+            5.0,
+        ))
     }
 
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {
