@@ -123,7 +123,7 @@ impl<const D: usize> System<D> {
         system.reach = system.find_reach();
         system.weight = system.bodies.weight(system.gravity);
         system.keep(nonlinear, &described);
-        system.needs_rates |= !(system.constraints.is_empty() && !system.bodies.pays_out());
+        system.needs_rates |= !system.constraints.is_empty() || system.bodies.pays_out();
         Ok(system)
     }
 
