@@ -91,7 +91,8 @@ impl RodChain {
             packs: packs(&elements),
             elements,
             section_frames: Vec::new(),
-            first_section,
+            // In the plane there are none.
+            first_section: if D == 2 { 0 } else { first_section },
         };
         if D > 2 {
             let has_shear = made.has_shear();

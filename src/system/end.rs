@@ -18,6 +18,7 @@ pub enum Attachment<const D: usize = 2, N: Number = f64> {
 
 impl<const D: usize, N: Number> Attachment<D, N> {
     /// Position, m.
+    #[inline(always)]
     pub fn position(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Ground(point) => *point,
@@ -26,6 +27,7 @@ impl<const D: usize, N: Number> Attachment<D, N> {
     }
 
     /// Velocity, m/s.
+    #[inline(always)]
     pub fn velocity(&self, v: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Ground(_) => Vector::zeros(),
@@ -34,6 +36,7 @@ impl<const D: usize, N: Number> Attachment<D, N> {
     }
 
     /// Direction; its length is the stretch of a cable.
+    #[inline(always)]
     pub fn direction(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Ground(_) => axis(0),
@@ -42,6 +45,7 @@ impl<const D: usize, N: Number> Attachment<D, N> {
     }
 
     /// Rate of the direction, 1/s.
+    #[inline(always)]
     pub fn direction_rate(&self, v: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Ground(_) => Vector::zeros(),
@@ -81,6 +85,7 @@ impl<const D: usize, N: Number> Attachment<D, N> {
     }
 
     /// Adds forces on position and direction.
+    #[inline(always)]
     pub fn add_force(&self, position: Vector<D, N>, direction: Vector<D, N>, f: &mut [Node<D, N>]) {
         if let Self::Body(marker) = self {
             marker.add_force(position, direction, f);
