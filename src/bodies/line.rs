@@ -200,7 +200,7 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
                 add_blocks(&nodes, damping, at.assembly, &mut terms.damping);
             }
             let numbers = |node: usize| {
-                (0..2).flat_map(move |part| (0..D).map(move |axis| (node, part, axis)))
+                (0..2).flat_map(move |part| (0..D).map(move |axis| ((node, part, axis), part == 0)))
             };
             terms.elements.push(ElementTangent {
                 places: nodes.into_iter().flat_map(numbers).collect(),

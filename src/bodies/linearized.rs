@@ -52,8 +52,8 @@ pub struct LinearTerms {
 /// Stiffness and damping of one element over its own velocities.
 #[derive(Clone, Debug)]
 pub struct ElementTangent {
-    /// Where its velocities stand among the numbers of nodes. The first is a position.
-    pub(super) places: Vec<NodeNumber>,
+    /// Where its velocities stand among the numbers of nodes, and whether each is a component of a position. The first is one.
+    pub(super) places: Vec<(NodeNumber, bool)>,
     /// Stiffness.
     pub stiffness: DMatrix<f64>,
     /// Damping, if there is any.
@@ -63,10 +63,15 @@ pub struct ElementTangent {
 impl ElementTangent {
     /// Displacements of its nodes relative to the position of the first: those of the whole would cancel.
     pub fn relative<const D: usize>(&self, x: &[Node<D>]) -> DVector<f64> {
-        let from = x[self.places[0].0][0];
-        let relative = |&(node, part, axis): &NodeNumber| {
+        let ((first, ..), _) = self.places[0];
+        let from = x[first][0];
+        let relative = |&((node, part, axis), is_position): &(NodeNumber, bool)| {
             let moved = x[node][part][axis];
-            if part == 0 { moved - from[axis] } else { moved }
+            if is_position {
+                moved - from[axis]
+            } else {
+                moved
+            }
         };
         DVector::from_iterator(self.places.len(), self.places.iter().map(relative))
     }

@@ -385,12 +385,14 @@ impl<const D: usize> BodyPart<D> for RodChain {
 }
 
 impl RodChain {
-    /// Where the velocities of element `j` stand among those of its matrices, and among the numbers of nodes.
-    fn velocities(&self, j: usize) -> (Vec<usize>, Vec<NodeNumber>) {
+    /// Where the velocities of element `j` stand among those of its matrices, and among the numbers of nodes with whether they are
+    /// components of a position.
+    fn velocities(&self, j: usize) -> (Vec<usize>, Vec<(NodeNumber, bool)>) {
         let nodes = self.nodes(j).into_iter().enumerate();
         let entries = nodes.flat_map(|(k, node)| {
             let entries = self.entries(k);
-            entries.map(move |(at, (part, axis))| (at, (node, part, axis)))
+            let is_line = k == 0 || k == 2;
+            entries.map(move |(at, (part, axis))| (at, ((node, part, axis), is_line && part == 0)))
         });
         let found: Vec<_> = entries.collect();
         debug_assert!(found.len() <= VELOCITIES);
