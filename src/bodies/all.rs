@@ -173,9 +173,8 @@ impl<const D: usize> Bodies<D> {
         drives: &[[N; 3]],
     ) -> Option<PaidOut<'_, D, N>> {
         let mut winches = self.winches();
-        let (chain, winch) = winches.find(|(chain, _)| chain.first_node() == first)?;
-        let now = winch.now(drives);
-        Some(PaidOut { winch, chain, now })
+        let (line, _) = winches.find(|(line, _)| line.first_node() == first)?;
+        line.paid_out(drives)
     }
 
     /// The line of a body.

@@ -89,9 +89,6 @@ pub(super) trait BodyPart<const D: usize> {
     /// Adds numbers of its nodes that are no coordinates, with their values in `unplaced` nodes.
     fn add_fixed_numbers(&self, _unplaced: &[Node<D>], _fixed: &mut Vec<(NodeNumber, f64)>) {}
 
-    /// Sets the nodes whose coordinates a force on each of its nodes acts on.
-    fn set_owners(&self, _owners: &mut [[usize; 2]]) {}
-
     /// Marks how its nodes rotate between the stages of a step. Sections come after lines.
     fn mark_rotating(&self, _rotating: &mut RotatingNodes) {}
 

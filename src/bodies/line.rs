@@ -9,10 +9,24 @@ use super::connectivity::{Node, no_node};
 use super::linearized::{ElementTangent, LinearTerms, LinearizationPoint};
 use super::probe::Nodes;
 use super::stages::RotatingNodes;
+use super::winch::PaidOut;
 use crate::elements::{Blocks, Element as _, Nodal};
 use crate::math::jet::{Jet, Number};
 use crate::math::space::Vector;
-use crate::math::sparse::Matrix;
+use crate::math::sparse::{General, Matrix};
+
+impl<const D: usize> LineChain<D> {
+    /// The line with the winch that pays it out, if there is one.
+    #[inline(always)]
+    pub fn paid_out<N: Number>(&self, drives: &[[N; 3]]) -> Option<PaidOut<'_, D, N>> {
+        let winch = self.winch()?;
+        Some(PaidOut {
+            winch,
+            chain: self,
+            now: winch.now(drives),
+        })
+    }
+}
 
 /// A matrix of an element from its blocks over positions and slopes of both nodes.
 fn whole<const D: usize>(blocks: &Blocks<D>) -> DMatrix<f64> {
@@ -115,9 +129,8 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     }
 
     fn kinetic_beside<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
-        let of =
-            |winch: &super::Winch<D>| winch.kinetic(self, motion.pair(), &winch.now(motion.drives));
-        self.winch().map_or(N::of(0.0), of)
+        let of = |PaidOut { winch, now, .. }| winch.kinetic(self, motion.pair(), &now);
+        self.paid_out(motion.drives).map_or(N::of(0.0), of)
     }
 
     fn strain_energy<N: Number>(&self, drives: &[[N; 3]], x: &[Node<D, N>]) -> N {
@@ -136,11 +149,11 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
     }
 
     fn add_momentum<N: Number>(&self, motion: NodalMotion<'_, D, N>, sum: &mut Momentum<D, N>) {
-        let paid_out = self.winch().map(|winch| (winch, winch.now(motion.drives)));
+        let paid_out = self.paid_out(motion.drives);
         for (j, element) in self.elements().iter().enumerate() {
             let at: Nodal<D, N> = self.element(j, motion.x);
             let mut p = self.element(j, motion.v) * element.mass().map(N::of);
-            if let Some((winch, now)) = &paid_out {
+            if let Some(PaidOut { winch, now, .. }) = &paid_out {
                 p = p / now.by + winch.convective_momentum(self, j, motion.x, now);
             }
             for k in 0..4 {
@@ -216,7 +229,7 @@ fn add_blocks<const D: usize>(
     nodes: &[usize; 2],
     blocks: &Blocks<D>,
     assembly: &Assembly<D>,
-    matrix: &mut crate::math::sparse::General<f64>,
+    matrix: &mut General<f64>,
 ) {
     for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         let mut block = no_block();

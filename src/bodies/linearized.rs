@@ -9,7 +9,7 @@ use super::Bodies;
 use super::assembly::{Assembly, NodeBlock, no_block};
 use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, no_node};
-use super::probe::{NodeBlocks, Probe};
+use super::probe::Probe;
 use super::setup::NodeNumber;
 use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::{General, Matrix};
@@ -144,21 +144,6 @@ impl<const D: usize> Bodies<D> {
     pub fn linearize_elements(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         each!(self, |body| BodyPart::linearize_elements(body, at, terms));
         terms.settle(at.assembly);
-    }
-
-    /// Takes derivatives over a few nodes to those by what is integrated: rotations replace axes.
-    pub fn pulled(&self, blocks: NodeBlocks, x: &[Node<D>]) -> NodeBlocks {
-        blocks.pulled(self, x)
-    }
-
-    /// Adds to derivatives by what is integrated what those by rates make of axes that rotate: their rates change where they are rotated.
-    pub fn add_by_rates(
-        &self,
-        by_rates: &NodeBlocks,
-        motion: NodalMotion<'_, D>,
-        blocks: &mut NodeBlocks,
-    ) {
-        blocks.add_by_rates_of_axes(by_rates, self, motion.pair());
     }
 
     /// Adds the stiffness of the centrifugal force at a rotation of the frame of the scene, rad/s: the square of its matrix times the mass.

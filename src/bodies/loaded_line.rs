@@ -76,7 +76,7 @@ impl LoadedLine {
         drives: &[[N; 3]],
     ) -> Option<PaidOut<'a, D, N>> {
         match self {
-            Self::Chain(line) => bodies.paid_out(bodies.lines[*line].first_node(), drives),
+            Self::Chain(line) => bodies.lines[*line].paid_out(drives),
             Self::Rod(_) => None,
         }
     }

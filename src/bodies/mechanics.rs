@@ -1,10 +1,9 @@
 //! Inertia, internal forces and their tangents of all bodies.
 
+use super::Bodies;
 use super::assembly::{Assembly, NodeBlock};
 use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, no_node, node_frame_acceleration};
-use super::{Bodies, RodChain};
-use crate::elements::beam::Force;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::math::sparse::Matrix;
@@ -134,27 +133,6 @@ impl<const D: usize> Bodies<D> {
         each!(self, |body| BodyPart::for_each_geometric(
             body, forces, x, &mut add
         ));
-    }
-
-    /// Power of a force on an element of sections, W.
-    pub fn power_on_sections<N: Number>(
-        &self,
-        sections: &RodChain,
-        (element, force): (usize, &Force<N>),
-        motion: NodalMotion<'_, D, N>,
-    ) -> N {
-        sections.power_of((element, force), motion.pair())
-    }
-
-    /// Force residual of an element of sections at coordinates, rates and accelerations: elastic and damping forces minus the inertia forces
-    /// of spins, in a frame of the scene that rotates at `rotation`, rad/s.
-    pub fn sections_residual<N: Number>(
-        &self,
-        (sections, element): (&RodChain, usize),
-        orders: [&[Node<D, N>]; 3],
-        rotation: [f64; 3],
-    ) -> Force<N> {
-        sections.lack(element, orders, rotation)
     }
 
     /// Returns the mass over the free coordinates.

@@ -7,6 +7,7 @@ use super::assembly::Links;
 use super::body::{BodyPart, each};
 use super::connectivity::Node;
 use super::frame::RigidBodyFrame;
+use super::nodes::NodeOwner;
 use super::stages::RotatingNodes;
 use super::{Bodies, LineChain, LumpedMass, RigidRod, RodChain, Winch};
 use crate::math::space::Vector;
@@ -24,10 +25,9 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
-    /// Adds the line of a flexible body. Returns its index.
-    pub fn add_line(&mut self, line: LineChain<D>) -> usize {
+    /// Adds the line of a flexible body.
+    pub fn add_line(&mut self, line: LineChain<D>) {
         self.lines.push(line);
-        self.lines.len() - 1
     }
 
     /// Adds the sections of a rod or beam along a line.
@@ -35,10 +35,9 @@ impl<const D: usize> Bodies<D> {
         self.sections.push(sections);
     }
 
-    /// Adds a mass in a point. Returns its index.
-    pub fn add_mass(&mut self, mass: LumpedMass) -> usize {
+    /// Adds a mass in a point.
+    pub fn add_mass(&mut self, mass: LumpedMass) {
         self.masses.push(mass);
-        self.masses.len() - 1
     }
 
     /// Adds a straight rigid body whose sections are read.
@@ -125,13 +124,20 @@ impl<const D: usize> Bodies<D> {
         links
     }
 
-    /// Nodes whose coordinates a force on a node acts on, `[nodes]`; none if these are the nodes themselves.
-    pub fn owners(&self) -> Option<Vec<[usize; 2]>> {
+    /// Nodes whose coordinates a force on a node acts on, `[nodes]`; none if these are the nodes themselves. A force on an axis of a rigid body
+    /// acts on its first node, one on an axis of a section frame on the node of the line as well.
+    pub fn acted_nodes(&self) -> Option<Vec<[usize; 2]>> {
         if self.has_no_frames() {
             return None;
         }
-        let mut owners: Vec<[usize; 2]> = (0..self.reference.len()).map(|node| [node; 2]).collect();
-        each!(self, |body| BodyPart::<D>::set_owners(body, &mut owners));
-        Some(owners)
+        let acted = |node: usize| match self.owner(node) {
+            NodeOwner::Rigid(index, _) => [self.rigid[index].node; 2],
+            NodeOwner::Section(chain, k, _) => {
+                let frame = self.sections[chain].frame(k);
+                [frame.line, frame.node]
+            }
+            _ => [node; 2],
+        };
+        Some((0..self.reference.len()).map(acted).collect())
     }
 }

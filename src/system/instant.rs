@@ -2,7 +2,7 @@
 
 use super::end::Angle;
 use crate::bodies::winch::PaidOut;
-use crate::bodies::{Bodies, NodalMotion, Node};
+use crate::bodies::{Bodies, Node};
 use crate::math::jet::Number;
 
 /// Time, inputs and state as loads see them.
@@ -27,16 +27,6 @@ pub struct Instant<'a, const D: usize, N = f64> {
 }
 
 impl<'a, const D: usize, N: Number> Instant<'a, D, N> {
-    /// Configuration and rates as bodies see them.
-    #[inline(always)]
-    pub fn motion(&self) -> NodalMotion<'a, D, N> {
-        NodalMotion {
-            drives: self.drives,
-            x: self.x,
-            v: self.v,
-        }
-    }
-
     /// The body with this first node, if a winch pays it out.
     pub fn paid_out(&self, first: usize) -> Option<PaidOut<'a, D, N>> {
         self.bodies.paid_out(first, self.drives)

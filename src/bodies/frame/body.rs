@@ -49,11 +49,6 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         fixed.extend(without.map(|axis| ((self.node, 1, axis), 0.0)));
     }
 
-    /// A force on an axis acts on the first node.
-    fn set_owners(&self, owners: &mut [[usize; 2]]) {
-        owners[self.node + 1] = [self.node; 2];
-    }
-
     fn frame_count(&self) -> usize {
         1
     }

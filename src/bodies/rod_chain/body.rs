@@ -72,13 +72,6 @@ impl<const D: usize> BodyPart<D> for RodChain {
         }
     }
 
-    /// A force on an axis of a section frame acts on the node of the line as well.
-    fn set_owners(&self, owners: &mut [[usize; 2]]) {
-        for (node, line) in self.frames() {
-            owners[node..][..2].fill([line, node]);
-        }
-    }
-
     /// Lines of beams rotate with their sections; in the plane by directions, as cables do.
     fn mark_rotating(&self, rotating: &mut RotatingNodes) {
         if self.has_shear() {
@@ -356,31 +349,27 @@ impl<const D: usize> BodyPart<D> for RodChain {
     }
 
     fn linearize_elements(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
+        terms.is_damped |= !at.at_rest && RodChain::is_damped(self);
         let first = terms.elements.len();
-        let matrix = |whole: &super::ElementMatrix, used: &[usize]| {
-            DMatrix::from_fn(used.len(), used.len(), |r, c| whole[used[r]][used[c]])
-        };
         self.for_each_tangent(at.motion.pair(), |kind, j, whole| {
+            if kind == Tangent::Damping && at.at_rest {
+                return;
+            }
             let (used, places) = self.velocities(j);
+            let matrix = DMatrix::from_fn(used.len(), used.len(), |r, c| whole[used[r]][used[c]]);
             match kind {
                 Tangent::Stiffness => terms.elements.push(ElementTangent {
                     places,
-                    stiffness: matrix(whole, &used),
+                    stiffness: matrix,
                     damping: None,
                 }),
-                Tangent::Damping if at.at_rest => {}
-                Tangent::Damping => {
-                    terms.elements[first + j].damping = Some(matrix(whole, &used));
-                }
+                Tangent::Damping => terms.elements[first + j].damping = Some(matrix),
             }
+            let sum = &mut terms.symmetric[kind as usize];
+            self.for_each_block(j, whole, |row, column, block| {
+                at.assembly.add(row, column, block, sum);
+            });
         });
-        let is_damped = !at.at_rest && RodChain::is_damped(self);
-        terms.is_damped |= is_damped;
-        let [stiffness, damping] = &mut terms.symmetric;
-        let mut unused = Matrix::zeros(at.assembly.pattern());
-        let damping = if is_damped { damping } else { &mut unused };
-        let matrices = [stiffness, damping];
-        RodChain::add_tangent(self, at.motion.pair(), at.assembly, matrices);
     }
 }
 

@@ -149,7 +149,7 @@ pub(super) fn add_winches<const D: usize>(parts: &mut Parts<D>) {
 /// Lists the couplings of nodes by mass, stiffness and constraints.
 pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Links {
     let mut links = parts.bodies.links();
-    let first = parts.bodies.owners();
+    let first = parts.bodies.acted_nodes();
     let owners = |nodes: Vec<usize>| {
         let Some(first) = &first else {
             return nodes;

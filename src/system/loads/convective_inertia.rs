@@ -3,7 +3,7 @@
 
 use super::{ForceElement, Instant};
 use crate::bodies::winch::PaidOut;
-use crate::bodies::{Bodies, LineChain, Node};
+use crate::bodies::{Bodies, Node};
 use crate::elements::shape::{Values, on_coordinates};
 use crate::math::jet::Number;
 
@@ -15,13 +15,8 @@ pub struct ConvectiveInertia {
 }
 
 impl ConvectiveInertia {
-    /// First node of the cable.
-    pub(super) fn first_node<const D: usize>(&self, chains: &[LineChain<D>]) -> usize {
-        chains[self.line].first_node()
-    }
-
     fn cable<'a, const D: usize, N: Number>(&self, at: Instant<'a, D, N>) -> PaidOut<'a, D, N> {
-        let paid_out = at.paid_out(self.first_node(at.bodies.lines()));
+        let paid_out = at.bodies.lines()[self.line].paid_out(at.drives);
         paid_out.expect("a winch pays the cable out")
     }
 
@@ -76,7 +71,7 @@ impl<const D: usize> ForceElement<D> for ConvectiveInertia {
         first: usize,
         segment: usize,
     ) -> Option<Values<D, N>> {
-        (self.first_node(at.bodies.lines()) == first).then(|| self.values(at, segment))
+        (at.bodies.lines()[self.line].first_node() == first).then(|| self.values(at, segment))
     }
 
     /// Winches stand where equilibria are sought.

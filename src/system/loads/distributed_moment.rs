@@ -74,8 +74,7 @@ impl<const D: usize> ForceElement<D> for DistributedMoment {
         let mut sum = N::of(0.0);
         for element in 0..rod.count() {
             let force = rod.loaded(element, at.x, &self.moments(at, element));
-            let loaded = (element, &force);
-            sum += (at.bodies).power_on_sections(rod, loaded, at.motion());
+            sum += rod.power_of((element, &force), (at.x, at.v));
         }
         [sum, N::of(0.0)]
     }

@@ -149,8 +149,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut torques = [Vector3::zeros(); 2];
         if let Some(sections) = system.bodies.sections(chain) {
             let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
-            let element = (sections, j);
-            let mut force = (system.bodies).sections_residual(element, motion, system.rotation);
+            let mut force = sections.lack(j, motion, system.rotation);
             if let Some(moments) = self.moments(system, (chain, j)) {
                 force.add(&sections.loaded(j, &self.x, &moments.map(Into::into)));
             }

@@ -81,7 +81,7 @@ impl<const D: usize> System<D> {
         for (constraint, lambda) in self.constraints.iter().zip(&work.constraints.lambda) {
             let held = (constraint, *lambda);
             let blocks = self.linearize_constraint(work, &still, held, &mut probe);
-            let blocks = self.bodies.pulled(blocks, &work.kinematics.x);
+            let blocks = blocks.pulled(&self.bodies, &work.kinematics.x);
             blocks.add(assembly, &mut made.terms.stiffness, &mut |r, c, value| {
                 elsewhere.push((r, c, value));
             });
@@ -144,7 +144,7 @@ impl<const D: usize> System<D> {
                     load.add_part(at, part, f);
                 };
                 let blocks = probe.differentiate(nodes, false, &force);
-                let mut blocks = self.bodies.pulled(blocks, &work.kinematics.x);
+                let mut blocks = blocks.pulled(&self.bodies, &work.kinematics.x);
                 // Of a moment about the axis of a joint in space that is skew which the joint holds.
                 let has_potential = !self.bodies.has_no_frames() && load.is_conservative();
                 if !blocks.is_symmetric() && !has_potential {
@@ -156,9 +156,9 @@ impl<const D: usize> System<D> {
                     made.terms.is_damped = true;
                     let by_rates = probe.differentiate(nodes, true, &force);
                     // Axes that turn change their rates where they are turned.
-                    let motion = work.kinematics.motion();
-                    (self.bodies).add_by_rates(&by_rates, motion, &mut blocks);
-                    let by_rates = self.bodies.pulled(by_rates, &work.kinematics.x);
+                    let motion = work.kinematics.motion().pair();
+                    blocks.add_by_rates_of_axes(&by_rates, &self.bodies, motion);
+                    let by_rates = by_rates.pulled(&self.bodies, &work.kinematics.x);
                     by_rates.add(assembly, &mut made.terms.damping, &mut none);
                 }
                 blocks.add(assembly, &mut made.terms.stiffness, &mut none);
