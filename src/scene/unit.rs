@@ -69,6 +69,15 @@ pub const NEWTON_METRE_PER_RADIAN: Unit = unit("N.m/rad", 1, 2, -2, -1);
 pub const NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", 1, 2, -1, -1);
 pub const JOULE: Unit = unit("J", 1, 2, -2, 0);
 
+/// Units of the stiffness and the damping of a spring: about an axis, or along one.
+pub fn spring_units(is_angle: bool) -> [Unit; 2] {
+    if is_angle {
+        [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN]
+    } else {
+        [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -34,15 +34,6 @@ pub struct ResolvedJointSpring<'a> {
     sizes: [f64; 2],
 }
 
-/// Units of stiffness and damping.
-fn units(is_angle: bool) -> [Unit; 2] {
-    if is_angle {
-        [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN]
-    } else {
-        [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE]
-    }
-}
-
 impl SceneLoad for JointSpringLoad {
     type Acting<'a> = ResolvedJointSpring<'a>;
 
@@ -53,7 +44,7 @@ impl SceneLoad for JointSpringLoad {
         if let Some(rest) = self.rest {
             finite(&format!("{path}.rest"), rest)?;
         }
-        let units = units(on.is_angle());
+        let units = spring_units(on.is_angle());
         let sizes = spring_damper(path, self.stiffness, self.damping, units)?;
         Ok(ResolvedJointSpring {
             given: self,
@@ -64,7 +55,7 @@ impl SceneLoad for JointSpringLoad {
 
     fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
         damper(
-            units(is_angle),
+            spring_units(is_angle),
             Optional(&mut self.stiffness),
             Optional(&mut self.damping),
         )
@@ -91,7 +82,7 @@ impl<'a> ActingLoad<'a> for ResolvedJointSpring<'a> {
 
     fn words(&self, _dimension: usize) -> LoadWords {
         let [k, c] = self.sizes.map(number);
-        let [by_way, by_rate] = units(self.on.is_angle()).map(|unit| unit.symbol());
+        let [by_way, by_rate] = spring_units(self.on.is_angle()).map(|unit| unit.symbol());
         let rest = words::given(", at rest at", self.given.rest, self.on.unit().name);
         LoadWords {
             kind: "spring and damper".into(),

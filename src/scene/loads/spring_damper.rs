@@ -4,9 +4,6 @@ use super::*;
 use crate::math::function::Function;
 use crate::system::loads::Spring;
 
-/// Units of stiffness and damping.
-const UNITS: [Unit; 2] = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
-
 /// A spring and a damper between two points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SpringDamper {
@@ -46,7 +43,7 @@ impl SceneLoad for SpringDamper {
 
     fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let ends = scene.require_pair(path, &self.markers, self.point)?;
-        spring_damper(path, self.stiffness, self.damping, UNITS)?;
+        spring_damper(path, self.stiffness, self.damping, spring_units(false))?;
         let place = format!("{path}.length");
         if let Some(Value::Number(length)) = &self.length {
             not_negative(&place, "m", *length)?;
@@ -71,7 +68,7 @@ impl SceneLoad for SpringDamper {
 
     fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
         damper(
-            UNITS,
+            spring_units(false),
             Optional(&mut self.stiffness),
             Optional(&mut self.damping),
         )

@@ -10,7 +10,7 @@ use crate::scene::Error;
 use crate::scene::description::{Generic, JointKind, JointPrimitive, Kinds as _};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{self, Ends, First, Place, Resolved, ResolvedMarker, SlideId};
-use crate::scene::unit::{NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN};
+use crate::scene::unit::spring_units;
 use crate::system::Release;
 
 /// Cosine of an angle that is a right one but for rounding.
@@ -303,8 +303,7 @@ impl<'a> Resolved<'a> {
         if let JointKind::Revolute(of) = joint
             && of.is_sprung()
         {
-            let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
-            spring_damper(path, of.stiffness, of.damping, units)?;
+            spring_damper(path, of.stiffness, of.damping, spring_units(true))?;
         }
         let mut primitives = joint.primitives();
         if primitives.contains(&JointPrimitive::Distance(None)) && ends.distance() <= 0.0 {

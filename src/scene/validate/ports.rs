@@ -10,7 +10,7 @@ use crate::scene::resolved::{
     self, Coupling, CouplingId, DirectionSource, Incoming, InputKind, MotionKind, Output,
     OutputTarget, Resolved, ResolvedMarker, ResolvedMotion,
 };
-use crate::scene::unit::{NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE};
+use crate::scene::unit::spring_units;
 use crate::system::Signal;
 
 impl MotionPort {
@@ -23,8 +23,7 @@ impl MotionPort {
         if !self.is_coupling() && !is_rotational {
             return Ok(());
         }
-        let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
-        spring_damper(path, self.stiffness, self.damping, units)?;
+        spring_damper(path, self.stiffness, self.damping, spring_units(false))?;
         if self.rotation && !is_rotational {
             let wanted = "a rotational stiffness or a rotational damping";
             return Err(expected(path, wanted, "neither"));

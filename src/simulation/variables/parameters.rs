@@ -224,9 +224,8 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
         if let Some(starts) = joint.spring() {
-            let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
             let parameters = [HingeStiffness(i), HingeDamping(i)];
-            list.damper(joint.name, units, parameters, starts);
+            list.damper(joint.name, spring_units(true), parameters, starts);
         }
     }
     add_loads(list, resolved);
@@ -234,10 +233,9 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         let PortKind::Coupling { position, angle } = &port.kind else {
             continue;
         };
-        let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
         let parameters = [CouplingStiffness(i), CouplingDamping(i)];
         let starts = [position.stiffness, position.damping];
-        list.damper(port.name, units, parameters, starts);
+        list.damper(port.name, spring_units(false), parameters, starts);
         if let Some(angle) = angle {
             #[rustfmt::skip] // a table
             let rows = [
