@@ -1,48 +1,28 @@
 //! Natural frequencies that `flexbody plan` prints beside a plan.
 
-use std::f64::consts::PI;
-use std::path::PathBuf;
-use std::process::Command;
+mod place;
 
+use std::f64::consts::PI;
+
+use place::Place;
 use serde_json::{Value, json};
 
-/// A beam between two pins.
+/// A beam between two pins with a force that is known.
 fn beam() -> Value {
-    json!({
-        "name": "beam", "dimension": 2,
-        "bodies": [{"name": "rod", "element": "cable",
-            "material": {"youngs_modulus": 2.0e11, "density": 7800.0},
-            "section": {"area": 1.0e-4, "second_moment": 1.0e-9},
-            "shape": {"line": {"from": [0, 0], "to": [1, 0]}},
-            "markers": {"a": 0.0, "middle": 0.5, "b": 1.0}}],
-        "joints": [
-            {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]},
-            {"name": "roller", "kind": "point_on_line", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
-        "loads": [{"name": "push", "kind": "force", "marker": "rod.middle", "value": [0, "-sin(50*t)"]}],
-        "outputs": [{"kind": "position", "marker": "rod.middle"}],
-        "experiment": {"stop_time": 0.02, "step": 1e-3},
-        "accuracy": {"error": 1e-2}
-    })
+    let scene = include_str!("place/beam.json");
+    let mut scene: Value = serde_json::from_str(scene).expect("JSON");
+    scene["inputs"] = json!([]);
+    scene["loads"] = json!([{"name": "push", "kind": "force", "marker": "rod.middle", "value": [0, "-sin(50*t)"]}]);
+    scene["accuracy"]["error"] = json!(1e-2);
+    scene
 }
 
-/// A folder that is removed at the end.
-struct Place(PathBuf);
-
 impl Place {
-    fn new(name: &str) -> Self {
-        let name = format!("flexbody-frequencies-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&folder).expect("a writable temporary directory");
-        Self(folder)
-    }
-
     /// What `plan` prints of a scene, and its report.
     fn plan(&self, scene: &Value) -> (String, Option<Value>) {
         std::fs::write(self.0.join("scene.json"), scene.to_string()).expect("a writable folder");
-        let mut command = Command::new(env!("CARGO_BIN_EXE_flexbody"));
         let options = ["plan", "scene.json", "--report", "report.json"];
-        let run = command.args(options).current_dir(&self.0).output();
-        let run = run.expect("the program runs");
+        let run = self.command(&options).output().expect("the program runs");
         let told = String::from_utf8(run.stderr).expect("UTF-8");
         assert!(run.status.success(), "{told}");
         // Short work prints no progress.
@@ -55,16 +35,10 @@ impl Place {
     }
 }
 
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 /// Frequencies of a beam between pins are `(n pi)^2 sqrt(EI / (rho A))` for a length of 1 m.
 #[test]
 fn a_plan_is_printed_with_natural_frequencies() {
-    let (text, report) = Place::new("printed").plan(&beam());
+    let (text, report) = Place::new("frequencies-printed", &[]).plan(&beam());
     let exact = PI.powi(2) * (2.0e11 * 1.0e-9 / (7800.0 * 1.0e-4_f64)).sqrt();
     let rows = text
         .split_once("natural frequencies about the start")
@@ -92,7 +66,7 @@ fn a_plan_is_printed_with_natural_frequencies() {
 /// A force that follows has no potential. A swing that starts level is far from rest.
 #[test]
 fn a_plan_says_why_there_are_no_frequencies_or_what_they_are_of() {
-    let place = Place::new("none");
+    let place = Place::new("frequencies-none", &[]);
     let mut scene = beam();
     scene["loads"][0]["follower"] = json!(true);
     scene["loads"][0]["value"] = json!([-10, 0]);

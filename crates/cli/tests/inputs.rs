@@ -1,63 +1,35 @@
 //! Tables of inputs and values that are set, as options of the program: what is planned is what will be run.
 
-use std::path::PathBuf;
-use std::process::Command;
+mod place;
+
+use place::Place;
 
 /// A beam between two pins with a force at its middle, whose mesh is left to the planner.
-const SCENE: &str = r#"{
-    "name": "beam", "dimension": 2,
-    "bodies": [{"name": "rod", "element": "cable",
-        "material": {"youngs_modulus": 2.0e11, "density": 7800.0},
-        "section": {"area": 1.0e-4, "second_moment": 1.0e-9},
-        "shape": {"line": {"from": [0, 0], "to": [1, 0]}},
-        "markers": {"a": 0.0, "middle": 0.5, "b": 1.0}}],
-    "joints": [
-        {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]},
-        {"name": "roller", "kind": "point_on_line", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
-    "inputs": [{"kind": "force", "marker": "rod.middle"}],
-    "outputs": [{"kind": "position", "marker": "rod.middle"}],
-    "experiment": {"stop_time": 0.02, "step": 1e-3},
-    "accuracy": {"error": 1e-3}
-}"#;
+const SCENE: &str = include_str!("place/beam.json");
 const TABLE: &str = "time,rod.middle.force[2]\n0,0\n0.02,-10\n";
 /// What is said of inputs that were held.
 const HELD: &str = "inputs held at their start values: ";
 
-/// A folder that is removed at the end, with the scene and a table in it.
-struct Place(PathBuf);
+/// A folder with the scene and a table.
+fn place(name: &str) -> Place {
+    let files = [("scene.json", SCENE), ("table.csv", TABLE)];
+    Place::new(&format!("inputs-{name}"), &files)
+}
 
 impl Place {
-    fn new(name: &str) -> Self {
-        let name = format!("flexbody-inputs-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&folder).expect("a writable temporary directory");
-        for (file, text) in [("scene.json", SCENE), ("table.csv", TABLE)] {
-            std::fs::write(folder.join(file), text).expect("a writable temporary directory");
-        }
-        Self(folder)
-    }
-
     /// Whether a command succeeds, and all that it printed.
     fn run(&self, options: &[&str]) -> (bool, String) {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_flexbody"));
-        let run = command.args(options).current_dir(&self.0).output();
-        let run = run.expect("the program runs");
+        let run = self.command(options).output().expect("the program runs");
         let printed = [run.stdout, run.stderr].concat();
         let printed = String::from_utf8(printed).expect("UTF-8");
         (run.status.success(), printed)
     }
 }
 
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 /// The force that a table moves is not among those that are held; without the table both components are.
 #[test]
 fn a_plan_is_made_for_the_table_that_is_run() {
-    let place = Place::new("plan");
+    let place = place("plan");
     let both = format!("{HELD}rod.middle.force[1], rod.middle.force[2]");
     let one = format!("{HELD}rod.middle.force[1]");
     let table = ["--input", "table.csv"];
@@ -81,7 +53,7 @@ fn a_plan_is_made_for_the_table_that_is_run() {
 
 #[test]
 fn what_cannot_be_planned_for_is_refused_by_name() {
-    let place = Place::new("refused");
+    let place = place("refused");
     for (option, expected) in [
         ("rod.densty=1", "did you mean `rod.density`?"),
         (
@@ -108,7 +80,7 @@ fn what_cannot_be_planned_for_is_refused_by_name() {
 /// A run holds inputs at their start values, whatever the scene says for the planner, and tells so.
 #[test]
 fn a_run_without_a_table_tells_that_profiles_are_for_planning() {
-    let place = Place::new("profiles");
+    let place = place("profiles");
     let accuracy = r#""accuracy": {"error": 1e-3, "input_profiles": [{"input": "rod.middle.force[2]", "from": 0.0, "to": -10.0}]}"#;
     let scene = SCENE.replace(r#""accuracy": {"error": 1e-3}"#, accuracy);
     std::fs::write(place.0.join("scene.json"), scene).expect("a writable temporary directory");

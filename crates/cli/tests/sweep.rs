@@ -1,11 +1,14 @@
 //! Sweeps: equal bits however many run at a time, nothing lost where the process was killed, reasons of runs that failed.
 
-use std::path::{Path, PathBuf};
+mod place;
+
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
+use place::Place;
 
 /// A bar on a hinge, which falls.
 const SCENE: &str = r#"{
@@ -18,27 +21,18 @@ const SCENE: &str = r#"{
     "experiment": {"stop_time": 1, "step": 0.01}
 }"#;
 
-/// A folder that is removed at the end, with the scene in it.
-struct Place(PathBuf);
+/// A folder with the scene.
+fn place(name: &str) -> Place {
+    Place::new(&format!("sweep-{name}"), &[("scene.json", SCENE)])
+}
 
 impl Place {
-    fn new(name: &str) -> Self {
-        let name = format!("flexbody-sweep-{name}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&folder).expect("a writable temporary directory");
-        std::fs::write(folder.join("scene.json"), SCENE).expect("a writable temporary directory");
-        Self(folder)
-    }
-
-    fn command(&self, options: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_flexbody"));
-        command.args(["sweep", "scene.json"]).args(options);
-        command.current_dir(&self.0);
-        command
+    fn sweep(&self, options: &[&str]) -> Command {
+        self.command(&[&["sweep", "scene.json"], options].concat())
     }
 
     fn run(&self, options: &[&str]) -> Output {
-        self.command(options).output().expect("the program runs")
+        self.sweep(options).output().expect("the program runs")
     }
 
     /// Runs what succeeds, and returns what was printed on standard error.
@@ -51,12 +45,6 @@ impl Place {
 
     fn bytes(&self, name: &str) -> Vec<u8> {
         std::fs::read(self.0.join(name)).expect(name)
-    }
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
@@ -82,7 +70,7 @@ fn cell<'a>(row: &'a [(String, Field)], name: &str) -> &'a Field {
 
 #[test]
 fn any_number_of_jobs_gives_the_same_bits() {
-    let place = Place::new("jobs");
+    let place = place("jobs");
     let vary = ["--vary", "gravity[2]=-5:-10:7", "--vary", "bar.mass=1,2,3"];
     for jobs in ["1", "4"] {
         let (table, series) = (format!("{jobs}.parquet"), format!("{jobs}.series.parquet"));
@@ -104,7 +92,7 @@ fn any_number_of_jobs_gives_the_same_bits() {
 /// A run of a sweep is what `flexbody simulate` gives.
 #[test]
 fn a_row_says_what_a_simulation_of_its_own_gives() {
-    let place = Place::new("own");
+    let place = place("own");
     place.swept(&[
         "--vary",
         "bar.mass=1,3",
@@ -154,11 +142,11 @@ fn a_row_says_what_a_simulation_of_its_own_gives() {
 
 #[test]
 fn a_sweep_that_was_killed_goes_on_and_loses_nothing() {
-    let place = Place::new("killed");
+    let place = place("killed");
     let vary = ["--vary", "bar.mass=1:2:300", "--stop-time", "20"];
     let options = |output| [&vary[..], &["--jobs", "2", "--output", output]].concat();
     place.swept(&options("whole.parquet"));
-    let mut child = place.command(&options("cut.parquet"));
+    let mut child = place.sweep(&options("cut.parquet"));
     let mut child = child
         .stderr(Stdio::null())
         .spawn()
@@ -205,7 +193,7 @@ fn a_sweep_that_was_killed_goes_on_and_loses_nothing() {
 
 #[test]
 fn a_run_that_fails_is_a_row_with_its_reason() {
-    let place = Place::new("failed");
+    let place = place("failed");
     let printed = place.swept(&["--vary", "bar.mass=2,-2,3", "--output", "t.parquet"]);
     assert!(
         printed.contains("1 of 3 runs failed; first run 1: bar.mass: "),
@@ -226,7 +214,7 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
 
 #[test]
 fn names_that_are_not_there_are_told_before_anything_runs() {
-    let place = Place::new("names");
+    let place = place("names");
     for (options, expected) in [
         (&["--vary", "bar.mas=1,2"][..], "did you mean `bar.mass`"),
         (
@@ -256,7 +244,7 @@ fn names_that_are_not_there_are_told_before_anything_runs() {
 
 #[test]
 fn a_sweep_in_which_every_run_fails_fails() {
-    let place = Place::new("all-failed");
+    let place = place("all-failed");
     let run = place.run(&["--vary", "bar.mass=-2,-1", "--output", "t.parquet"]);
     let printed = String::from_utf8_lossy(&run.stderr).into_owned();
     assert!(!run.status.success());
@@ -271,7 +259,7 @@ fn a_sweep_in_which_every_run_fails_fails() {
 
 #[test]
 fn a_second_sweep_into_one_file_says_that_another_is_at_work() {
-    let place = Place::new("second");
+    let place = place("second");
     let journal = std::fs::File::create(place.0.join("t.parquet.runs")).expect("a journal");
     journal.lock().expect("a lock");
     let options = ["--vary", "bar.mass=1,2", "--output", "t.parquet"];
@@ -288,7 +276,7 @@ fn a_second_sweep_into_one_file_says_that_another_is_at_work() {
 fn what_is_no_plain_file_stays_and_links_are_followed() {
     use std::os::unix::fs::{FileTypeExt, symlink};
 
-    let place = Place::new("device");
+    let place = place("device");
     let pipe = std::os::unix::net::UnixListener::bind(place.0.join("t.parquet"));
     pipe.expect("a socket");
     let vary = ["--vary", "bar.mass=1,2", "--output"];
@@ -320,7 +308,7 @@ fn what_is_no_plain_file_stays_and_links_are_followed() {
 /// Every row has the reason and the warnings of its own run, whichever came first.
 #[test]
 fn reasons_and_warnings_stand_in_the_rows_of_their_runs() {
-    let place = Place::new("rows");
+    let place = place("rows");
     let vary = ["--vary", "bar.mass=2,-2", "--vary", "bar.inertia=1,-1"];
     let printed = place.swept(&[&vary[..], &["--jobs", "2", "--output", "t.parquet"]].concat());
     assert!(
@@ -368,7 +356,7 @@ const BENT: &str = r#"{
 /// stop too.
 #[test]
 fn a_sweep_goes_on_with_its_own_runs_alone() {
-    let place = Place::new("goes-on");
+    let place = place("goes-on");
     let own = [
         "--vary",
         "bar.mass=1:2:120",
@@ -400,7 +388,7 @@ fn a_sweep_goes_on_with_its_own_runs_alone() {
     let journal = place.0.join("cut.parquet.runs");
     let options = with(&[], "cut.parquet");
     let options: Vec<&str> = options.iter().map(String::as_str).collect();
-    let mut child = place.command(&options);
+    let mut child = place.sweep(&options);
     let mut child = child
         .stderr(Stdio::null())
         .spawn()
