@@ -10,6 +10,7 @@ mod along;
 pub mod beam;
 pub mod cable;
 mod constitutive;
+pub mod reduced;
 pub mod rod;
 pub mod section;
 pub mod shape;

@@ -1,0 +1,163 @@
+//! Finite element models reduced to modes: constant arrays, and what follows from them at amplitudes of the modes.
+//!
+//! A point of the body stands at `x = c + R y`, `y = X + sum psi_k eta_k + 1/2 sum u_kl eta_k eta_l`, from the centre of mass `c` in the
+//! axes `R`. Modes `psi_k` are orthonormal in the mass and orthogonal to rigid motions (mean axes). Second-order displacements `u_kl` belong
+//! to pairs of the first modes.
+//!
+//! Source: R. Schwertassek, O. Wallrapp, Dynamik flexibler Mehrkörpersysteme (1999), chapter 6 (mean axes, inertia in modes); S. R. Idelsohn,
+//! A. Cardona, A reduction method for nonlinear structural dynamic analysis, Comput. Methods Appl. Mech. Eng. 49 (1985) 253-279
+//! (second-order displacements).
+
+mod inertia;
+mod truncation;
+
+use nalgebra::Vector3;
+
+use crate::math::jet::Number;
+
+pub use inertia::{SPIN_SCALE, SpinScale};
+
+/// Most modes whose pairs have second-order displacements.
+pub const PAIRED: usize = 16;
+
+/// A symmetric matrix of space: `xx yy zz xy xz yz`.
+pub type Symmetric<N = f64> = [N; 6];
+
+/// A finite element model that is reduced to `n` modes, in its principal axes and about its centre of mass.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReducedModel {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Principal moments of inertia without deformation, kg m^2.
+    pub moments: [f64; 3],
+    /// Squares of the natural frequencies of the free body, ascending, `[n]`, 1/s^2.
+    pub eigenvalues: Vec<f64>,
+    /// Derivatives `J1_k` of the inertia by amplitudes, `[n]`.
+    pub inertia_1: Vec<Symmetric>,
+    /// Second-order terms `J2_kl` of the inertia, `[n n]`.
+    pub inertia_2: Vec<Symmetric>,
+    /// `N_kl`, the integral of `rho psi_k x psi_l`, `[n n]`.
+    pub coupling: Vec<Vector3<f64>>,
+    /// Number of first modes whose pairs have second-order displacements.
+    pub paired: usize,
+    /// Cubic terms `T_mkl = psi_m f2(psi_k, psi_l)` of the strain energy, `[n paired paired]`.
+    pub cubic: Vec<f64>,
+    /// Points and frames that joints, loads and outputs are attached to.
+    pub interfaces: Vec<Interface>,
+}
+
+/// A point or a frame of a reduced model that joints, loads and outputs are attached to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Interface {
+    /// Name.
+    pub name: String,
+    /// Place without deformation, m.
+    pub position: Vector3<f64>,
+    /// Displacements by modes, `[n]`, m.
+    pub modes: Vec<Vector3<f64>>,
+    /// Rotations by modes, `[n]`, rad. A point has none.
+    pub rotation: Option<Vec<Vector3<f64>>>,
+    /// Second-order displacements, `[paired paired]`, m.
+    pub second: Vec<Vector3<f64>>,
+}
+
+impl ReducedModel {
+    /// Number of modes.
+    pub fn modes(&self) -> usize {
+        self.eigenvalues.len()
+    }
+
+    /// Weight `theta^m_kl` with which a pair of amplitudes changes the strain of mode `m`: every triple of modes counts once, at its
+    /// stiffest one.
+    fn pair_weight(&self, m: usize, k: usize, l: usize) -> f64 {
+        if m < k || m < l {
+            return 0.0;
+        }
+        let share = [1.0, 0.5, 1.0 / 3.0][usize::from(m == k) + usize::from(m == l)];
+        let cubic = self.cubic[(m * self.paired + k) * self.paired + l];
+        -2.0 * share * cubic / self.eigenvalues[m]
+    }
+
+    /// Strain `e_m = eta_m - 1/2 sum theta^m_kl eta_k eta_l` of a mode. Calls with the amplitude of a pair and `sum_l theta^m_kl eta_l`.
+    fn strain<N: Number>(&self, m: usize, eta: &[N], mut by_pair: impl FnMut(usize, N)) -> N {
+        let mut strain = eta[m];
+        for k in 0..self.paired.min(m + 1) {
+            let pairs = (0..self.paired.min(m + 1)).map(|l| (l, self.pair_weight(m, k, l)));
+            let turned = pairs.fold(N::of(0.0), |sum, (l, weight)| sum + eta[l] * N::of(weight));
+            strain -= eta[k] * turned * N::of(0.5);
+            by_pair(k, turned);
+        }
+        strain
+    }
+
+    /// Strain energy at amplitudes of the modes, J.
+    pub fn strain_energy<N: Number>(&self, eta: &[N]) -> N {
+        let mut energy = N::of(0.0);
+        for (m, eigenvalue) in self.eigenvalues.iter().enumerate() {
+            let strain = self.strain(m, eta, |_, _| {});
+            energy += strain * strain * N::of(0.5 * eigenvalue);
+        }
+        energy
+    }
+
+    /// Adds elastic forces on modes.
+    pub fn add_elastic<N: Number>(&self, eta: &[N], force: &mut [N]) {
+        for (m, eigenvalue) in self.eigenvalues.iter().enumerate() {
+            let mut turned = [N::of(0.0); PAIRED];
+            let strain = self.strain(m, eta, |k, by_pair| turned[k] = by_pair);
+            let pull = strain * N::of(*eigenvalue);
+            force[m] -= pull;
+            for (force, turned) in force.iter_mut().zip(&turned[..self.paired]) {
+                *force += pull * *turned;
+            }
+        }
+    }
+}
+
+impl Interface {
+    /// Derivative of its place by the amplitude of a mode, m.
+    #[inline(always)]
+    pub fn shape<N: Number>(&self, k: usize, eta: &[N], paired: usize) -> Vector3<N> {
+        let mut shape = self.modes[k].map(N::of);
+        if k < paired && !self.second.is_empty() {
+            for (l, eta) in eta.iter().enumerate().take(paired) {
+                shape += self.second[paired * k + l].map(N::of) * *eta;
+            }
+        }
+        shape
+    }
+
+    /// Place in the axes of the body at amplitudes of the modes, m.
+    pub fn place<N: Number>(&self, eta: &[N], paired: usize) -> Vector3<N> {
+        let mut place = self.position.map(N::of);
+        for (k, amplitude) in eta.iter().enumerate() {
+            let linear = self.modes[k].map(N::of);
+            place += (linear + self.shape(k, eta, paired)) * (*amplitude * N::of(0.5));
+        }
+        place
+    }
+
+    /// Rotation vector of its frame in the axes of the body, rad.
+    pub fn turn<N: Number>(&self, eta: &[N]) -> Vector3<N> {
+        let none = Vector3::from_element(N::of(0.0));
+        self.rotation
+            .iter()
+            .flatten()
+            .zip(eta)
+            .fold(none, |sum, (mode, eta)| sum + mode.map(N::of) * *eta)
+    }
+
+    /// Second derivative of its place by rates of the amplitudes: `sum u_kl eta_k' eta_l'`, m/s^2.
+    pub fn second_rate<N: Number>(&self, rates: &[N], paired: usize) -> Vector3<N> {
+        let mut sum = Vector3::from_element(N::of(0.0));
+        if self.second.is_empty() {
+            return sum;
+        }
+        for (k, a) in rates.iter().enumerate().take(paired) {
+            for (l, b) in rates.iter().enumerate().take(paired) {
+                sum += self.second[paired * k + l].map(N::of) * (*a * *b);
+            }
+        }
+        sum
+    }
+}
