@@ -8,7 +8,7 @@ use super::connectivity::Node;
 use super::frame::{RigidBodyFrame, SectionFrame};
 use super::nodes::{NodeKind, NodeOwner};
 use super::winch::PaidOut;
-use super::{LineChain, LumpedMass, Marker, RigidRod, RodChain, Winch};
+use super::{LineChain, LumpedMass, Marker, ReducedBody, RigidRod, RodChain, Winch};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -29,9 +29,11 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) rods: Vec<RigidRod>,
     /// Rigid bodies of space.
     pub(super) rigid: Vec<RigidBodyFrame>,
+    /// Bodies of reduced finite element models.
+    pub(super) reduced: Vec<ReducedBody>,
     /// Owner of every node, `[nodes]`.
     pub(super) owners: Vec<NodeOwner>,
-    /// Number of frames that a state holds: of rigid bodies of space, then of sections.
+    /// Number of frames that a state holds: of rigid bodies of space, of reduced bodies, then of sections.
     pub(super) frame_count: usize,
     /// Whether a winch pays out any of the lines.
     pub(super) pays_out: bool,
@@ -114,14 +116,29 @@ impl<const D: usize> Bodies<D> {
         &self.rods
     }
 
-    /// Number of frames that a state holds: of rigid bodies of space, then of sections.
+    /// Number of frames that a state holds: of rigid bodies of space, of reduced bodies, then of sections.
     pub fn frame_count(&self) -> usize {
         self.frame_count
     }
 
     /// Number of sections whose moments are forces of their own: those of space.
     pub fn moments(&self) -> usize {
-        self.frame_count - self.rigid.len()
+        self.frame_count - self.whole_frames()
+    }
+
+    /// Whether there are rigid bodies of space or reduced bodies.
+    pub fn has_whole_frames(&self) -> bool {
+        self.whole_frames() > 0
+    }
+
+    /// Number of frames of bodies as a whole: of rigid bodies of space and of reduced bodies.
+    pub(super) fn whole_frames(&self) -> usize {
+        self.rigid.len() + self.reduced.len()
+    }
+
+    /// Frames of bodies as a whole: of rigid bodies of space, then of reduced bodies.
+    pub(super) fn frames(&self) -> impl Iterator<Item = &RigidBodyFrame> {
+        (self.rigid.iter()).chain(self.reduced.iter().map(|body| &body.frame))
     }
 
     /// Frames of sections in space, body by body.
@@ -132,6 +149,11 @@ impl<const D: usize> Bodies<D> {
     /// Rigid bodies of space.
     pub fn rigid(&self) -> &[RigidBodyFrame] {
         &self.rigid
+    }
+
+    /// Bodies of reduced finite element models.
+    pub fn reduced(&self) -> &[ReducedBody] {
+        &self.reduced
     }
 
     /// The body with this first node. Bodies stand in the order of their nodes.

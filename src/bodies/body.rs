@@ -55,6 +55,9 @@ macro_rules! each {
         for $body in &$bodies.rigid {
             $run;
         }
+        for $body in &$bodies.reduced {
+            $run;
+        }
         for $body in &$bodies.sections {
             $run;
         }

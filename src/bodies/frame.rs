@@ -89,7 +89,11 @@ pub fn spin_at<const D: usize, N: Number>(
 }
 
 /// Sets them.
-fn set_axes_at<const D: usize, N: Number>(node: usize, axes: &Axes<N>, x: &mut [Node<D, N>]) {
+pub(super) fn set_axes_at<const D: usize, N: Number>(
+    node: usize,
+    axes: &Axes<N>,
+    x: &mut [Node<D, N>],
+) {
     let [a, b, c] = axes.map(|axis| vector::<D, N>(axis.into()).into());
     x[node][1] = a;
     x[node + 1] = [b, c];

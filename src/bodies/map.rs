@@ -5,6 +5,7 @@ use super::assembly::NodeBlock;
 use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::Node;
 use super::frame::{Derivative, RotationIncrement, SectionFrameState};
+use super::reduced::ModalState;
 use super::{Bodies, Elimination};
 use crate::math::jet::Number;
 use crate::math::rotation::Quaternion;
@@ -12,8 +13,10 @@ use crate::math::rotation::Quaternion;
 /// How bodies and sections have rotated, at a configuration, from the frames that the state holds.
 #[derive(Clone, Debug, Default)]
 pub struct Rotations {
-    /// Rotations of rigid bodies of space, `[rigid bodies]`.
+    /// Rotations of rigid bodies of space and of reduced bodies, `[rigid bodies + reduced bodies]`.
     pub(super) rigid: Vec<RotationIncrement>,
+    /// What follows from the amplitudes of reduced bodies, `[reduced bodies]`.
+    pub(super) reduced: Vec<ModalState>,
     /// States of section frames, `[section frames]`.
     pub(super) sections: Vec<SectionFrameState>,
 }
@@ -22,19 +25,22 @@ impl Rotations {
     /// Without any rotation.
     pub fn of<const D: usize>(bodies: &Bodies<D>) -> Self {
         Self {
-            rigid: vec![RotationIncrement::default(); bodies.rigid.len()],
+            rigid: vec![RotationIncrement::default(); bodies.whole_frames()],
+            reduced: bodies.reduced.iter().map(ModalState::of).collect(),
             sections: vec![SectionFrameState::default(); bodies.moments()],
         }
     }
 
-    /// Takes over the rotations of rigid bodies alone.
+    /// Takes over the rotations of rigid bodies and reduced bodies alone.
     pub fn copy_rigid(&mut self, other: &Self) {
         self.rigid.copy_from_slice(&other.rigid);
+        let reduced = self.reduced.iter_mut().zip(&other.reduced);
+        reduced.for_each(|(to, from)| to.copy_from(from));
     }
 
     /// Becomes the same as another one, without new memory.
     pub fn copy_from(&mut self, other: &Self) {
-        self.rigid.copy_from_slice(&other.rigid);
+        self.copy_rigid(other);
         self.sections.copy_from_slice(&other.sections);
     }
 }

@@ -6,6 +6,7 @@ use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, add_node, no_node};
 use super::frame::axes_at;
 use super::marker::Marker;
+use super::reduced::Site;
 use super::{Bodies, Elimination, RodChain};
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, normalized, quaternion};
@@ -36,6 +37,8 @@ pub(super) enum NodeOwner {
     Rigid(usize, bool),
     /// A section frame, by the index of the sections of its body and its own there, and whether this is its second node.
     Section(usize, usize, bool),
+    /// A frame of a reduced body, by index, with its place, and whether this is its second node.
+    Reduced(usize, Site, bool),
 }
 
 impl<const D: usize> Bodies<D> {
@@ -65,18 +68,27 @@ impl<const D: usize> Bodies<D> {
             owners[frame.node] = NodeOwner::Rigid(index, false);
             owners[frame.node + 1] = NodeOwner::Rigid(index, true);
         }
+        for (index, body) in self.reduced.iter().enumerate() {
+            for (node, site) in body.sites() {
+                owners[node] = NodeOwner::Reduced(index, site, false);
+                owners[node + 1] = NodeOwner::Reduced(index, site, true);
+            }
+            owners[body.inner()..body.all().end].fill(NodeOwner::Inner);
+        }
         self.owners = owners;
     }
 
     /// Returns the meaning of the two vectors of a node.
     pub fn kind(&self, node: usize) -> NodeKind {
         match self.owner(node) {
-            NodeOwner::Own | NodeOwner::Rigid(_, false) | NodeOwner::Section(.., false) => {
-                NodeKind::Point
-            }
-            NodeOwner::Direction | NodeOwner::Rigid(_, true) | NodeOwner::Section(.., true) => {
-                NodeKind::Axes
-            }
+            NodeOwner::Own
+            | NodeOwner::Rigid(_, false)
+            | NodeOwner::Section(.., false)
+            | NodeOwner::Reduced(.., false) => NodeKind::Point,
+            NodeOwner::Direction
+            | NodeOwner::Rigid(_, true)
+            | NodeOwner::Section(.., true)
+            | NodeOwner::Reduced(.., true) => NodeKind::Axes,
             NodeOwner::Inner => NodeKind::Inner,
         }
     }
@@ -95,8 +107,9 @@ impl<const D: usize> Bodies<D> {
     pub fn frame_index(&self, node: usize) -> Option<usize> {
         match self.owner(node) {
             NodeOwner::Rigid(index, _) => Some(index),
+            NodeOwner::Reduced(index, ..) => Some(self.rigid.len() + index),
             NodeOwner::Section(chain, k, _) => {
-                Some(self.rigid.len() + self.sections[chain].first_section() + k)
+                Some(self.whole_frames() + self.sections[chain].first_section() + k)
             }
             _ => None,
         }
@@ -144,6 +157,9 @@ impl<const D: usize> Bodies<D> {
                 let frame = self.sections[chain].frame(k);
                 frame.pull_marker((&force, &moment), x, term);
             }
+            NodeOwner::Reduced(index, site, _) => {
+                self.reduced[index].pull_marker(site, (&force, &moment), x, term);
+            }
             _ => term(node, &[force, vector::<D, N>(moment.into()).into()]),
         }
     }
@@ -160,7 +176,7 @@ impl<const D: usize> Bodies<D> {
         frames: &'a mut [Quaternion],
         q: &'a [f64],
     ) -> impl Iterator<Item = (usize, &'a mut Quaternion, Quaternion)> {
-        (self.rigid.iter().zip(frames)).map(|(frame, from)| {
+        (self.frames().zip(frames)).map(|(frame, from)| {
             let now = normalized(frame.increment(q).quaternion(from));
             (frame.node, from, now)
         })
@@ -177,7 +193,7 @@ impl<const D: usize> Bodies<D> {
         for frame in self.section_frames().filter(|frame| frame.is_held()) {
             frame.set_axes(&frame.axes(described), x);
         }
-        let nodes = self.rigid.iter().map(|frame| frame.node);
+        let nodes = self.frames().map(|frame| frame.node);
         let nodes = nodes.chain(self.section_frames().map(|frame| frame.node));
         for (node, at) in nodes.zip(frames) {
             *at = normalized(quaternion(&axes_at(node, x)));
@@ -188,6 +204,9 @@ impl<const D: usize> Bodies<D> {
     pub fn take_axes(&self, described: &[Node<D>], x: &mut [Node<D>]) {
         for frame in &self.rigid {
             frame.set_axes(&frame.axes(described), x);
+        }
+        for body in &self.reduced {
+            x[body.all()].copy_from_slice(&described[body.all()]);
         }
         for frame in self.section_frames() {
             x[frame.node..][..2].copy_from_slice(&described[frame.node..][..2]);
@@ -204,7 +223,7 @@ impl<const D: usize> Bodies<D> {
     /// For every node how far a rigid body of space reaches from it by its radius of gyration, `[nodes]`, m.
     pub fn gyrations(&self) -> Vec<f64> {
         let mut arms = vec![0.0; self.reference.len()];
-        for frame in &self.rigid {
+        for frame in self.frames() {
             arms[frame.node] = frame.gyration();
         }
         arms
@@ -218,12 +237,16 @@ impl<const D: usize> Bodies<D> {
             unit[1][axis] = moment;
             unit
         };
-        for frame in &mut self.rigid {
+        let rigid = self.rigid.iter_mut();
+        for frame in rigid.chain(self.reduced.iter_mut().map(|body| &mut body.frame)) {
             for axis in (0..3).filter(|axis| frame.moments[*axis] > 0.0) {
                 let unit = turned(axis, frame.moments[axis]);
                 let moved = elimination.reduce_node(frame.node, &unit, &mut y);
                 frame.places[axis] = moved.first().copied();
             }
+        }
+        for body in &mut self.reduced {
+            body.find_amplitudes(elimination, &mut y);
         }
         let assembly = &elimination.assembly;
         let sections = self.sections.iter_mut();

@@ -100,7 +100,7 @@ impl NodeBlocks {
         if bodies.has_no_frames() {
             return self;
         }
-        let (nodes, change) = self.changes(|node| bodies.partials(node, x));
+        let (nodes, change) = self.changes(|node, call| bodies.for_each_partial(node, x, call));
         Self {
             whole: change.transpose() * self.whole * change,
             nodes,
@@ -118,8 +118,12 @@ impl NodeBlocks {
         if bodies.has_no_frames() {
             return;
         }
-        let (nodes, change) = by_rates.changes(|node| bodies.partials(node, x));
-        let (_, turned) = by_rates.changes(|node| bodies.partials_of_rates(node, x, v));
+        let (nodes, change) = by_rates.changes(|node, call| bodies.for_each_partial(node, x, call));
+        let (_, turned) = by_rates.changes(|node, call| {
+            for (owner, partial) in bodies.partials_of_rates(node, x, v).iter().flatten() {
+                call(*owner, partial);
+            }
+        });
         debug_assert_eq!(nodes, self.nodes);
         self.whole += change.transpose() * &by_rates.whole * turned;
     }
@@ -127,15 +131,14 @@ impl NodeBlocks {
     /// Nodes that stand for bodies, and derivatives of all vectors by their coordinates.
     fn changes<const D: usize>(
         &self,
-        partials_at: impl Fn(usize) -> [Option<(usize, NodeBlock<D>)>; 2],
+        partials_at: impl Fn(usize, &mut dyn FnMut(usize, &NodeBlock<D>)),
     ) -> (Vec<usize>, DMatrix<f64>) {
-        let partials = self.nodes.iter().enumerate();
-        let partials: Vec<_> = partials
-            .flat_map(|(i, node)| {
-                let partials = partials_at(*node).into_iter().flatten();
-                partials.map(move |(owner, partial)| (i, owner, partial))
-            })
-            .collect();
+        let mut partials = Vec::new();
+        for (i, node) in self.nodes.iter().enumerate() {
+            partials_at(*node, &mut |owner, partial| {
+                partials.push((i, owner, *partial))
+            });
+        }
         let mut nodes: Vec<usize> = Vec::new();
         for (_, owner, _) in &partials {
             if !nodes.contains(owner) {

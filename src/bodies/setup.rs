@@ -9,7 +9,7 @@ use super::connectivity::Node;
 use super::frame::RigidBodyFrame;
 use super::nodes::NodeOwner;
 use super::stages::RotatingNodes;
-use super::{Bodies, LineChain, LumpedMass, RigidRod, RodChain, Winch};
+use super::{Bodies, LineChain, LumpedMass, ReducedBody, RigidRod, RodChain, Winch};
 use crate::math::space::Vector;
 
 /// A number of a node: node, part and axis.
@@ -51,6 +51,11 @@ impl<const D: usize> Bodies<D> {
         self.rigid.push(RigidBodyFrame { index, ..frame });
     }
 
+    /// Adds the body of a reduced finite element model.
+    pub fn add_reduced(&mut self, body: ReducedBody) {
+        self.reduced.push(body);
+    }
+
     /// Puts a line on a winch at its last end or its first one. The driven coordinate is the length that has been paid out, m.
     pub fn pay_out(
         &mut self,
@@ -79,6 +84,11 @@ impl<const D: usize> Bodies<D> {
 
     /// Finds the owners of nodes. To be called when all bodies are there.
     pub fn complete(&mut self) {
+        let first = self.rigid.len();
+        for (index, body) in self.reduced.iter_mut().enumerate() {
+            body.index = index;
+            body.frame.index = first + index;
+        }
         self.find_owners();
         let mut count = 0;
         each!(self, |body| count += BodyPart::<D>::frame_count(body));
@@ -125,18 +135,20 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Nodes whose coordinates a force on a node acts on, `[nodes]`; none if these are the nodes themselves. A force on an axis of a rigid body
-    /// acts on its first node, one on an axis of a section frame on the node of the line as well.
-    pub fn acted_nodes(&self) -> Option<Vec<[usize; 2]>> {
+    /// acts on its first node, one on an axis of a section frame on the node of the line as well, one on an interface of a reduced body on
+    /// the body's first node and on those with amplitudes.
+    pub fn acted_nodes(&self) -> Option<Vec<Vec<usize>>> {
         if self.has_no_frames() {
             return None;
         }
         let acted = |node: usize| match self.owner(node) {
-            NodeOwner::Rigid(index, _) => [self.rigid[index].node; 2],
+            NodeOwner::Rigid(index, _) => vec![self.rigid[index].node],
             NodeOwner::Section(chain, k, _) => {
                 let frame = self.sections[chain].frame(k);
-                [frame.line, frame.node]
+                vec![frame.line, frame.node]
             }
-            _ => [node; 2],
+            NodeOwner::Reduced(index, ..) => self.reduced[index].acted().collect(),
+            _ => vec![node],
         };
         Some((0..self.reference.len()).map(acted).collect())
     }

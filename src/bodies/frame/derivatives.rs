@@ -14,6 +14,8 @@ pub struct AngularAccelerations {
     rigid: Vec<Vector3<Jet>>,
     /// Of sections: about the tangents of rods, along the section axes of beams, `[sections]`, rad/s^2.
     sections: Vec<[Jet; 3]>,
+    /// Of what reduced bodies count, spins and rates of amplitudes, body by body, `[3 + n]`.
+    reduced: Vec<Vec<Jet>>,
 }
 
 /// Accelerations of all nodes with derivatives, and what they are made of.
@@ -33,6 +35,7 @@ impl AngularAccelerations {
         Self {
             rigid: vec![Vector3::from_element(zero); bodies.rigid.len()],
             sections: vec![[zero; 3]; bodies.moments()],
+            reduced: (bodies.reduced.iter().map(|body| vec![zero; body.counted()])).collect(),
         }
     }
 }
@@ -54,6 +57,14 @@ impl<const D: usize> Bodies<D> {
             for (rate, value) in rate.iter_mut().zip(&found[frame.node][1]) {
                 rate.re = *value;
             }
+        }
+        for (body, rates) in self.reduced.iter().zip(&mut to.reduced) {
+            let mut places = rates.iter_mut();
+            body.for_each_counted(found, |value| {
+                if let Some(rate) = places.next() {
+                    rate.re = value;
+                }
+            });
         }
         for (frame, rate) in self.section_frames().zip(&mut to.sections) {
             for (rate, value) in rate.iter_mut().zip(&found[frame.node][1]) {
@@ -82,6 +93,15 @@ impl<const D: usize> Bodies<D> {
             let by_rate = axis_rates(&frame.axes(x), spin_rate);
             add_parts(k, &mut sum, &by_rate, &frame.axes(bias));
             frame.set_axes(&sum, acceleration);
+        }
+        for (body, rates) in self.reduced.iter().zip(&mut angular.reduced) {
+            let mut places = rates.iter_mut();
+            body.for_each_counted(found, |value| {
+                if let Some(rate) = places.next() {
+                    set_part(rate, k, value);
+                }
+            });
+            body.differentiate(k, rates, (x, bias), acceleration);
         }
         for (frame, spin_rate) in self.section_frames().zip(&mut angular.sections) {
             for (rate, value) in spin_rate.iter_mut().zip(&found[frame.node][1]) {

@@ -80,7 +80,7 @@ impl RigidBodyFrame {
         }
     }
 
-    pub(super) fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
+    pub(in crate::bodies) fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
         for (place, value) in self.places.iter().zip(rotation) {
             if let Some((at, scale)) = place {
                 q[*at] = value * scale;

@@ -139,8 +139,11 @@ impl<const D: usize> Bodies<D> {
         x: &[Node<D>],
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
-        let [of_a, of_b] = [a, b].map(|node| self.partials(node, x));
         let is_pair = a != b;
+        if [a, b].iter().any(|node| self.is_reduced(*node)) {
+            return self.rotate_modal_block((a, b), block, x, add);
+        }
+        let [of_a, of_b] = [a, b].map(|node| self.partials(node, x));
         for (i, (to_a, by_a)) in of_a.into_iter().flatten().enumerate() {
             for (j, (to_b, by_b)) in of_b.into_iter().flatten().enumerate() {
                 // Of what belongs to one node the lower half is what the upper one is.
@@ -156,8 +159,54 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
+    /// Whether a node is one of a frame of a reduced body.
+    fn is_reduced(&self, node: usize) -> bool {
+        matches!(self.owner(node), NodeOwner::Reduced(..))
+    }
+
+    /// [`Self::rotate_block`] where nodes follow from the amplitudes of modes.
+    #[inline(never)]
+    fn rotate_modal_block(
+        &self,
+        (a, b): (usize, usize),
+        block: &NodeBlock<D>,
+        x: &[Node<D>],
+        mut add: impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        let (is_pair, mut i) = (a != b, 0);
+        self.for_each_partial(a, x, |to_a, by_a| {
+            let mut j = 0;
+            self.for_each_partial(b, x, |to_b, by_b| {
+                if is_pair || j <= i {
+                    let mut pulled = transformed(block, by_a, by_b);
+                    if is_pair && to_a == to_b {
+                        add_transposed(&mut pulled);
+                    }
+                    add(to_a, to_b, &pulled);
+                }
+                j += 1;
+            });
+            i += 1;
+        });
+    }
+
+    /// Calls with the derivatives of a node's vectors by the coordinates of each node that they follow from.
+    pub(in crate::bodies) fn for_each_partial(
+        &self,
+        node: usize,
+        x: &[Node<D>],
+        mut call: impl FnMut(usize, &NodeBlock<D>),
+    ) {
+        if let NodeOwner::Reduced(index, site, is_second) = self.owner(node) {
+            return self.reduced[index].for_each_partial((site, is_second), x, call);
+        }
+        for (owner, partial) in self.partials(node, x).iter().flatten() {
+            call(*owner, partial);
+        }
+    }
+
     /// Derivatives of a node's vectors by the coordinates of the nodes that have them: one node, but for section frames.
-    pub(in crate::bodies) fn partials(&self, node: usize, x: &[Node<D>]) -> Partials<D> {
+    fn partials(&self, node: usize, x: &[Node<D>]) -> Partials<D> {
         match self.owner(node) {
             NodeOwner::Rigid(index, is_second) => {
                 let frame = &self.rigid[index];

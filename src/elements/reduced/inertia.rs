@@ -31,7 +31,7 @@ fn add<N: Number>(sum: &mut Symmetric<N>, factor: N, matrix: &Symmetric<N>) {
 }
 
 /// `S^-1`, upper triangular: `w = S^-1 nu`. Rows one after the other: `00 01 02 11 12 22`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpinScale<N = f64>(pub [N; SPIN_SCALE]);
 
 impl<N: Number> SpinScale<N> {
@@ -187,8 +187,7 @@ impl ReducedModel {
 
     /// `J - h h^T` at couplings `h`, `[n]`.
     fn reduced_inertia<N: Number>(&self, eta: &[N], h: &[N]) -> Matrix3<N> {
-        let [xx, yy, zz, xy, xz, yz] = self.inertia(eta);
-        let mut sum = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let mut sum = full(self.inertia(eta));
         for h in h.chunks_exact(3) {
             let h = Vector3::new(h[0], h[1], h[2]);
             sum -= h * h.transpose();
@@ -217,34 +216,87 @@ impl ReducedModel {
         ])
     }
 
-    /// Change of the scale of spins with amplitudes and couplings: `-C^-1 Phi D`, where `C^T C = J - h h^T`, `D` are the roots of the
-    /// moments of inertia, and `Phi` is the upper half of `C^-T d(J - h h^T) C^-1`.
-    pub fn spin_scale_change<N: Number>(
+    /// `C^-1`, where `C^T C = J - h h^T`, from the scale of spins.
+    fn root_inverse<N: Number>(&self, scale: &SpinScale<N>) -> Matrix3<N> {
+        let scale = scale.matrix();
+        Matrix3::from_fn(|r, c| scale[(r, c)] / N::of(self.moments[c].sqrt()))
+    }
+
+    /// The scale of spins of a change of `C^-1`.
+    fn scaled<N: Number>(&self, change: &Matrix3<N>) -> SpinScale<N> {
+        let by_root = |r, c| change[(r, c)] * N::of(self.moments[c].sqrt());
+        SpinScale::from_matrix(&Matrix3::from_fn(by_root))
+    }
+
+    /// Change of `J - h h^T`.
+    fn reduced_inertia_change<N: Number>(
         &self,
-        scale: &SpinScale<N>,
         [eta, d_eta]: [&[N]; 2],
         [h, d_h]: [&[N]; 2],
-    ) -> SpinScale<N> {
+    ) -> Matrix3<N> {
         let mut change = [N::of(0.0); 6];
         for (k, d_eta) in d_eta.iter().enumerate() {
             add(&mut change, *d_eta, &self.by_mode(k, eta));
         }
-        let [xx, yy, zz, xy, xz, yz] = change;
-        let mut change = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let mut change = full(change);
         for (h, d_h) in h.chunks_exact(3).zip(d_h.chunks_exact(3)) {
             let [h, d_h] = [h, d_h].map(|h| Vector3::new(h[0], h[1], h[2]));
             change -= h * d_h.transpose() + d_h * h.transpose();
         }
-        let roots = self.moments.map(|j| N::of(j.sqrt()));
-        let scale = scale.matrix();
-        let inverse = Matrix3::from_fn(|r, c| scale[(r, c)] / roots[c]);
-        let both = inverse.transpose() * change * inverse;
-        let upper = Matrix3::from_fn(|r, c| match r.cmp(&c) {
-            std::cmp::Ordering::Less => both[(r, c)],
-            std::cmp::Ordering::Equal => both[(r, c)] * N::of(0.5),
-            std::cmp::Ordering::Greater => N::of(0.0),
-        });
-        let product = inverse * upper;
-        SpinScale::from_matrix(&Matrix3::from_fn(|r, c| -product[(r, c)] * roots[c]))
+        change
     }
+
+    /// Change of the scale of spins with amplitudes and couplings: `-C^-1 Phi D`, where `D` are the roots of the moments of inertia and
+    /// `Phi = C' C^-1` is the upper half of `C^-T (J - h h^T)' C^-1`.
+    pub fn spin_scale_change<N: Number>(
+        &self,
+        scale: &SpinScale<N>,
+        eta: [&[N]; 2],
+        h: [&[N]; 2],
+    ) -> SpinScale<N> {
+        let inverse = self.root_inverse(scale);
+        let change = self.reduced_inertia_change(eta, h);
+        let phi = upper_half(&(inverse.transpose() * change * inverse));
+        self.scaled(&-(inverse * phi))
+    }
+
+    /// Second derivative of the scale of spins at constant rates of the amplitudes: `C^-1 (2 Phi Phi - Psi) D`, where `Psi = C'' C^-1` is the
+    /// upper half of `C^-T (J - h h^T)'' C^-1 - 2 Phi^T Phi`.
+    pub fn spin_scale_bias<N: Number>(
+        &self,
+        scale: &SpinScale<N>,
+        [eta, rates]: [&[N]; 2],
+        [h, h_rates]: [&[N]; 2],
+    ) -> SpinScale<N> {
+        let inverse = self.root_inverse(scale);
+        let change = self.reduced_inertia_change([eta, rates], [h, h_rates]);
+        let phi = upper_half(&(inverse.transpose() * change * inverse));
+        let mut second = [N::of(0.0); 6];
+        for (k, rate) in rates.iter().enumerate() {
+            add(&mut second, *rate, &self.by_mode(k, rates));
+            add(&mut second, -*rate, &self.inertia_1[k].map(N::of));
+        }
+        let mut second = full(second);
+        for h in h_rates.chunks_exact(3) {
+            let h = Vector3::new(h[0], h[1], h[2]);
+            second -= h * h.transpose() * N::of(2.0);
+        }
+        let psi = inverse.transpose() * second * inverse - phi.transpose() * phi * N::of(2.0);
+        let change = phi * phi * N::of(2.0) - upper_half(&psi);
+        self.scaled(&(inverse * change))
+    }
+}
+
+/// A symmetric matrix as a whole.
+fn full<N: Number>([xx, yy, zz, xy, xz, yz]: Symmetric<N>) -> Matrix3<N> {
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+/// The upper triangular matrix whose sum with its transpose is a symmetric matrix.
+fn upper_half<N: Number>(of: &Matrix3<N>) -> Matrix3<N> {
+    Matrix3::from_fn(|r, c| match r.cmp(&c) {
+        std::cmp::Ordering::Less => of[(r, c)],
+        std::cmp::Ordering::Equal => of[(r, c)] * N::of(0.5),
+        std::cmp::Ordering::Greater => N::of(0.0),
+    })
 }

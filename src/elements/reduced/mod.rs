@@ -9,6 +9,7 @@
 //! (second-order displacements).
 
 mod inertia;
+mod strain;
 mod truncation;
 
 use nalgebra::Vector3;
@@ -16,6 +17,7 @@ use nalgebra::Vector3;
 use crate::math::jet::Number;
 
 pub use inertia::{SPIN_SCALE, SpinScale};
+pub use strain::ModalStrain;
 
 /// Most modes whose pairs have second-order displacements.
 pub const PAIRED: usize = 16;
@@ -65,52 +67,6 @@ impl ReducedModel {
     /// Number of modes.
     pub fn modes(&self) -> usize {
         self.eigenvalues.len()
-    }
-
-    /// Weight `theta^m_kl` with which a pair of amplitudes changes the strain of mode `m`: every triple of modes counts once, at its
-    /// stiffest one.
-    fn pair_weight(&self, m: usize, k: usize, l: usize) -> f64 {
-        if m < k || m < l {
-            return 0.0;
-        }
-        let share = [1.0, 0.5, 1.0 / 3.0][usize::from(m == k) + usize::from(m == l)];
-        let cubic = self.cubic[(m * self.paired + k) * self.paired + l];
-        -2.0 * share * cubic / self.eigenvalues[m]
-    }
-
-    /// Strain `e_m = eta_m - 1/2 sum theta^m_kl eta_k eta_l` of a mode. Calls with the amplitude of a pair and `sum_l theta^m_kl eta_l`.
-    fn strain<N: Number>(&self, m: usize, eta: &[N], mut by_pair: impl FnMut(usize, N)) -> N {
-        let mut strain = eta[m];
-        for k in 0..self.paired.min(m + 1) {
-            let pairs = (0..self.paired.min(m + 1)).map(|l| (l, self.pair_weight(m, k, l)));
-            let turned = pairs.fold(N::of(0.0), |sum, (l, weight)| sum + eta[l] * N::of(weight));
-            strain -= eta[k] * turned * N::of(0.5);
-            by_pair(k, turned);
-        }
-        strain
-    }
-
-    /// Strain energy at amplitudes of the modes, J.
-    pub fn strain_energy<N: Number>(&self, eta: &[N]) -> N {
-        let mut energy = N::of(0.0);
-        for (m, eigenvalue) in self.eigenvalues.iter().enumerate() {
-            let strain = self.strain(m, eta, |_, _| {});
-            energy += strain * strain * N::of(0.5 * eigenvalue);
-        }
-        energy
-    }
-
-    /// Adds elastic forces on modes.
-    pub fn add_elastic<N: Number>(&self, eta: &[N], force: &mut [N]) {
-        for (m, eigenvalue) in self.eigenvalues.iter().enumerate() {
-            let mut turned = [N::of(0.0); PAIRED];
-            let strain = self.strain(m, eta, |k, by_pair| turned[k] = by_pair);
-            let pull = strain * N::of(*eigenvalue);
-            force[m] -= pull;
-            for (force, turned) in force.iter_mut().zip(&turned[..self.paired]) {
-                *force += pull * *turned;
-            }
-        }
     }
 }
 

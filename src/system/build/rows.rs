@@ -122,7 +122,7 @@ fn release_rows<const D: usize>(
         nonlinear.push(Constraint::of(index, ConstraintKind::LinearConstraint(row)));
         false
     });
-    if !parts.bodies.rigid().is_empty() {
+    if parts.bodies.has_whole_frames() {
         // What belongs to one joint stands together.
         nonlinear.sort_by_key(|constraint| constraint.joint);
     }
@@ -155,7 +155,7 @@ pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>
             return nodes;
         };
         let mut owners: Vec<usize> = Vec::with_capacity(2 * nodes.len());
-        for owner in nodes.iter().flat_map(|node| first[*node]) {
+        for owner in nodes.iter().flat_map(|node| first[*node].iter().copied()) {
             if !owners.contains(&owner) {
                 owners.push(owner);
             }

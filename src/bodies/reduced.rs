@@ -1,0 +1,227 @@
+//! Bodies of finite element models reduced to modes: a frame in mean axes, amplitudes of modes, and interfaces that follow from both.
+//!
+//! Nodes of a body, six numbers each: the centre of mass and the axes as of a rigid body (two nodes), place and axes of every interface
+//! (two nodes each), amplitudes of the modes, and what follows from these and is needed wherever forces are pulled back: the scale of
+//! spins `S^-1` and the couplings `h`. Coordinates are the first node and the amplitudes. Rates of constant mass are
+//! `nu = S w`, `zeta = eta' + h^T w` (`elements/reduced/inertia.rs`). Small rotations and changes of amplitudes are counted alike. A moment
+//! `t` along the axes and forces `Q` on modes are conjugate to them as `S^-T (t - h Q)` and `Q`.
+
+mod body;
+mod changes;
+mod forces;
+mod linearized;
+
+use nalgebra::Vector3;
+
+use super::Elimination;
+use super::connectivity::Node;
+use super::frame::{Axes, RigidBodyFrame};
+use crate::elements::reduced::{ModalStrain, ReducedModel, SPIN_SCALE, SpinScale};
+use crate::math::jet::Number;
+use crate::math::space::vector;
+
+/// Numbers in a node of space.
+const NUMBERS: usize = 6;
+
+/// A finite element model reduced to modes, as a body.
+#[derive(Clone, Debug)]
+pub struct ReducedBody {
+    /// Centre of mass and principal axes without deformation.
+    pub(super) frame: RigidBodyFrame,
+    /// Index among the reduced bodies.
+    pub(super) index: usize,
+    pub(super) model: ReducedModel,
+    strain: ModalStrain,
+    /// Damping by mode, `2 d sqrt(lambda)`, 1/s.
+    damping: Vec<f64>,
+    /// Where amplitudes are among the coordinates `q`, `[n]`.
+    pub(super) places: Vec<usize>,
+}
+
+/// What follows from the amplitudes of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ModalState {
+    scale: SpinScale,
+    /// Couplings `h`, `[n]`.
+    coupling: Vec<Vector3<f64>>,
+}
+
+impl ModalState {
+    /// Without deformation.
+    pub fn of(body: &ReducedBody) -> Self {
+        Self {
+            scale: SpinScale([1.0, 0.0, 0.0, 1.0, 0.0, 1.0]),
+            coupling: vec![Vector3::zeros(); body.model.modes()],
+        }
+    }
+
+    /// Becomes the same as another one, without new memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.scale = other.scale;
+        self.coupling.copy_from_slice(&other.coupling);
+    }
+}
+
+/// A place of a reduced body that forces act on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Site {
+    /// The frame.
+    Frame,
+    /// An interface.
+    Interface(usize),
+}
+
+/// Numbers that nodes hold one after the other.
+fn numbers<const D: usize, N>(nodes: &[Node<D, N>]) -> &[N] {
+    nodes.as_flattened().as_flattened()
+}
+
+/// Numbers that nodes hold one after the other, to be changed.
+fn numbers_mut<const D: usize, N>(nodes: &mut [Node<D, N>]) -> &mut [N] {
+    nodes.as_flattened_mut().as_flattened_mut()
+}
+
+impl ReducedBody {
+    /// A body with its first node and the damping ratio of each of its modes, `[n]`. A system finds where its coordinates are.
+    pub fn new(node: usize, model: ReducedModel, damping_ratios: &[f64]) -> Self {
+        let roots = model.eigenvalues.iter().map(|lambda| lambda.sqrt());
+        let damping = roots
+            .zip(damping_ratios)
+            .map(|(root, ratio)| 2.0 * ratio * root);
+        Self {
+            frame: RigidBodyFrame::new(node, model.mass, model.moments),
+            index: 0,
+            damping: damping.collect(),
+            places: Vec::new(),
+            strain: ModalStrain::new(&model),
+            model,
+        }
+    }
+
+    /// Coordinates of all its nodes without deformation, for a centre of mass (m) and axes.
+    pub fn reference<const D: usize>(&self, center: [f64; 3], axes: &Axes) -> Vec<Node<D>> {
+        let [a, b, c] = axes.map(|axis| vector::<D, f64>(axis.into()).into());
+        let center = vector::<D, f64>(center).into();
+        let mut nodes = vec![[center, a], [b, c]];
+        for interface in &self.model.interfaces {
+            let arm = super::combined(axes, &interface.position);
+            let at = vector::<D, f64>((Vector3::from(components3(&center)) + arm).into()).into();
+            nodes.extend([[at, a], [b, c]]);
+        }
+        nodes.resize(nodes.len() + self.inner_nodes(), [[0.0; D]; 2]);
+        let derived = self.derived() - self.frame.node;
+        let scale = numbers_mut(&mut nodes[derived..]);
+        for place in [0, 3, 5] {
+            scale[place] = 1.0;
+        }
+        nodes
+    }
+
+    /// First node of the frame of an interface, by its index.
+    pub fn interface(&self, index: usize) -> usize {
+        self.frame.node + 2 + 2 * index
+    }
+
+    /// First nodes of its frames.
+    pub(super) fn sites(&self) -> impl Iterator<Item = (usize, Site)> {
+        let interfaces = 0..self.model.interfaces.len();
+        let interfaces = interfaces.map(|index| (self.interface(index), Site::Interface(index)));
+        std::iter::once((self.frame.node, Site::Frame)).chain(interfaces)
+    }
+
+    /// Finds the amplitudes among the coordinates. `y` is scratch of zeros.
+    pub(super) fn find_amplitudes<const D: usize>(
+        &mut self,
+        elimination: &Elimination<D>,
+        y: &mut [f64],
+    ) {
+        let place = |k: usize| {
+            let mut unit = [[0.0; D]; 2];
+            unit.as_flattened_mut()[k % (2 * D)] = 1.0;
+            let node = self.inner() + k / (2 * D);
+            let moved = elimination.reduce_node(node, &unit, y);
+            moved.first().map(|(place, _)| *place)
+        };
+        self.places = (0..self.model.modes()).filter_map(place).collect();
+    }
+
+    /// First node that holds amplitudes and what follows from them.
+    pub fn inner(&self) -> usize {
+        self.interface(self.model.interfaces.len())
+    }
+
+    /// Nodes that hold axes only: the second ones of the frame and of all interfaces.
+    pub fn axes_nodes(&self) -> impl Iterator<Item = usize> {
+        (self.frame.node..self.inner()).skip(1).step_by(2)
+    }
+
+    /// Number of nodes with amplitudes.
+    fn modal_nodes(&self) -> usize {
+        self.model.modes().div_ceil(NUMBERS)
+    }
+
+    /// Number of nodes with amplitudes and with what follows from them.
+    fn inner_nodes(&self) -> usize {
+        let derived = SPIN_SCALE + 3 * self.model.modes();
+        self.modal_nodes() + derived.div_ceil(NUMBERS)
+    }
+
+    /// First node with what follows from amplitudes.
+    fn derived(&self) -> usize {
+        self.inner() + self.modal_nodes()
+    }
+
+    /// Nodes with amplitudes.
+    pub(super) fn modal(&self) -> std::ops::Range<usize> {
+        self.inner()..self.derived()
+    }
+
+    /// All its nodes.
+    pub(super) fn all(&self) -> std::ops::Range<usize> {
+        self.frame.node..self.inner() + self.inner_nodes()
+    }
+
+    /// Nodes whose coordinates forces on it act on.
+    pub(super) fn acted(&self) -> impl Iterator<Item = usize> {
+        std::iter::once(self.frame.node).chain(self.modal())
+    }
+
+    /// Amplitudes of the modes, or their rates where `x` holds rates, `[n]`.
+    #[inline(always)]
+    fn amplitudes<'a, const D: usize, N>(&self, x: &'a [Node<D, N>]) -> &'a [N] {
+        &numbers(&x[self.inner()..])[..self.model.modes()]
+    }
+
+    /// Amplitudes, to be changed.
+    #[inline(always)]
+    fn amplitudes_mut<'a, const D: usize, N>(&self, x: &'a mut [Node<D, N>]) -> &'a mut [N] {
+        &mut numbers_mut(&mut x[self.inner()..])[..self.model.modes()]
+    }
+
+    /// Scale of spins, and couplings, three numbers a mode.
+    #[inline(always)]
+    fn derived_of<'a, const D: usize, N: Number>(
+        &self,
+        x: &'a [Node<D, N>],
+    ) -> (SpinScale<N>, &'a [N]) {
+        let all = numbers(&x[self.derived()..]);
+        let coupling = &all[SPIN_SCALE..SPIN_SCALE + 3 * self.model.modes()];
+        (SpinScale::of(all), coupling)
+    }
+
+    /// Axes of its frame, or their rates where `x` holds rates.
+    fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
+        self.frame.axes(x)
+    }
+}
+
+/// Three components of a vector of space.
+fn components3<const D: usize>(v: &[f64; D]) -> [f64; 3] {
+    crate::math::space::components(&(*v).into())
+}
+
+/// Coupling of a mode.
+#[inline(always)]
+fn coupling_at<N: Number>(coupling: &[N], k: usize) -> Vector3<N> {
+    Vector3::new(coupling[3 * k], coupling[3 * k + 1], coupling[3 * k + 2])
+}
