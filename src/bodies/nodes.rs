@@ -261,10 +261,13 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
-    /// Largest angular velocity, rad/s, of thin rods, whose spin about themselves nothing tells, and of sections.
+    /// Largest angular velocity, rad/s, of thin rods, whose spin about themselves nothing tells, of reduced bodies and of sections.
     pub fn largest_spin(&self, motion: NodalMotion<'_, D>) -> f64 {
         let thin = self.rigid.iter().filter(|frame| frame.is_thin());
-        let spins = thin.map(|frame| frame.spin(motion.x, motion.v).norm());
+        let reduced = self.reduced.iter().map(|body| &body.frame);
+        let spins = thin
+            .chain(reduced)
+            .map(|frame| frame.spin(motion.x, motion.v).norm());
         spins.fold(self.largest_section_spin(motion), f64::max)
     }
 

@@ -34,8 +34,8 @@ pub struct ReducedBody {
     strain: ModalStrain,
     /// Damping by mode, `2 d sqrt(lambda)`, 1/s.
     damping: Vec<f64>,
-    /// Where amplitudes are among the coordinates `q`, `[n]`.
-    pub(super) places: Vec<usize>,
+    /// Where amplitudes are among the coordinates `q`, and how many of that make an amplitude of 1, `[n]`.
+    places: Vec<(usize, f64)>,
 }
 
 /// What follows from the amplitudes of a body.
@@ -140,7 +140,7 @@ impl ReducedBody {
             unit.as_flattened_mut()[k % (2 * D)] = 1.0;
             let node = self.inner() + k / (2 * D);
             let moved = elimination.reduce_node(node, &unit, y);
-            moved.first().map(|(place, _)| *place)
+            moved.first().copied()
         };
         self.places = (0..self.model.modes()).filter_map(place).collect();
     }

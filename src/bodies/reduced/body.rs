@@ -108,15 +108,15 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
             BodyPart::<D>::convert(&self.frame, order, at, q);
             let spin = self.frame.read(q);
             self.frame.write(&state.scale.solve(&spin), q);
-            for (place, coupling) in self.places.iter().zip(&state.coupling) {
-                q[*place] += coupling.dot(&spin);
+            for ((place, scale), coupling) in self.places.iter().zip(&state.coupling) {
+                q[*place] += coupling.dot(&spin) * scale;
             }
             return;
         }
         let spin = state.scale.times(&self.frame.read(q));
         self.frame.write(&spin, q);
-        for (place, coupling) in self.places.iter().zip(&state.coupling) {
-            q[*place] -= coupling.dot(&spin);
+        for ((place, scale), coupling) in self.places.iter().zip(&state.coupling) {
+            q[*place] -= coupling.dot(&spin) * scale;
         }
         BodyPart::<D>::convert(&self.frame, order, at, q);
     }

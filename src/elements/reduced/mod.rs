@@ -12,6 +12,9 @@ mod inertia;
 mod strain;
 mod truncation;
 
+#[cfg(test)]
+mod tests;
+
 use nalgebra::Vector3;
 
 use crate::math::jet::Number;
