@@ -7,6 +7,7 @@
 
 mod alike;
 mod assemble;
+mod container;
 mod description;
 mod elements;
 mod loads;
@@ -29,6 +30,7 @@ use serde_json::{Value as Json, json};
 
 pub use alike::did_you_mean;
 pub use assemble::{Assembled, assemble};
+pub use container::{Container, Details};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, Experiment, Inertia, Initial,
     InitialMotion, InitialState, InputCourse, Integrator, Interpolation, JointPrimitive, LineBody,
