@@ -338,7 +338,7 @@ fn what_is_refused_says_why_it_would_be_needed() {
         ),
         (
             |s| s["bodies"][0]["element"] = json!("any"),
-            "bodies[0].element: expected \"cable\", \"rod\", \"beam\", \"auto\" or \"rigid\", found \"any\"",
+            "bodies[0].element: expected \"cable\", \"rod\", \"beam\", \"auto\", \"rigid\" or \"reduced\", found \"any\"",
         ),
     ];
     for (edit, told) in refused {

@@ -38,7 +38,7 @@ fn examples() -> Vec<PathBuf> {
 /// An example, with what it leaves to the planner.
 fn planned(path: &Path) -> Result<Scene, String> {
     let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
-    crate::planned(&text)
+    crate::planned_beside(&text, path.parent().expect("a folder"))
 }
 
 /// Complains of real variables without a finite value.

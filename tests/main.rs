@@ -24,7 +24,7 @@ mod zeros;
 
 use std::path::{Path, PathBuf};
 
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, beside};
 use flexbody::simulation::{Budget, plan};
 
 /// The folder of the project.
@@ -44,7 +44,12 @@ fn ready_scenes() -> Vec<PathBuf> {
 
 /// A scene with numbers for those that it leaves to the planner: the best that little time finds.
 fn planned(text: &str) -> Result<Scene, String> {
-    let scene = Scene::from_json(text).map_err(|error| error.to_string())?;
+    planned_beside(text, Path::new(""))
+}
+
+/// The same of a scene that names files of a folder.
+fn planned_beside(text: &str, folder: &Path) -> Result<Scene, String> {
+    let scene = Scene::from_json_with(text, &beside(folder)).map_err(|error| error.to_string())?;
     let budget = Budget {
         seconds: 0.3,
         ..Budget::default()

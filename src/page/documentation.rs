@@ -148,6 +148,14 @@ fn body_in_words(body: &Body) -> String {
             };
             format!("the {kind} <em>{name}</em> of {} kg", rounded(rigid.mass()))
         }
+        Body::Reduced(reduced) => {
+            let mass = rounded(reduced.contained().model.mass);
+            let modes = match reduced.mode_count() {
+                1 => "1 mode".into(),
+                count => format!("{count} modes"),
+            };
+            format!("the finite element model <em>{name}</em> of {mass} kg, reduced to {modes}")
+        }
     }
 }
 

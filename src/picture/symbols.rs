@@ -146,7 +146,8 @@ fn wall(joint: &ResolvedJoint<'_>) -> Vec<Stroke> {
     let out = match joint.ends.second.place {
         Place::Along(_, s) if s < 0.5 => -1.0,
         Place::Point(_, [x, ..]) if x < 0.0 => -1.0,
-        Place::Along(..) | Place::Point(..) => 1.0,
+        Place::Interface(reduced, index) if reduced.body.contained().place(index)[0] < 0.0 => -1.0,
+        Place::Along(..) | Place::Point(..) | Place::Interface(..) => 1.0,
     };
     let frame = StrokeFrame::new(FramePoints::First, FrameAxes::Along);
     frame

@@ -5,11 +5,11 @@ use nalgebra::{Matrix3, Vector3};
 use super::description::{Kinds as _, Symbol};
 use super::resolved::{
     BodyReference, Cable, ConstraintOwnerId, DirectionSource, Ends, First, Form, JointCoordinate,
-    LineId, MarkerId, MotionKind, Pivot, Place, Resolved, ResolvedJoint, ResolvedMarker, Rigid,
-    RigidId, Slider,
+    LineId, MarkerId, MotionKind, Pivot, Place, Reduced, ReducedId, Resolved, ResolvedJoint,
+    ResolvedMarker, Rigid, RigidId, Slider,
 };
 use super::unit::{METRE, RADIAN, Unit};
-use super::{Body, LineBody, Model, RigidBody, Scene};
+use super::{Body, LineBody, Model, ReducedBody, RigidBody, Scene};
 use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
 use crate::scene::description::JointPrimitive;
@@ -74,6 +74,10 @@ impl<'a> Resolved<'a> {
                     id: RigidId(body),
                     body: described,
                 }),
+                Body::Reduced(described) => BodyReference::Reduced(Reduced {
+                    id: ReducedId(body),
+                    body: described,
+                }),
             };
             resolved.bodies.push(reference);
             resolved.bodies_by_name.insert(described.name(), reference);
@@ -114,6 +118,13 @@ impl Scene {
         cable.unwrap_or_else(|| unreachable!("a number of a cable is that of a cable"))
     }
 
+    /// A reduced body, to be changed.
+    pub fn reduced_mut(&mut self, id: ReducedId) -> &mut ReducedBody {
+        let reduced = self.bodies[id.0].reduced_mut();
+        reduced
+            .unwrap_or_else(|| unreachable!("a number of a reduced body is that of a reduced body"))
+    }
+
     /// A rigid body, to be changed.
     pub fn rigid_mut(&mut self, id: RigidId) -> &mut RigidBody {
         let rigid = self.bodies[id.0].rigid_mut();
@@ -134,6 +145,7 @@ impl<'a> BodyReference<'a> {
         match self {
             Self::Cable(cable) => &cable.body.name,
             Self::Rigid(rigid) => &rigid.body.name,
+            Self::Reduced(reduced) => &reduced.body.name,
         }
     }
 
@@ -146,6 +158,12 @@ impl<'a> BodyReference<'a> {
             Self::Rigid(rigid) => (rigid.body.markers.iter())
                 .map(|(name, point)| (name.as_str(), Place::Point(rigid, point.full())))
                 .collect(),
+            Self::Reduced(reduced) => (reduced.body.markers.iter())
+                .filter_map(|(name, interface)| {
+                    let index = reduced.body.contained().interface(interface)?;
+                    Some((name.as_str(), Place::Interface(reduced, index)))
+                })
+                .collect(),
         }
     }
 }
@@ -156,6 +174,7 @@ impl<'a> Place<'a> {
         match self {
             Self::Along(cable, _) => BodyReference::Cable(cable),
             Self::Point(rigid, _) => BodyReference::Rigid(rigid),
+            Self::Interface(reduced, _) => BodyReference::Reduced(reduced),
         }
     }
 
@@ -164,31 +183,43 @@ impl<'a> Place<'a> {
         match self {
             Self::Along(cable, _) => cable.id.body,
             Self::Point(rigid, _) => rigid.id.0,
+            Self::Interface(reduced, _) => reduced.id.0,
         }
     }
 
-    /// Whether it has a direction: on a cable, or on a rigid body that has inertia.
+    /// Whether it has a direction: on a cable, on a rigid body that has inertia, or at an interface with rotations.
     pub(super) fn turns(self) -> bool {
         match self {
             Self::Along(..) => true,
             Self::Point(rigid, _) => rigid.body.inertia().is_some(),
+            Self::Interface(..) => self.point_interface().is_none(),
         }
     }
 
-    /// Whether it has axes, in space: on a rigid body that has inertia, or on a rod.
+    /// Name of the interface without rotations that it is.
+    pub(super) fn point_interface(self) -> Option<&'a str> {
+        let Self::Interface(reduced, index) = self else {
+            return None;
+        };
+        let interface = &reduced.body.contained().model.interfaces[index];
+        (interface.rotation.is_none()).then_some(interface.name.as_str())
+    }
+
+    /// Whether it has axes, in space: on a rigid body that has inertia, on a rod, or at an interface with rotations.
     pub(super) fn is_framed(self) -> bool {
         match self {
-            Self::Point(..) => self.turns(),
+            Self::Point(..) | Self::Interface(..) => self.turns(),
             Self::Along(cable, _) => cable.body.is_rod(),
         }
     }
 
-    /// Quaternion of the frame of a rigid body of space as described, scalar first and not negative.
+    /// Quaternion of the frame of a rigid or reduced body of space as described, scalar first and not negative.
     pub fn quaternion(self) -> Quaternion {
-        let Self::Point(rigid, _) = self else {
-            return NO_ROTATION;
+        let axes = match self {
+            Self::Along(..) => return NO_ROTATION,
+            Self::Point(rigid, _) => rigid.body.axes(),
+            Self::Interface(reduced, _) => reduced.body.axes(),
         };
-        let axes = rigid.body.axes();
         quaternion(&std::array::from_fn(|k| axes.column(k).into_owned()))
     }
 
@@ -197,6 +228,7 @@ impl<'a> Place<'a> {
         match self {
             Self::Along(cable, s) => cable.body.shape.point(s),
             Self::Point(rigid, point) => rigid.body.point(point),
+            Self::Interface(reduced, index) => reduced.body.place(index),
         }
     }
 
@@ -205,6 +237,7 @@ impl<'a> Place<'a> {
         match self {
             Self::Along(cable, s) => cable.body.shape.tangent(s),
             Self::Point(rigid, _) => rigid.body.directed([1.0, 0.0, 0.0]),
+            Self::Interface(reduced, _) => reduced.body.directed([1.0, 0.0, 0.0]),
         }
     }
 }
@@ -386,7 +419,7 @@ impl<'a> ResolvedJoint<'a> {
                 [cos * x - sin * y, sin * x + cos * y, 0.0]
             }
             First::Marker(ResolvedMarker {
-                place: Place::Point(..),
+                place: Place::Point(..) | Place::Interface(..),
                 ..
             }) => direction,
             First::Marker(_) | First::Cable(_) => return None,

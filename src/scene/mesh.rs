@@ -46,7 +46,7 @@ impl<'a> Resolved<'a> {
         let mut coordinates: Vec<f64> = loaded
             .filter_map(|marker| match marker.place {
                 Place::Along(of, coordinate) if of.id == cable.id => Some(coordinate),
-                Place::Along(..) | Place::Point(..) => None,
+                Place::Along(..) | Place::Point(..) | Place::Interface(..) => None,
             })
             .collect();
         if cable.body.is_rod() {

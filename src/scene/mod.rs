@@ -10,6 +10,7 @@ mod assemble;
 mod container;
 mod description;
 mod elements;
+mod files;
 mod loads;
 mod marker;
 mod mesh;
@@ -32,13 +33,14 @@ pub use alike::did_you_mean;
 pub use assemble::{Assembled, assemble};
 pub use container::{Container, Details};
 pub use description::{
-    About, Accuracy, ActionKind, Along, Axial, Body, Course, Experiment, Inertia, Initial,
-    InitialMotion, InitialState, InputCourse, Integrator, Interpolation, JointPrimitive, LineBody,
-    LineModel, Material, Method, Model, Orientation, OutputKind, Profile, RigidBody, Scene,
-    SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain, Surface, Symbol,
-    Table, Value,
+    About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, Inertia,
+    Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, JointPrimitive,
+    LineBody, LineModel, Material, Method, Model, Modes, Orientation, OutputKind, Profile,
+    ReducedBody, RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin,
+    Station, Strain, Surface, Symbol, Table, Value,
 };
 pub use elements::Chosen;
+pub use files::{Files, beside, bounded};
 pub use loads::{
     ActingLoad, Action, Exerts, LoadNumber, LoadPlace, LoadWords, NumberMut, ResolvedFluid,
     ResolvedLoad, ResolvedLoadKind, TimedKey,
@@ -47,8 +49,8 @@ pub use remarks::remarks;
 pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
     DirectionSource, Ends, First, Incoming, Input, InputKind, JointCoordinate, LineId, LoadId,
-    MarkerId, MotionKind, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction,
-    Resolved, ResolvedGear, ResolvedJoint, ResolvedMarker, ResolvedMass, ResolvedMotion,
+    MarkerId, MotionKind, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Reduced,
+    ReducedId, Resolved, ResolvedGear, ResolvedJoint, ResolvedMarker, ResolvedMass, ResolvedMotion,
     ResolvedPort, Rigid, RigidId, SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
@@ -98,10 +100,10 @@ fn without_schema(mut scene: Json) -> Result<Json, Error> {
 }
 
 impl Scene {
-    /// Reads and validates a scene.
+    /// Reads and validates a scene that names no files.
     ///
     /// # Errors
-    /// Broken JSON, unknown keys, values of the wrong type and values out of range, each with its path.
+    /// Broken JSON, unknown keys, values of the wrong type and values out of range, each with its path; a body that is read from a file.
     ///
     /// # Examples
     ///
@@ -117,6 +119,14 @@ impl Scene {
     /// assert_eq!(error.message, "expected a positive number (kg), found -1");
     /// ```
     pub fn from_json(text: &str) -> Result<Self, Error> {
+        Self::from_json_with(text, &files::none)
+    }
+
+    /// Reads and validates a scene with the files that it names.
+    ///
+    /// # Errors
+    /// As [`Self::from_json`], and files that cannot be read or are not valid.
+    pub fn from_json_with(text: &str, files: Files<'_>) -> Result<Self, Error> {
         // Editors of some systems begin a file with a mark of its encoding.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut json = serde_json::Deserializer::from_str(text);
@@ -148,6 +158,7 @@ impl Scene {
             Error::new(path, wrong.message)
         })?;
         scene.write_out_defaults();
+        scene.read_files(files)?;
         let chosen = scene.choose_elements()?;
         scene.take_elements(&chosen);
         scene.resolve()?;

@@ -6,7 +6,7 @@ mod outputs;
 use std::collections::BTreeMap;
 
 use super::description::{
-    JointKind, JointPrimitive, LineBody, Port as GivenPort, RigidBody, Scene, Value,
+    JointKind, JointPrimitive, LineBody, Port as GivenPort, ReducedBody, RigidBody, Scene, Value,
 };
 use super::loads::{Action, ResolvedLoad};
 use crate::system::{Drive, Release};
@@ -45,6 +45,8 @@ numbers! {
     CouplingId;
     /// A rigid body, by its place among all bodies.
     RigidId;
+    /// A reduced body, by its place among all bodies.
+    ReducedId;
 }
 
 impl PointId {
@@ -105,13 +107,24 @@ pub struct Rigid<'a> {
     pub body: &'a RigidBody,
 }
 
-/// A body of either kind.
+/// A reduced body.
+#[derive(Clone, Copy, Debug)]
+pub struct Reduced<'a> {
+    /// Which one.
+    pub id: ReducedId,
+    /// As described.
+    pub body: &'a ReducedBody,
+}
+
+/// A body of any kind.
 #[derive(Clone, Copy, Debug)]
 pub enum BodyReference<'a> {
     /// A cable, flexible or rigid.
     Cable(Cable<'a>),
     /// A body of kind `rigid`.
     Rigid(Rigid<'a>),
+    /// A body of kind `reduced`.
+    Reduced(Reduced<'a>),
 }
 
 /// A place on a body.
@@ -121,6 +134,8 @@ pub enum Place<'a> {
     Along(Cable<'a>, f64),
     /// Point in the frame of a rigid body, m.
     Point(Rigid<'a>, [f64; 3]),
+    /// Interface of a reduced body, by its index in the model.
+    Interface(Reduced<'a>, usize),
 }
 
 /// A marker. Points and directions have three components, the third zero in the plane.
@@ -134,7 +149,7 @@ pub struct ResolvedMarker<'a> {
     pub place: Place<'a>,
     /// Where it is in the shapes and positions that the scene describes, m.
     pub position: [f64; 3],
-    /// Direction there: tangent of a cable, first axis of the frame of a rigid body; a unit vector.
+    /// Direction there: tangent of a cable, first axis of the frame of a rigid or reduced body; a unit vector.
     pub direction: [f64; 3],
 }
 

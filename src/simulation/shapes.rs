@@ -282,7 +282,7 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     }
     let first = bodies.ranges[body].start;
     let [position, slope] = [0, 1].map(|part| components(&Vector::from(x[first][part])));
-    if bodies.rigid_at(first).is_none() {
+    if bodies.rigid_at(first).is_none() && !assembled.is_reduced(body) {
         return Pose {
             nodes: vec![[position, slope]],
             axes: Vec::new(),

@@ -9,8 +9,8 @@ use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion_near};
 use crate::picture::symbols::load;
 use crate::picture::{Mark, MarkLabel, marks, palette};
 use crate::scene::{
-    BodyReference, Cable, Ends, First, Inertia, LineBody, Place, Resolved, ResolvedMarker, Rigid,
-    RigidBody, Solid,
+    BodyReference, Cable, Ends, First, Inertia, LineBody, Place, Reduced, Resolved, ResolvedMarker,
+    Rigid, RigidBody, Solid,
 };
 use crate::simulation::Pose;
 
@@ -85,6 +85,7 @@ fn of_body(
             of_cable(resolved, cable) + &of_forces(recording, place, &stresses, numbers)
         }
         BodyReference::Rigid(rigid) => of_rigid(rigid),
+        BodyReference::Reduced(reduced) => of_reduced(reduced),
     };
     format!(
         "{{\"name\":{},\"nodes\":{nodes},\"turns\":{turns},\"track\":{track},\"drawn\":{drawn},{shape}}}",
@@ -214,6 +215,17 @@ fn of_rigid(rigid: Rigid<'_>) -> String {
     )
 }
 
+/// A star from the centre of mass to the interfaces, in the file's axes.
+fn of_reduced(reduced: Reduced<'_>) -> String {
+    let container = reduced.body.contained();
+    let interfaces = 0..container.model.interfaces.len();
+    let places = interfaces.map(|index| container.place(index).into());
+    let points: Vec<[f64; 3]> = std::iter::once(container.center.into())
+        .chain(places)
+        .collect();
+    format!("\"points\":{points:?},\"solid\":null,\"radius\":0.0,\"inertial\":[0.0,0.0,0.0]")
+}
+
 /// Half axes of the uniform ellipsoid with the mass and the moments of inertia of a body, along the axes of its frame, m. 0 of a particle.
 fn inertial(body: &RigidBody) -> [f64; 3] {
     let moments = match body.inertia() {
@@ -233,6 +245,10 @@ fn of_marker(resolved: &Resolved<'_>, marker: &ResolvedMarker<'_>) -> String {
         .position(|other| other.name() == body.name());
     let at = match marker.place {
         Place::Point(_, point) => format!("\"point\":{point:?}"),
+        Place::Interface(reduced, index) => {
+            let point = <[f64; 3]>::from(reduced.body.contained().place(index));
+            format!("\"point\":{point:?}")
+        }
         Place::Along(cable, s) => {
             let mesh = mesh(resolved, cable);
             let last = mesh.len() - 2;

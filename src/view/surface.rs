@@ -7,7 +7,7 @@ use super::recording::Recording;
 use super::sections::{has_corners, sections};
 use crate::elements::shape;
 use crate::math::rotation::{self, Quaternion};
-use crate::scene::{BodyReference, RigidBody, Solid};
+use crate::scene::{BodyReference, ReducedBody, RigidBody, Solid};
 use crate::simulation::Pose;
 
 /// Points around what is round, and fewest sections along a body.
@@ -145,6 +145,7 @@ pub(super) fn surfaces(recording: &Recording) -> Vec<BodySurface> {
                 )
             }
             BodyReference::Rigid(rigid) => solid(rigid.body, body, size),
+            BodyReference::Reduced(reduced) => star(reduced.body, body, size),
         })
         .collect()
 }
@@ -291,6 +292,34 @@ impl Built {
         self.faces
             .extend(sides.map(|side| side.map(|corner| first + corner).to_vec()));
     }
+
+    /// A block about a centre, and bars from there to points that are further away.
+    fn star(&mut self, center: Vector3<f64>, ends: impl Iterator<Item = Vector3<f64>>, half: f64) {
+        self.brick(center, [0, 1, 2].map(|k| Vector3::ith(k, 1.5 * half)));
+        for end in ends {
+            let way = end - center;
+            if way.norm() > half {
+                let along = way.normalize();
+                let across = along.cross(&Vector3::ith(along.iamin(), 1.0)).normalize();
+                self.brick(
+                    center + 0.5 * way,
+                    [0.5 * way, across * half, along.cross(&across) * half],
+                );
+            }
+        }
+    }
+
+    /// The surface of a body that moves with one frame.
+    fn rigid(self, name: &str, body: usize) -> BodySurface {
+        BodySurface {
+            name: name.to_owned(),
+            points: self.points.into_iter().map(|point| (0, point)).collect(),
+            faces: self.faces,
+            stations: Vec::new(),
+            lengths: Vec::new(),
+            body,
+        }
+    }
 }
 
 fn solid(rigid: &RigidBody, body: usize, size: f64) -> BodySurface {
@@ -334,30 +363,18 @@ fn solid(rigid: &RigidBody, body: usize, size: f64) -> BodySurface {
             built.around(axis, &rings, true);
         }
         None => {
-            let half = BAR * size;
-            built.brick(
-                Vector3::zeros(),
-                [0, 1, 2].map(|k| Vector3::ith(k, 1.5 * half)),
-            );
-            for marker in rigid.markers.values() {
-                let end = Vector3::from(marker.full());
-                if end.norm() > half {
-                    let along = end.normalize();
-                    let across = along.cross(&Vector3::ith(along.iamin(), 1.0)).normalize();
-                    built.brick(
-                        0.5 * end,
-                        [0.5 * end, across * half, along.cross(&across) * half],
-                    );
-                }
-            }
+            let ends = rigid.markers.values().map(|marker| marker.full().into());
+            built.star(Vector3::zeros(), ends, BAR * size);
         }
     }
-    BodySurface {
-        name: rigid.name.clone(),
-        points: built.points.into_iter().map(|point| (0, point)).collect(),
-        faces: built.faces,
-        stations: Vec::new(),
-        lengths: Vec::new(),
-        body,
-    }
+    built.rigid(&rigid.name, body)
+}
+
+/// Bars from the centre of mass of a reduced body to its interfaces, which move with its axes.
+fn star(reduced: &ReducedBody, body: usize, size: f64) -> BodySurface {
+    let (mut built, container) = (Built::default(), reduced.contained());
+    let interfaces = 0..container.model.interfaces.len();
+    let ends = interfaces.map(|index| container.place(index));
+    built.star(container.center, ends, BAR * size);
+    built.rigid(&reduced.name, body)
 }

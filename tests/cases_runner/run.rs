@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, beside};
 use flexbody::simulation::{Simulation, Source};
 
 use super::claim::{Change, Given};
@@ -34,7 +34,8 @@ impl Run {
     pub fn start(path: &Path, given: &Given, method: &Method) -> Result<Self, String> {
         let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = fs::read_to_string(path).map_err(|error| at(&error))?;
-        let scene = Scene::from_json(&text).map_err(|error| at(&error))?;
+        let files = beside(path.parent().unwrap_or(Path::new("")));
+        let scene = Scene::from_json_with(&text, &files).map_err(|error| at(&error))?;
         let mut run = Self {
             simulation: Simulation::new(scene),
             step: Box::new(|_, _| Ok(())),

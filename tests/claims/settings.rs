@@ -170,6 +170,7 @@ keys! {
     ShearModulus => "bodies", "/material/shear_modulus", "Pa";
     TorsionConstant => "bodies", "/section/torsion_constant", "m4";
     Elements => "bodies", "/elements", "";
+    DampingRatio => "bodies", "/damping_ratio", "";
     Mass => "bodies", "/mass", "kg";
     LumpedMass => "masses", "/mass", "kg";
     ReleaseTime => "joints", "/release_time", "s";

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use flexbody::fmi2;
 use flexbody::simulation::{Simulation, check};
-use fmu_package::{Progress, prepared, shown};
+use fmu_package::{Progress, RESOURCES, prepared, shown};
 
 use crate::icon;
 use crate::planning::{Within, planned};
@@ -62,6 +62,10 @@ pub fn describe(place: &Path, output: &Path, is_moving: bool, within: &Within) -
     for (name, text) in fmi2::describe(&scene, &planned, &motion) {
         let path = prepared(&output.join(name))?;
         std::fs::write(&path, text).with_context(|| format!("cannot write {}", shown(&path)))?;
+    }
+    for (name, bytes) in scene.files() {
+        let path = prepared(&output.join(RESOURCES).join(name))?;
+        std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", shown(&path)))?;
     }
     let documentation = output.join("documentation");
     icon::render(&documentation.join("scene.svg"), &output.join("model.png"))?;

@@ -107,7 +107,7 @@ impl Table {
 pub struct Shapes {
     /// The first line: bodies and their markers.
     pub header: String,
-    /// Whether each body is rigid, `[bodies]`.
+    /// Whether each body is drawn by its markers, `[bodies]`.
     is_rigid: Vec<bool>,
     /// Number of markers of every body.
     markers: Vec<usize>,
@@ -126,13 +126,14 @@ impl Shapes {
             let kind = match body {
                 Body::Cable(_) | Body::Rod(_) | Body::Beam(_) | Body::Auto(_) => "cable",
                 Body::Rigid(_) => "rigid",
+                Body::Reduced(_) => "reduced",
             };
             header.push(format!(
                 "{{\"name\": \"{}\", \"kind\": \"{kind}\", \"markers\": [{}]}}",
                 body.name(),
                 quoted.join(", ")
             ));
-            is_rigid.push(kind == "rigid");
+            is_rigid.push(kind != "cable");
             markers.push(names.len());
         }
         Self {

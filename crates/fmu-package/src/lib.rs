@@ -10,6 +10,8 @@ pub use files::{Stage, destination, partial, prepared, shown, write_whole};
 pub use platform::Platform;
 pub use progress::{Progress, announced, bar};
 
+/// The folder of an FMU with the scene and the files that it names.
+pub const RESOURCES: &str = "resources/";
 /// The scene in an FMU.
 pub const SCENE: &str = "resources/scene.json";
 /// The folder beside the program with what goes into every FMU: libraries and licenses.

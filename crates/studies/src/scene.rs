@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use flexbody::scene::{Assembled, InitialState, MarkerId, Scene};
+use flexbody::scene::{Assembled, InitialState, MarkerId, Scene, beside};
 use flexbody::system::{Drive, State, Workspace, equilibrium};
 use serde_json::Value;
 
@@ -17,7 +17,8 @@ pub fn read(path: &Path, assignments: &[String]) -> Outcome<Scene> {
     for assignment in assignments {
         assign(&mut json, assignment).map_err(|error| format!("--set {assignment}: {error}"))?;
     }
-    Scene::from_json(&json.to_string()).map_err(|error| at(path, error))
+    let files = beside(path.parent().unwrap_or(Path::new("")));
+    Scene::from_json_with(&json.to_string(), &files).map_err(|error| at(path, error))
 }
 
 /// An error with the file it is about.

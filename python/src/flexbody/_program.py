@@ -93,7 +93,20 @@ def _placed(scene):
     with tempfile.TemporaryDirectory(prefix="flexbody-") as folder:
         name = f"{scene.name}.json" if scene.name.replace("_", "").replace("-", "").isalnum() else "scene.json"
         scene.to_file(Path(folder) / name)
+        _copy_files(scene, Path(folder).resolve())
         yield Path(folder), name
+
+
+def _copy_files(scene, folder):
+    """Puts the files that a scene names, which lie in the current folder, beside it; the program tells which are missing or misnamed."""
+    for body in scene.bodies:
+        name = getattr(body, "file", None)
+        if name is None:
+            continue
+        target = (folder / name).resolve()
+        if folder in target.parents and Path(name).is_file():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(name, target)
 
 
 def _beside(scene, extension):

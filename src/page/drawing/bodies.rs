@@ -4,7 +4,7 @@ use super::picture::{Picture, seen};
 use crate::page::canvas::Point;
 use crate::picture::Style;
 use crate::picture::palette::{BODY, INK, INSIDE};
-use crate::scene::{BodyReference, Cable, LineBody, RigidBody};
+use crate::scene::{BodyReference, Cable, LineBody, ReducedBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable.
 const PARTS: u32 = 96;
@@ -19,6 +19,7 @@ pub(super) fn outline(body: BodyReference<'_>, dimension: usize) -> Vec<[f64; 3]
         }
         BodyReference::Cable(cable) => cable_outline(cable.body),
         BodyReference::Rigid(rigid) => rigid_outline(rigid.body, dimension),
+        BodyReference::Reduced(reduced) => star(reduced.body),
     }
 }
 
@@ -37,6 +38,12 @@ pub(super) fn rigid_outline(rigid: &RigidBody, dimension: usize) -> Vec<[f64; 3]
     let markers = rigid.markers.values();
     let points = markers.map(|point| rigid.point(point.full()));
     hull(dimension, points.chain([rigid.position.full()]).collect())
+}
+
+/// Interfaces of a reduced body, which stand for it as a star around its centre, m.
+pub(super) fn star(reduced: &ReducedBody) -> Vec<[f64; 3]> {
+    let interfaces = 0..reduced.contained().model.interfaces.len();
+    interfaces.map(|index| reduced.place(index)).collect()
 }
 
 /// Corners of the smallest convex polygon around points in the plane, or in the image of space, counter-clockwise; the two
@@ -84,6 +91,7 @@ impl Picture<'_> {
             }
             BodyReference::Cable(cable) => self.cable(cable, &points),
             BodyReference::Rigid(rigid) => self.rigid(rigid.body.position.full(), &points),
+            BodyReference::Reduced(reduced) => self.reduced(reduced.body.center(), &points),
         }
     }
 
@@ -119,6 +127,20 @@ impl Picture<'_> {
         } else {
             self.canvas.circle(centre, 0.8 * self.unit, style);
         }
+    }
+
+    /// Lines from the centre to the interfaces.
+    fn reduced(&mut self, centre: [f64; 3], points: &[Point]) {
+        let style = Style {
+            stroke: BODY,
+            width: 0.28 * self.unit,
+            fill: INSIDE,
+        };
+        let centre = self.at(centre);
+        for point in points {
+            self.canvas.polyline(&[centre, *point], style);
+        }
+        self.canvas.circle(centre, 0.34 * self.unit, style);
     }
 
     /// Masses, then markers.

@@ -155,6 +155,9 @@ impl<'a> Picture<'a> {
                     let side = rigid_side(rigid, self.scene.dimension, [0.0; 3]).map(|part| -part);
                     (self.at(rigid.position.full()), side, 1.8)
                 }
+                BodyReference::Reduced(reduced) => {
+                    (self.at(reduced.body.center()), [0.0, 1.0], 1.8)
+                }
             };
             self.write(at, side, distance * self.unit, &[(body.name(), BODY)]);
         }
@@ -165,6 +168,11 @@ impl<'a> Picture<'a> {
         match on {
             On::Along(cable, s) => self.cable_side(cable.body, s),
             On::Point(rigid, point) => rigid_side(rigid.body, self.scene.dimension, point),
+            On::Interface(reduced, index) => {
+                let places = [reduced.body.place(index), reduced.body.center()];
+                let [p, centre] = places.map(|at| seen(self.scene.dimension, at));
+                away(p, centre)
+            }
         }
     }
 
@@ -197,12 +205,20 @@ fn rigid_side(rigid: &RigidBody, dimension: usize, point: [f64; 3]) -> Point {
         .map(|corner| seen(dimension, *corner))
         .collect();
     let [p, centre] = [rigid.point(point), rigid.position.full()].map(|at| seen(dimension, at));
-    let out = [p[0] - centre[0], p[1] - centre[1]];
     match corners[..] {
         // A rod: above it.
         [a, b] => upper(direction([a[1] - b[1], a[0] - b[0]])),
-        _ if out[0].hypot(out[1]) > 0.0 => direction([out[0], -out[1]]),
-        _ => [0.0, -1.0],
+        _ => away(p, centre),
+    }
+}
+
+/// The side of a point that looks away from the centre.
+fn away(p: Point, centre: Point) -> Point {
+    let out = [p[0] - centre[0], p[1] - centre[1]];
+    if out[0].hypot(out[1]) > 0.0 {
+        direction([out[0], -out[1]])
+    } else {
+        [0.0, -1.0]
     }
 }
 

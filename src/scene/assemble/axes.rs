@@ -32,6 +32,10 @@ impl<const D: usize> Builder<'_, D> {
                 let unit = Vector::<3>::ith(k, 1.0).into();
                 built.directed(self.resolved.solid(rigid).directed(unit))
             }
+            Place::Interface(reduced, _) => {
+                let unit = Vector::<3>::ith(k, 1.0).into();
+                built.directed(reduced.body.contained().directed(unit))
+            }
             Place::Along(..) if built.is_framed() => {
                 built.directed(Vector::<3>::ith(k, 1.0).into())
             }

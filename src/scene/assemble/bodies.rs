@@ -4,8 +4,8 @@ use super::Builder;
 use super::initial::BodyNodes;
 
 use crate::bodies::{
-    LineChain, LumpedMass, Marker, Node, RigidBodyFrame, RigidRod, RodChain, middle, planar_axes,
-    transported_nodes, untwisted,
+    self, LineChain, LumpedMass, Marker, Node, RigidBodyFrame, RigidRod, RodChain, middle,
+    planar_axes, transported_nodes, untwisted,
 };
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam};
@@ -15,7 +15,7 @@ use crate::elements::section::{SectionElement, SpinInertia, planar_inertia, rod_
 use crate::elements::{self, ElementPolynomial, Nodal};
 use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
-use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
+use crate::scene::resolved::{BodyReference, Cable, Form, Reduced, Rigid};
 use crate::scene::{Error, LineBody, LineModel, RigidBody, SectionNumbers, Strain};
 
 /// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
@@ -39,7 +39,7 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn body(&mut self, index: usize) -> Result<(), Error> {
         let first = self.parts.bodies.reference.len();
         let motion = self.resolved.scene.bodies[index].motion();
-        let mut arm = [0.0; 3];
+        let (mut arm, mut axes, mut still) = ([0.0; 3], Vec::new(), None);
         match self.resolved.bodies[index] {
             BodyReference::Cable(cable) => match cable.id.form {
                 Form::Chain(_) => self.chain(cable, first)?,
@@ -52,14 +52,21 @@ impl<const D: usize> Builder<'_, D> {
                     self.particle(index, rigid.body);
                 }
             }
+            BodyReference::Reduced(of) => {
+                let body = self.reduced(of);
+                arm = of.body.contained().from_center();
+                axes.extend(body.axes_nodes());
+                still = Some(body.inner());
+                self.parts.bodies.add_reduced(body);
+            }
         }
         let nodes = first..self.parts.bodies.reference.len();
-        let mut axes = Vec::new();
         axes.extend((self.parts.bodies.rigid().last()).map(|frame| frame.node + 1));
         let sections = (self.parts.bodies.all_sections().last()).filter(|rod| rod.line() == first);
         axes.extend(sections.into_iter().flat_map(RodChain::axes_nodes));
         axes.retain(|node| nodes.contains(node));
-        let still = sections.map_or(nodes.end, |rod| rod.inner().start);
+        let inner = sections.map(|rod| rod.inner().start);
+        let still = still.or(inner).unwrap_or(nodes.end);
         let of_body = BodyNodes {
             all: nodes.clone(),
             axes,
@@ -107,6 +114,30 @@ impl<const D: usize> Builder<'_, D> {
         let nodes = [[center, axis(0)], [axis(1), axis(2)]];
         self.parts.bodies.reference.extend(nodes);
         solid.along([0.0; 3])
+    }
+
+    /// A reduced body: its principal axes in two nodes, frames of its interfaces and amplitudes of its modes.
+    fn reduced(&mut self, reduced: Reduced<'_>) -> bodies::ReducedBody {
+        let container = reduced.body.contained();
+        let axes = reduced.body.axes() * container.axes;
+        let axes = std::array::from_fn(|k| axes.column(k).into_owned());
+        let node = self.parts.bodies.reference.len();
+        let model = container.model.truncated(reduced.body.mode_count());
+        let count = model.interfaces.len();
+        let body = bodies::ReducedBody::new(node, model, &reduced.body.damping_ratios());
+        let nodes = body.reference::<D>(reduced.body.center(), &axes);
+        self.parts.bodies.reference.extend(nodes);
+        let interfaces = (0..count).map(|index| body.interface(index)).collect();
+        self.interfaces.insert(reduced.id.index(), interfaces);
+        body
+    }
+
+    /// An interface of a reduced body, with the first of the file's axes as direction.
+    pub(super) fn interface(&self, reduced: Reduced<'_>, interface: usize) -> Marker {
+        let index = reduced.id.index();
+        let node = self.interfaces[&index][interface];
+        let direction = reduced.body.contained().directed([1.0, 0.0, 0.0]);
+        Marker::framed(index, node, [0.0; 3], direction)
     }
 
     /// A point of a rigid body in its frame, m.

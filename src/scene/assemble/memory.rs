@@ -12,6 +12,8 @@ const BYTES_OF_ROD: [usize; 2] = [24_000, 36_000];
 const BYTES_OF_BEAM: [usize; 2] = [24_000, 46_000];
 /// Memory of a rigid body.
 const BYTES_OF_BODY: [usize; 2] = [12_000, 21_000];
+/// Memory of a pair of modes of a reduced body: its terms of inertia, coupling and displacements, and factors.
+const BYTES_OF_MODES: usize = 1_000;
 /// Memory of a joint, a gear or a motion.
 const BYTES_OF_JOINT: [usize; 2] = [18_000, 20_000];
 
@@ -45,6 +47,10 @@ impl Resolved<'_> {
                     LineModel::Reissner => BYTES_OF_BEAM,
                 };
                 count.saturating_mul(each[place])
+            }
+            BodyReference::Reduced(reduced) => {
+                let modes = reduced.body.mode_count();
+                BYTES_OF_BODY[place] + modes * modes * BYTES_OF_MODES
             }
             _ => BYTES_OF_BODY[place],
         };

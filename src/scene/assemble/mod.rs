@@ -13,6 +13,8 @@ mod stress;
 
 pub use initial::Motions;
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
@@ -55,6 +57,8 @@ pub struct Assembled<const D: usize = 2> {
     first_load: usize,
     /// Points of sections whose stress is read.
     points: Vec<StressPoint>,
+    /// First nodes of the interfaces of reduced bodies, by the index of the body.
+    interfaces: BTreeMap<usize, Vec<usize>>,
 }
 
 impl<const D: usize> Assembled<D> {
@@ -68,12 +72,12 @@ impl<const D: usize> Assembled<D> {
         &self.markers[id.index()]
     }
 
-    /// Principal axes of a rigid body of space in its frame, as columns.
+    /// Principal axes of a rigid or reduced body of space in its frame, as columns.
     pub fn frame(&self, body: usize) -> &Matrix3<f64> {
         &self.frames[body]
     }
 
-    /// Where the centre of all mass of a rigid body of space is in its frame, m.
+    /// Where the centre of all mass of a rigid or reduced body of space is in its frame, m.
     pub fn center(&self, body: usize) -> &Vector3<f64> {
         &self.centers[body]
     }
@@ -99,6 +103,11 @@ impl<const D: usize> Assembled<D> {
                 *held = held.map(|part| -part);
             }
         }
+    }
+
+    /// Whether a body is a reduced one.
+    pub fn is_reduced(&self, body: usize) -> bool {
+        self.interfaces.contains_key(&body)
     }
 
     /// A point of a section whose stress is read.
@@ -140,6 +149,7 @@ impl Resolved<'_> {
             motions: Motions::default(),
             markers: Vec::new(),
             couplings: Vec::new(),
+            interfaces: BTreeMap::new(),
             parts: self.parts(),
         };
         for index in 0..self.bodies.len() {
@@ -173,6 +183,7 @@ impl Resolved<'_> {
             centers,
             couplings: builder.couplings,
             first_load,
+            interfaces: builder.interfaces,
         })
     }
 
@@ -201,6 +212,10 @@ impl Resolved<'_> {
                 let solid = self.solid(*rigid);
                 (solid.axes, solid.center)
             }
+            resolved::BodyReference::Reduced(reduced) => {
+                let container = reduced.body.contained();
+                (container.axes, container.center)
+            }
             resolved::BodyReference::Cable(_) => (Matrix3::identity(), Vector3::zeros()),
         }
     }
@@ -224,6 +239,8 @@ pub struct Builder<'a, const D: usize> {
     motions: Motions<D>,
     markers: Vec<Marker>,
     couplings: Vec<usize>,
+    /// First nodes of the interfaces of reduced bodies, by the index of the body.
+    interfaces: BTreeMap<usize, Vec<usize>>,
     pub(super) parts: Parts<D>,
 }
 
@@ -234,6 +251,7 @@ impl<const D: usize> Builder<'_, D> {
             self.markers.push(match marker.place {
                 Place::Along(cable, s) => self.along(cable, s),
                 Place::Point(rigid, point) => self.point(rigid, point),
+                Place::Interface(reduced, index) => self.interface(reduced, index),
             });
         }
     }
@@ -247,7 +265,7 @@ impl<const D: usize> Builder<'_, D> {
             let marker = match mass.marker.place {
                 // On the line of a rod.
                 Place::Along(cable, s) => self.on_line_of(cable, s),
-                Place::Point(..) => self.marker(mass.marker),
+                Place::Point(..) | Place::Interface(..) => self.marker(mass.marker),
             };
             // Of a rigid body of space it is in the inertia.
             if marker.is_framed() {

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::accuracy::elements;
 use super::section::between;
-use super::{Inertia, Orientation, SceneVector, Section, SectionNumbers, Solid, Spin, Station};
+use super::{
+    Inertia, Orientation, ReducedBody, SceneVector, Section, SectionNumbers, Solid, Spin, Station,
+};
 
 /// A body; `element` says of which kind.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -33,6 +35,9 @@ pub enum Body {
     /// Rigid.
     #[schemars(title = "RigidBody")]
     Rigid(RigidBody),
+    /// Finite element model reduced to modes, from a file; in space. It moves freely, with small deformations.
+    #[schemars(title = "ReducedBody")]
+    Reduced(ReducedBody),
 }
 
 /// A body of cable elements, or a rigid rod where they need not bend.

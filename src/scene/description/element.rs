@@ -5,6 +5,7 @@ use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 use super::body::{Body, InitialMotion, LineBody, LineModel, Model, RigidBody};
+use super::reduced::ReducedBody;
 use super::section::Section;
 use super::strict::{Strict, at, typed};
 
@@ -12,7 +13,7 @@ impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let wrong = |found: &str| {
             let message = format!(
-                "expected \"cable\", \"rod\", \"beam\", \"auto\" or \"rigid\", found {found}"
+                "expected \"cable\", \"rod\", \"beam\", \"auto\", \"rigid\" or \"reduced\", found {found}"
             );
             D::Error::custom(at("element", &message))
         };
@@ -29,6 +30,7 @@ impl<'de> Deserialize<'de> for Body {
             Some("beam") => with_sections(value, LineModel::Reissner).map(Self::Beam),
             Some("auto") => typed(value).map(Self::Auto),
             Some("rigid") => typed(value).map(Self::Rigid),
+            Some("reduced") => typed(value).map(Self::Reduced),
             _ => Err(wrong(&element.to_string())),
         }
     }
@@ -45,6 +47,7 @@ impl Body {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => &body.name,
             Self::Rigid(body) => &body.name,
+            Self::Reduced(body) => &body.name,
         }
     }
 
@@ -55,6 +58,7 @@ impl Body {
                 &body.motion
             }
             Self::Rigid(body) => &body.motion,
+            Self::Reduced(body) => &body.motion,
         }
     }
 
@@ -65,6 +69,7 @@ impl Body {
                 &mut body.motion
             }
             Self::Rigid(body) => &mut body.motion,
+            Self::Reduced(body) => &mut body.motion,
         }
     }
 
@@ -75,6 +80,7 @@ impl Body {
                 body.markers.keys().map(String::as_str).collect()
             }
             Self::Rigid(body) => body.markers.keys().map(String::as_str).collect(),
+            Self::Reduced(body) => body.markers.keys().map(String::as_str).collect(),
         }
     }
 
@@ -82,7 +88,7 @@ impl Body {
     pub fn cable(&self) -> Option<&LineBody> {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
-            Self::Rigid(_) => None,
+            Self::Rigid(_) | Self::Reduced(_) => None,
         }
     }
 
@@ -95,7 +101,7 @@ impl Body {
     pub fn cable_mut(&mut self) -> Option<&mut LineBody> {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
-            Self::Rigid(_) => None,
+            Self::Rigid(_) | Self::Reduced(_) => None,
         }
     }
 
@@ -103,7 +109,9 @@ impl Body {
     pub fn rigid(&self) -> Option<&RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) => None,
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Reduced(_) => {
+                None
+            }
         }
     }
 
@@ -111,7 +119,25 @@ impl Body {
     pub fn rigid_mut(&mut self) -> Option<&mut RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) => None,
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Reduced(_) => {
+                None
+            }
+        }
+    }
+
+    /// The body if it is one of kind `reduced`.
+    pub fn reduced(&self) -> Option<&ReducedBody> {
+        match self {
+            Self::Reduced(body) => Some(body),
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Rigid(_) => None,
+        }
+    }
+
+    /// The body, to be changed, if it is one of kind `reduced`.
+    pub fn reduced_mut(&mut self) -> Option<&mut ReducedBody> {
+        match self {
+            Self::Reduced(body) => Some(body),
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Rigid(_) => None,
         }
     }
 }

@@ -12,7 +12,8 @@ use super::checks::{
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Place, Resolved, ResolvedMass};
 use crate::scene::{
-    Body, Error, Inertia, InitialMotion, LineBody, Model, RigidBody, SceneVector, Solid,
+    Body, Error, Inertia, InitialMotion, LineBody, Model, Orientation, RigidBody, SceneVector,
+    Solid,
 };
 
 impl Body {
@@ -33,6 +34,7 @@ impl Body {
                     .validate(path, dimension);
             }
             Self::Rigid(body) => body.validate(path, dimension),
+            Self::Reduced(body) => body.validate(path, dimension),
         }?;
         self.motion()
             .validate(&format!("{path}.motion"), dimension)?;
@@ -331,8 +333,14 @@ impl RigidBody {
             let wanted = "nothing of a body without inertia, which does not rotate";
             return Err(expected(path, wanted, "an orientation"));
         }
-        let numbers = orientation.numbers();
-        match orientation.axes() {
+        orientation.validate(path)
+    }
+}
+
+impl Orientation {
+    pub(super) fn validate(&self, path: &str) -> Result<(), Error> {
+        let numbers = self.numbers();
+        match self.axes() {
             Some(_) if numbers.iter().all(|number| number.is_finite()) => Ok(()),
             _ => {
                 let wanted = "finite numbers, of a matrix orthonormal right-handed axes, of a quaternion not all zero";
@@ -383,6 +391,11 @@ impl Resolved<'_> {
             let path = format!("masses[{index}]");
             let at = |key: &str| format!("{path}.{key}");
             let marker = self.require_marker(&at("marker"), &mass.marker)?;
+            if let Place::Interface(..) = marker.place {
+                let wanted = "a marker of another body than a reduced one, whose mass is that of its file; \
+                              weld a rigid body to the interface";
+                return Err(expected(&at("marker"), wanted, quoted(&mass.marker)));
+            }
             if !seen.insert(&mass.marker) {
                 let wanted = "a marker without a mass so far";
                 return Err(expected(&at("marker"), wanted, quoted(&mass.marker)));

@@ -41,7 +41,8 @@ impl Resolved<'_> {
 fn bodies(joint: &ResolvedJoint<'_>) -> Option<[Option<usize>; 2]> {
     let rigid = |place: Place<'_>| match place {
         Place::Point(..) => Some(place.body_index()),
-        Place::Along(..) => None,
+        // Interfaces of a body that deforms turn each on its own.
+        Place::Along(..) | Place::Interface(..) => None,
     };
     let second = rigid(joint.ends.second.place)?;
     let mut both = match joint.ends.first {

@@ -6,6 +6,7 @@ use super::checks::{
     direction, expected, finite, not_negative, not_zero, planar, positive, quoted, shape,
     spring_damper,
 };
+use super::references::refuse_point;
 use crate::scene::Error;
 use crate::scene::description::{Generic, JointKind, JointPrimitive, Kinds as _};
 use crate::scene::marker::GROUND;
@@ -215,9 +216,10 @@ impl<'a> Resolved<'a> {
                 continue;
             };
             let is_clamped = holds_direction && is_cable(&marker);
+            let place = format!("{path}.markers[{side}]");
+            refuse_point(&place, marker)?;
             if needs_frame && is_cable(&marker) || !marker.place.turns() {
                 let wanted = "a marker of a rigid body with inertia or of a rod, which has axes";
-                let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
             }
             let both = first.is_some_and(|first| is_cable(&first)) && is_cable(&ends.second);
@@ -289,6 +291,10 @@ impl<'a> Resolved<'a> {
                 place: Place::Along(cable, s),
                 ..
             }) if cable.body.is_rod() => cable.body.directed(s, direction),
+            First::Marker(ResolvedMarker {
+                place: Place::Interface(reduced, _),
+                ..
+            }) => reduced.body.directed(direction),
             _ => direction,
         }
     }

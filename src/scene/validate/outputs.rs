@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::checks::{expected, needed, quoted, unknown};
+use super::references::refuse_point;
 use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
 use crate::scene::loads::LoadKind;
@@ -124,7 +125,11 @@ impl<'a> Resolved<'a> {
             .joints
             .iter()
             .find(|joint| joint.holder == reaction.holder);
-        match joint.map(|joint| joint.ends.first) {
+        let first = joint.map(|joint| joint.ends.first);
+        if let Some(First::Marker(marker)) = first {
+            refuse_point(&path, marker)?;
+        }
+        match first {
             Some(First::Ground(_)) => Ok(()),
             Some(First::Marker(marker)) if marker.place.is_framed() => Ok(()),
             _ => {

@@ -71,6 +71,7 @@ impl<'a> Resolved<'a> {
         name: &'a str,
     ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
+        refuse_point(path, marker)?;
         let wanted = match self.scene.dimension {
             2 => "nothing in the plane, where \"angle\" says how a body stands",
             _ => {
@@ -99,6 +100,10 @@ impl<'a> Resolved<'a> {
                 let wanted = "a rigid body; drive one that is welded to the rod";
                 Err(expected(path, wanted, quoted(name)))
             }
+            Place::Interface(..) => {
+                let wanted = "a rigid body; drive one that is welded to the interface";
+                Err(expected(path, wanted, quoted(name)))
+            }
             Place::Point(rigid, _) if rigid.body.inertia().thin().is_some() => {
                 let wanted = "a body with a moment of inertia about every axis";
                 Err(expected(path, wanted, quoted(name)))
@@ -117,6 +122,7 @@ impl<'a> Resolved<'a> {
         name: &'a str,
     ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
+        refuse_point(path, marker)?;
         if marker.place.turns() {
             return Ok(marker);
         }
@@ -355,6 +361,7 @@ impl<'a> Resolved<'a> {
             return Err(expected(path, wanted, quoted(name)));
         };
         for marker in pivot.ends.markers() {
+            refuse_point(path, marker)?;
             if !marker.place.turns() {
                 let body = quoted(marker.place.body().name());
                 let found = format!("{}, where {body} has no inertia", quoted(name));
@@ -367,6 +374,24 @@ impl<'a> Resolved<'a> {
         }
         Ok(pivot)
     }
+}
+
+/// Refuses a marker at an interface of a reduced body without rotations, where something needs axes.
+///
+/// # Errors
+/// The marker is at such an interface.
+pub(super) fn refuse_point(path: &str, marker: ResolvedMarker<'_>) -> Result<(), Error> {
+    let Some(interface) = marker.place.point_interface() else {
+        return Ok(());
+    };
+    let wanted =
+        "an interface with rotations (reduce the model with rotations there, NAME.rotation)";
+    let found = format!(
+        "{}, whose interface {} has none",
+        quoted(marker.name),
+        quoted(interface)
+    );
+    Err(expected(path, wanted, found))
 }
 
 /// Place of a cable among the chains.

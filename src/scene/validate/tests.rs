@@ -4,6 +4,7 @@
 mod contacts;
 mod fluids;
 mod planar_beams;
+mod reduced;
 mod releases;
 mod schema;
 mod space;
@@ -137,8 +138,8 @@ fn types_and_keys_keep_their_places() {
         scene,
         r#"
         /bodies | [] | bodies: expected at least one body, found none
-        /bodies/0/element | "shell" | bodies[0].element: expected "cable", "rod", "beam", "auto" or "rigid", found "shell"
-        /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable", "rod", "beam", "auto" or "rigid", found nothing
+        /bodies/0/element | "shell" | bodies[0].element: expected "cable", "rod", "beam", "auto", "rigid" or "reduced", found "shell"
+        /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable", "rod", "beam", "auto", "rigid" or "reduced", found nothing
         /bodies/0 | 3 | bodies[0]: expected a body { ... }, found 3
         /bodies/0/section | [1e-3, 1e-8] | bodies[0].section: expected an object { ... }, found a list
         /bodies/0/shape | {"line": {}, "arc": {}} | bodies[0].shape: expected an object with one of "line" or "arc" or "helix", found {"arc", "line"}
@@ -457,7 +458,7 @@ fn nodes_are_where_something_acts_or_is_cut() {
     let cables: Vec<_> = (resolved.bodies.iter())
         .filter_map(|body| match body {
             BodyReference::Cable(cable) => Some(*cable),
-            BodyReference::Rigid(_) => None,
+            BodyReference::Rigid(_) | BodyReference::Reduced(_) => None,
         })
         .collect();
     assert_eq!(

@@ -50,7 +50,7 @@ impl<'a> Resolved<'a> {
         motions.filter_map(|(index, motion)| match motion.kind {
             MotionKind::Winch(marker, _) => match marker.place {
                 Place::Along(cable, _) => Some((index, cable)),
-                Place::Point(..) => None,
+                Place::Point(..) | Place::Interface(..) => None,
             },
             _ => None,
         })
@@ -104,7 +104,7 @@ impl<'a> Resolved<'a> {
     fn acts_along(&self, cable: Cable<'a>) -> Option<&'a str> {
         let is_inside = |marker: &ResolvedMarker<'a>| match marker.place {
             Place::Along(of, at) => of.id == cable.id && ![0.0, 1.0].contains(&at),
-            Place::Point(..) => false,
+            Place::Point(..) | Place::Interface(..) => false,
         };
         if let Some(marker) = self.acted_on().into_iter().find(is_inside) {
             return Some(marker.name);

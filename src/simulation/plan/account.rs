@@ -143,6 +143,7 @@ impl Search<'_, '_> {
             };
             let line = body.cable().map(|line| line.sections.element());
             let (kind, elements) = match (count, line) {
+                (_, None) if body.reduced().is_some() => ("reduced", None),
                 (0, _) | (_, None) => ("rigid", None),
                 (count, Some(element)) => (element, Some(count)),
             };

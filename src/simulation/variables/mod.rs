@@ -15,7 +15,7 @@ pub(super) use parameters::set_parameter;
 
 use super::quantities::Quantity;
 use crate::scene::unit::SECOND;
-use crate::scene::{CouplingId, LineId, Resolved, RigidId, Scene};
+use crate::scene::{CouplingId, LineId, ReducedId, Resolved, RigidId, Scene};
 
 /// A scalar variable of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,6 +119,8 @@ pub enum Parameter {
     SectionLength(LineId, usize),
     /// Number of elements of a cable; the one integer variable.
     Elements(LineId),
+    /// Damping ratio of the modes of a reduced body.
+    DampingRatio(ReducedId),
     /// Mass of a rigid body.
     Mass(RigidId),
     /// Density of a rigid body that has a shape.

@@ -3,7 +3,9 @@
 use super::{AXES, List, Parameter, Source, component};
 use crate::math::space::spins;
 use crate::scene::unit::*;
-use crate::scene::{BodyReference, Cable, Inertia, PortKind, Resolved, Rigid, Scene};
+use crate::scene::{
+    self, BodyReference, Cable, DampingRatio, Inertia, PortKind, Reduced, Resolved, Rigid, Scene,
+};
 
 /// Key, meaning, unit, what it stands for, start value.
 type ParameterRow<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
@@ -14,6 +16,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         match body {
             BodyReference::Cable(cable) => add_cable(list, cable, resolved.scene.dimension),
             BodyReference::Rigid(rigid) => add_rigid(list, rigid, resolved.scene.dimension),
+            BodyReference::Reduced(reduced) => add_reduced(list, reduced),
         }
     }
     for (i, mass) in resolved.masses.iter().enumerate() {
@@ -145,6 +148,16 @@ fn add_lengths(list: &mut List, cable: &Cable<'_>) {
             "of",
             &[(key, what, Some(METRE), parameter, *length)],
         );
+    }
+}
+
+fn add_reduced(list: &mut List, reduced: &Reduced<'_>) {
+    // Ratios in a table are no number.
+    if let DampingRatio::Number(ratio) = reduced.body.damping_ratio {
+        let parameter = Parameter::DampingRatio(reduced.id);
+        let what = "Damping ratio of the modes";
+        let row = ("damping_ratio", what, None, parameter, ratio);
+        list.parameters(&reduced.body.name, "of", &[row]);
     }
 }
 
@@ -310,6 +323,9 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
             }
         }
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
+        DampingRatio(id) => {
+            scene.reduced_mut(id).damping_ratio = scene::DampingRatio::Number(value);
+        }
         Mass(id) => scene.rigid_mut(id).mass = Some(value),
         SolidDensity(id) => scene.rigid_mut(id).density = Some(value),
         SolidLength(id, k) => {

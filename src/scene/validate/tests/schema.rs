@@ -25,7 +25,10 @@ fn the_schema_tells_bodies_apart_by_their_element() {
         .iter()
         .map(|kind| &kind["properties"]["element"]["const"])
         .collect();
-    assert_eq!(elements, ["cable", "rod", "beam", "auto", "rigid"]);
+    assert_eq!(
+        elements,
+        ["cable", "rod", "beam", "auto", "rigid", "reduced"]
+    );
     for kind in &kinds {
         assert_eq!(kind["additionalProperties"], json!(false));
         assert!(

@@ -1,0 +1,86 @@
+//! Checks of reduced bodies.
+
+use super::checks::{expected, finite, not_negative, positive, quoted, unknown, vector};
+use crate::scene::description::{DampingRatio, Modes, ModesUpTo};
+use crate::scene::{Container, Error, ReducedBody};
+
+impl ReducedBody {
+    /// Checks a reduced body on its own.
+    ///
+    /// # Errors
+    /// A scene of the plane, a file that was not read, or a key that is out of range or names nothing of the file.
+    pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        if dimension == 2 {
+            let wanted = "a body of the plane (reduced bodies are of space, \"dimension\": 3)";
+            return Err(expected(&at("element"), wanted, "\"reduced\""));
+        }
+        let Some(container) = &self.container else {
+            let wanted = "a file that is read with the scene";
+            return Err(expected(&at("file"), wanted, quoted(&self.file)));
+        };
+        self.validate_modes(&at("modes"), container)?;
+        self.validate_damping(&at("damping_ratio"))?;
+        vector(&at("position"), dimension, &self.position)?;
+        if let Some(orientation) = &self.orientation {
+            orientation.validate(&at("orientation"))?;
+        }
+        if self.motion.deformation.is_some() {
+            let place = at("motion.deformation");
+            return Err(expected(&place, "none of a reduced body", "one"));
+        }
+        for (marker, interface) in &self.markers {
+            if container.interface(interface).is_none() {
+                let known = container.model.interfaces.iter().map(|of| of.name.as_str());
+                let what = format!("the name of an interface in {}", quoted(&self.file));
+                let place = at(&format!("markers.{marker}"));
+                return Err(unknown(&place, &what, interface, known));
+            }
+        }
+        Ok(())
+    }
+
+    fn validate_modes(&self, path: &str, container: &Container) -> Result<(), Error> {
+        let frequencies = container.frequencies();
+        let (count, first) = (frequencies.len(), frequencies[0]);
+        match self.modes {
+            Modes::Count(found) if !(1..=count).contains(&(found as usize)) => {
+                let wanted = format!("a number of modes from 1 to {count}, which the file has");
+                Err(expected(path, &wanted, found))
+            }
+            Modes::UpTo(ModesUpTo { up_to }) => {
+                let path = format!("{path}.up_to");
+                positive(&path, "Hz", up_to)?;
+                if up_to < first {
+                    let wanted = format!("at least the first natural frequency ({first} Hz)");
+                    return Err(expected(&path, &wanted, up_to));
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn validate_damping(&self, path: &str) -> Result<(), Error> {
+        let table = match &self.damping_ratio {
+            DampingRatio::Number(ratio) => return not_negative(path, "1", *ratio),
+            DampingRatio::Table(table) => table,
+        };
+        if table.is_empty() {
+            let wanted = "at least one pair of a frequency (Hz) and a ratio";
+            return Err(expected(path, wanted, "none"));
+        }
+        let mut before = None;
+        for (row, [frequency, ratio]) in table.iter().enumerate() {
+            let place = |column: usize| format!("{path}[{row}][{column}]");
+            finite(&place(0), *frequency)?;
+            not_negative(&place(1), "1", *ratio)?;
+            if before.is_some_and(|before| *frequency <= before) {
+                let wanted = "frequencies (Hz) that ascend";
+                return Err(expected(&place(0), wanted, frequency));
+            }
+            before = Some(*frequency);
+        }
+        Ok(())
+    }
+}
