@@ -3,8 +3,9 @@
 
 use super::assembly::NodeBlock;
 use super::body::{BodyPart, NodalMotion, each};
-use super::connectivity::Node;
+use super::connectivity::{Node, largest_rotation};
 use super::frame::{Derivative, RotationIncrement, SectionFrameState};
+use super::nodes::NodeOwner;
 use super::reduced::ModalState;
 use super::{Bodies, Elimination};
 use crate::math::jet::Number;
@@ -177,6 +178,18 @@ impl<const D: usize> Bodies<D> {
     /// Whether sections have frames that follow lines: their rotations depend on positions.
     pub fn has_section_frames(&self) -> bool {
         self.moments() > 0
+    }
+
+    /// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes.
+    pub fn largest_rotation_between(&self, from: &[Node<D>], to: &[Node<D>]) -> f64 {
+        let nodes = from.iter().zip(to);
+        if self.reduced.is_empty() {
+            return largest_rotation(nodes);
+        }
+        let turning = nodes
+            .enumerate()
+            .filter(|(node, _)| self.owner(*node) != NodeOwner::Modal);
+        largest_rotation(turning.map(|(_, pair)| pair))
     }
 
     /// Largest rotation of rigid bodies in the coordinates `q`, rad.

@@ -35,8 +35,8 @@ pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use body::NodalMotion;
 pub use chain::Chain;
 pub use connectivity::{
-    Cluster, ConnectivityRow, Dependent, Node, RANK_TOLERANCE, add_node, largest_rotation,
-    map_node, no_node, node_frame_acceleration, product, tied_with,
+    Cluster, ConnectivityRow, Dependent, Node, RANK_TOLERANCE, add_node, map_node, no_node,
+    node_frame_acceleration, product, tied_with,
 };
 pub use drawn::LineStance;
 pub use elimination::Elimination;

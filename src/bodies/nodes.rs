@@ -31,6 +31,8 @@ pub(super) enum NodeOwner {
     Own,
     /// Numbers inside an element.
     Inner,
+    /// Amplitudes of the modes of a reduced body, or what follows from them.
+    Modal,
     /// The direction of a section in the plane.
     Direction,
     /// A rigid body of space, by index, and whether this is its second node.
@@ -73,7 +75,7 @@ impl<const D: usize> Bodies<D> {
                 owners[node] = NodeOwner::Reduced(index, site, false);
                 owners[node + 1] = NodeOwner::Reduced(index, site, true);
             }
-            owners[body.inner()..body.all().end].fill(NodeOwner::Inner);
+            owners[body.inner()..body.all().end].fill(NodeOwner::Modal);
         }
         self.owners = owners;
     }
@@ -89,7 +91,7 @@ impl<const D: usize> Bodies<D> {
             | NodeOwner::Rigid(_, true)
             | NodeOwner::Section(.., true)
             | NodeOwner::Reduced(.., true) => NodeKind::Axes,
-            NodeOwner::Inner => NodeKind::Inner,
+            NodeOwner::Inner | NodeOwner::Modal => NodeKind::Inner,
         }
     }
 

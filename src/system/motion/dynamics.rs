@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 
-use crate::bodies::{Node, RENEWED, largest_rotation};
+use crate::bodies::{Node, RENEWED};
 use crate::system::instant::Instant;
 use crate::system::loads::ForceElement as _;
 use crate::system::signal::{Trajectory, moved};
@@ -245,7 +245,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     /// The largest turn from one state to another, as [`Dynamics::largest_rotation`].
     pub fn rotation_between(&mut self, [from, to]: [&State; 2]) -> f64 {
         let [from, to] = [from, to].map(|state| self.system.nodes_of(state, self.work));
-        largest_rotation(&from, &to)
+        self.system.bodies.largest_rotation_between(&from, &to)
     }
 
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
@@ -448,7 +448,8 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
             .other
             .copy_from_slice(&self.work.kinematics.x);
         system.forward_kinematics(time, to, None, self.work);
-        largest_rotation(&self.work.scratch.other, &self.work.kinematics.x)
+        let (before, x) = (&self.work.scratch.other, &self.work.kinematics.x);
+        system.bodies.largest_rotation_between(before, x)
     }
 
     fn renew(&mut self, state: &mut State) -> bool {
