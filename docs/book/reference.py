@@ -27,7 +27,7 @@ QUOTE = re.compile(r"(<!-- example: (\S+) -->\n+)(?:```json\n.*?^```\n)?", re.DO
 # Pages in order: file, title, definitions. What is on none of them goes on the last.
 PAGES = [
     ("scene", "The scene", ["Scene", "About", "Experiment"]),
-    ("bodies", "Bodies", ["Body", "Elements", "Model", "Axial", "Strain", "InitialMotion", "Mass"]),
+    ("bodies", "Bodies", ["Body", "Elements", "Model", "Axial", "Strain", "InitialMotion", "Mass", "Modes", "AllModes", "ModesUpTo", "DampingRatio"]),
     ("shapes", "Material, sections, shapes", ["Material", "Section", "Profile", "Station", "Shape", "Solid", "Inertia", "Orientation"]),
     ("joints", "Joints and gears", ["Joint", "Freedom", "Gear"]),
     ("motions", "Motions", ["Motion", "MotionValue", "MasterInput"]),
@@ -148,7 +148,8 @@ def block(scene):
 def strays():
     """Files of examples that no page shows."""
     pages = "".join(path.read_text(encoding="utf-8") for path in SOURCE.rglob("*.md"))
-    return sorted(path for path in EXAMPLES.rglob("*.*") if path.read_text(encoding="utf-8").strip() not in pages)
+    files = [path for ending in ("json", "md") for path in EXAMPLES.rglob(f"*.{ending}")]
+    return sorted(path for path in files if path.read_text(encoding="utf-8").strip() not in pages)
 
 
 def quoted(text):

@@ -107,6 +107,12 @@ impl Container {
         &self.digest
     }
 
+    /// Inertia about the centre of mass in the file's axes, `xx yy zz xy xz yz`, kg m^2.
+    pub fn tensor(&self) -> [f64; 6] {
+        let moments = Matrix3::from_diagonal(&self.model.moments.into());
+        components(&(self.axes * moments * self.axes.transpose()))
+    }
+
     /// Natural frequencies of the free body, Hz.
     pub fn frequencies(&self) -> Vec<f64> {
         let eigenvalues = self.model.eigenvalues.iter();
@@ -382,17 +388,21 @@ impl Turned<'_> {
 
     /// A symmetric tensor in the principal axes.
     fn tensor(&self, of: &[f64]) -> Symmetric {
-        let turned = self.body.axes.tr_mul(&matrix(&symmetric(of))) * self.body.axes;
-        let mean = |i: usize, j: usize| 0.5 * (turned[(i, j)] + turned[(j, i)]);
-        [
-            turned[(0, 0)],
-            turned[(1, 1)],
-            turned[(2, 2)],
-            mean(0, 1),
-            mean(0, 2),
-            mean(1, 2),
-        ]
+        components(&(self.body.axes.tr_mul(&matrix(&symmetric(of))) * self.body.axes))
     }
+}
+
+/// Components of a tensor that is symmetric but for rounding.
+fn components(of: &Matrix3<f64>) -> Symmetric {
+    let mean = |i: usize, j: usize| 0.5 * (of[(i, j)] + of[(j, i)]);
+    [
+        of[(0, 0)],
+        of[(1, 1)],
+        of[(2, 2)],
+        mean(0, 1),
+        mean(0, 2),
+        mean(1, 2),
+    ]
 }
 
 fn symmetric(of: &[f64]) -> Symmetric {

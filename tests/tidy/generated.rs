@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use flexbody::fmi2;
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, beside};
 use flexbody::simulation::{Budget, plan};
 use flexbody::view;
 use sha2::{Digest, Sha256};
@@ -13,7 +13,8 @@ use crate::tidy::source::{files, name, no_complaints, root};
 
 fn scene(path: &Path) -> Result<Scene, String> {
     let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", name(path)))?;
-    Scene::from_json(&text).map_err(|error| format!("{}: {error}", name(path)))
+    let files = beside(path.parent().expect("a folder"));
+    Scene::from_json_with(&text, &files).map_err(|error| format!("{}: {error}", name(path)))
 }
 
 #[test]

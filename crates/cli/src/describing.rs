@@ -1,12 +1,14 @@
 //! `flexbody describe`: what the FMU of a scene holds besides the library.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use flexbody::fmi2;
 use flexbody::simulation::{Simulation, check};
 use fmu_package::{Progress, RESOURCES, prepared, shown};
 
+use crate::containers::{described, is_container};
 use crate::icon;
 use crate::planning::{Within, planned};
 use crate::reading::at;
@@ -15,11 +17,11 @@ use crate::viewing;
 /// Which scene, and where to write.
 #[derive(clap::Args)]
 pub struct Describe {
-    /// Scene file.
+    /// Scene file, or a file of a reduced model (`.safetensors`).
     scene: PathBuf,
-    /// Directory to write into; made if it does not exist.
+    /// Directory to write into; made if it does not exist. Nothing is written of a file of a reduced model.
     #[arg(long)]
-    output: PathBuf,
+    output: Option<PathBuf>,
     /// Leaves the default experiment in motion out of the documentation.
     #[arg(long)]
     no_animation: bool,
@@ -27,19 +29,25 @@ pub struct Describe {
     within: Within,
 }
 
-/// Writes the description of a scene that the user asks for.
+/// Writes the description of a scene that the user asks for, or prints that of a reduced model.
 ///
 /// # Errors
-/// A scene that is not valid, a plan that `--strict` refuses, or a file that cannot be written.
+/// A scene or a model that is not valid, a plan that `--strict` refuses, or a file that cannot be written.
 pub fn run(arguments: &Describe) -> Result<()> {
-    let is_moving = !arguments.no_animation;
-    describe(
-        &arguments.scene,
-        &arguments.output,
-        is_moving,
-        &arguments.within,
-    )
-    .map(drop)
+    let file = &arguments.scene;
+    match (&arguments.output, is_container(file)) {
+        (None, true) => {
+            let written = io::stdout().write_all(described(file)?.as_bytes());
+            written.context("standard output")
+        }
+        (Some(_), true) => {
+            bail!("--output: expected a scene beside it, found a file of a reduced model")
+        }
+        (Some(output), false) => {
+            describe(file, output, !arguments.no_animation, &arguments.within).map(drop)
+        }
+        (None, false) => bail!("--output: expected a directory to write into, found nothing"),
+    }
 }
 
 /// Writes everything that an FMU of a scene holds besides libraries and licenses, and returns the scene's name.

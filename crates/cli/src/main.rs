@@ -7,6 +7,7 @@ use anyhow::{Context, Result};
 use clap::{Parser, Subcommand};
 use flexbody::scene::Scene;
 
+mod containers;
 mod describing;
 mod files;
 mod icon;
@@ -45,7 +46,7 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Joins two FMUs of one scene that were built for different platforms.
     Merge(merging::Merge),
-    /// Writes what an FMU holds besides the library: model description, scene, documentation.
+    /// Writes what an FMU holds besides the library: model description, scene, documentation. Says what a file of a reduced model holds.
     Describe(describing::Describe),
     /// Prints the JSON Schema of a scene.
     Schema,

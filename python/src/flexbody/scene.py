@@ -40,6 +40,14 @@ class About(Part):
     """
 
 
+AllModes = TypeAliasType("AllModes", Literal["all"])
+"""
+The word for all modes.
+
+- `all`: All modes of the file.
+"""
+
+
 Along = TypeAliasType("Along", Literal["global", "body"])
 """
 Axes along which components of an output are.
@@ -87,6 +95,33 @@ Ways from a value to another.
 - `ramp`: A smooth ramp over the first tenth of the experiment, and one back over a tenth after its half.
 - `step`: A jump after a tenth of the experiment, and one back after its half.
 - `sine`: To and fro as a cosine, three times.
+"""
+
+
+DampingRatioNumber = TypeAliasType(
+    "DampingRatioNumber",
+    Annotated[StrictFloat, Field(ge=0.0, title="DampingRatioNumber")],
+)
+"""
+The same of all modes.
+"""
+
+
+DampingRatioRow = TypeAliasType("DampingRatioRow", Annotated[list[StrictFloat], Field(max_length=2, min_length=2)])
+
+
+DampingRatioRows = TypeAliasType(
+    "DampingRatioRows",
+    Annotated[list[DampingRatioRow], Field(title="DampingRatioRows")],
+)
+"""
+Pairs of a frequency, Hz, and the ratio there.
+"""
+
+
+DampingRatio = TypeAliasType("DampingRatio", DampingRatioNumber | DampingRatioRows)
+"""
+Damping ratio of the modes of a free body.
 """
 
 
@@ -627,6 +662,23 @@ the error wanted: then it says `rigid` here.
 force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
 along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
 """
+
+
+ModesCount = TypeAliasType("ModesCount", Annotated[StrictInt, Field(ge=1, title="ModesCount")])
+"""
+So many first ones.
+"""
+
+
+class ModesUpTo(Part):
+    """
+    Modes up to a frequency.
+    """
+
+    up_to: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Highest natural frequency of the free body, Hz.
+    """
 
 
 class RotationVector(Part):
@@ -1724,7 +1776,7 @@ class InitialMotion(Part):
     """
     velocity: Vector | None = None
     """
-    Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s; zero by default.
+    Velocity of the first end of a cable, of the centre of mass of a rigid body or of the origin of a reduced body's file, m/s; zero by default.
     """
 
 
@@ -2296,6 +2348,12 @@ Values of a load: one of a moment, as many as dimensions of a force.
 """
 
 
+Modes = TypeAliasType("Modes", AllModes | ModesCount | ModesUpTo)
+"""
+Modes of a reduced model that are taken.
+"""
+
+
 MotionValueComponents = TypeAliasType(
     "MotionValueComponents",
     Annotated[list[Value], Field(max_length=4, min_length=2, title="MotionValueComponents")],
@@ -2799,9 +2857,57 @@ class RigidBody(Part):
     """
 
 
+class ReducedBody(Part):
+    """
+    Finite element model reduced to modes, from a file; in space. It moves freely, with small deformations.
+    """
+
+    element: Literal["reduced"] = "reduced"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    file: StrictStr
+    """
+    File of the reduced model, beside the scene: letters, digits, `_`, `-` and `.`, folders before `/`; its name ends in `.safetensors`.
+    """
+    position: Vector
+    """
+    Place of the origin of the file's axes at the start, m.
+    """
+    damping_ratio: DampingRatio = 0.0
+    """
+    Damping ratio of the modes of the free body: a number, or pairs of a frequency (Hz) and the ratio there, linear between them and
+    constant outside.
+    """
+    markers: dict[str, StrictStr] = {}
+    """
+    Named interfaces of the file.
+    """
+    modes: Annotated[Modes, Field(validate_default=True)] = "all"
+    """
+    Modes that are taken, in the order of their frequencies.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Motion at the start; velocity of the origin of the file's axes.
+    """
+    orientation: Orientation | None = None
+    """
+    How the file's axes stand at the start; along the global axes where nothing is said.
+    """
+    sha256: StrictStr | None = None
+    """
+    SHA-256 of the file, hexadecimal in lower case. A file with another one is refused. Written out when a scene is read.
+    """
+
+
 Body = TypeAliasType(
     "Body",
-    Annotated[Cable | Rod | Beam | AutoBody | RigidBody, Field(discriminator="element")],
+    Annotated[
+        Cable | Rod | Beam | AutoBody | RigidBody | ReducedBody,
+        Field(discriminator="element"),
+    ],
 )
 """
 A body; `element` says of which kind.

@@ -268,7 +268,7 @@ pub enum Shape {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialMotion {
-    /// Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s; zero by default.
+    /// Velocity of the first end of a cable, of the centre of mass of a rigid body or of the origin of a reduced body's file, m/s; zero by default.
     #[serde(default, skip_serializing_if = "SceneVector::is_unsaid")]
     pub velocity: SceneVector,
     /// Angular velocity, counter-clockwise in the plane, in global axes in space, rad/s.

@@ -218,7 +218,8 @@ impl Scene {
 
     /// Error in time that a step may make: as given, or by the kinds of bodies.
     pub fn relative_tolerance(&self) -> f64 {
-        let is_rigid = self.bodies.iter().all(|body| body.flexible().is_none());
+        let deforms = |body: &Body| body.flexible().is_some() || body.reduced().is_some();
+        let is_rigid = !self.bodies.iter().any(deforms);
         let default = if is_rigid { 1e-7 } else { 1e-4 };
         self.accuracy.relative_tolerance.unwrap_or(default)
     }

@@ -112,7 +112,7 @@ pub enum DampingRatio {
     /// The same of all modes.
     Number(#[schemars(range(min = 0.0))] f64),
     /// Pairs of a frequency, Hz, and the ratio there.
-    Table(#[schemars(length(min = 1))] Vec<[f64; 2]>),
+    Table(Vec<[f64; 2]>),
 }
 
 impl Default for DampingRatio {
