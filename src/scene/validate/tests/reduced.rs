@@ -266,7 +266,7 @@ fn values_of_reduced_bodies_are_checked() {
         (
             "/bodies/0/markers/tip",
             json!([0, 0, 0]),
-            "bodies[0].markers.tip: expected a text",
+            "bodies[0].markers.tip: expected a string, found a list",
         ),
     ];
     for (pointer, value, expected) in cases {
