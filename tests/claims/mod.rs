@@ -9,6 +9,7 @@ mod elements;
 mod mutate;
 mod own;
 mod quantities;
+mod reduced;
 mod scenes;
 mod schema;
 mod settings;

@@ -59,6 +59,11 @@ macro_rules! keys {
                     ("Rotation", place, "rad/s")
                 }
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
+                // Its claim is in `reduced.rs`.
+                Parameter::DampingRatio(_) => {
+                    let place = part(scene, "bodies", variable);
+                    ("DampingRatio", format!("/bodies/{place}/damping_ratio"), "")
+                }
                 // Its claim is in `own.rs`: it changes no result.
                 Parameter::WorkLimit => ("WorkLimit", "/method/work_limit".into(), ""),
             }
@@ -170,7 +175,6 @@ keys! {
     ShearModulus => "bodies", "/material/shear_modulus", "Pa";
     TorsionConstant => "bodies", "/section/torsion_constant", "m4";
     Elements => "bodies", "/elements", "";
-    DampingRatio => "bodies", "/damping_ratio", "";
     Mass => "bodies", "/mass", "kg";
     LumpedMass => "masses", "/mass", "kg";
     ReleaseTime => "joints", "/release_time", "s";

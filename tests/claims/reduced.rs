@@ -1,0 +1,212 @@
+//! Keys of reduced bodies, of which a specimen would have to bring a file: claims of their own, with the strip of the book. It has a
+//! length of 0.5 m and modes in closed form (`docs/book/examples/bodies/strip.py`).
+
+use flexbody::scene::{Scene, beside};
+use flexbody::simulation::Simulation;
+use nalgebra::{Rotation3, Vector3};
+use serde_json::{Value, json};
+
+const LENGTH: f64 = 0.5;
+
+/// A scene with the strip, which moves freely, with these keys more.
+fn strip(keys: &Value) -> Value {
+    let mut body = json!({"name": "strip", "element": "reduced", "file": "strip.safetensors",
+        "position": [0, 0, 0], "markers": {"root": "root", "tip": "tip"}});
+    for (key, value) in keys.as_object().into_iter().flatten() {
+        body[key] = value.clone();
+    }
+    let outputs: Vec<Value> = ["root", "tip"]
+        .iter()
+        .flat_map(|marker| {
+            let marker = format!("strip.{marker}");
+            ["position", "velocity", "orientation", "angular_velocity"]
+                .map(|kind| json!({"kind": kind, "marker": marker}))
+        })
+        .chain([
+            json!({"kind": "natural_frequency", "count": 9}),
+            json!({"kind": "energy"}),
+        ])
+        .collect();
+    json!({"name": "strip", "dimension": 3, "bodies": [body], "outputs": outputs,
+        "accuracy": {"relative_tolerance": 1e-7}})
+}
+
+fn read(scene: &Value) -> Result<Scene, String> {
+    let folder = crate::root().join("docs/book/examples/bodies");
+    let scene = Scene::from_json_with(&scene.to_string(), &beside(&folder));
+    scene.map_err(|error| error.to_string())
+}
+
+struct Run(Simulation);
+
+impl Run {
+    fn new(scene: &Value) -> Result<Self, String> {
+        Self::set(scene, &[])
+    }
+
+    /// With parameters set.
+    fn set(scene: &Value, values: &[(&str, f64)]) -> Result<Self, String> {
+        let mut run = Self(Simulation::new(read(scene)?));
+        for (name, value) in values {
+            let index = run.index(name)?;
+            let set = run.0.set_real(index, *value);
+            set.map_err(|error| error.to_string())?;
+        }
+        run.0.initialize(0.0).map_err(|error| error.to_string())?;
+        run.0.start().map_err(|error| error.to_string())?;
+        Ok(run)
+    }
+
+    fn index(&self, name: &str) -> Result<usize, String> {
+        let place = self.0.variables().iter().position(|v| v.name == name);
+        place.ok_or_else(|| format!("{name}: no such variable"))
+    }
+
+    fn value(&mut self, name: &str) -> Result<f64, String> {
+        let index = self.index(name)?;
+        self.0.real(index).map_err(|error| error.to_string())
+    }
+
+    fn vector(&mut self, name: &str) -> Result<Vector3<f64>, String> {
+        let mut vector = Vector3::zeros();
+        for (k, part) in vector.iter_mut().enumerate() {
+            *part = self.value(&format!("{name}[{}]", k + 1))?;
+        }
+        Ok(vector)
+    }
+
+    /// Natural frequencies but those of rigid motions, Hz.
+    fn frequencies(&mut self) -> Result<Vec<f64>, String> {
+        let all = (1..=9).map(|k| self.value(&format!("natural_frequency[{k}]")));
+        let all = all.collect::<Result<Vec<_>, _>>()?;
+        Ok(all.into_iter().filter(|of| *of > 1.0).collect())
+    }
+}
+
+fn near(found: f64, expected: f64, within: f64) {
+    let off = (found - expected).abs();
+    assert!(
+        off <= within,
+        "expected {expected}, found {found}, {off} off"
+    );
+}
+
+/// `position`, `orientation`, `motion` and `markers`: both interfaces move as points of a rigid body, whose origin is that of the file.
+#[test]
+fn a_strip_stands_and_moves_as_described() -> Result<(), String> {
+    let turn = Vector3::new(0.4, -0.3, 0.6);
+    let (place, velocity) = (Vector3::new(0.3, -0.4, 0.8), Vector3::new(1.0, -2.0, 0.5));
+    let spin = Vector3::new(0.3, 0.2, -0.1);
+    let list = |v: Vector3<f64>| <[f64; 3]>::from(v);
+    let mut run = Run::new(&strip(&json!({
+        "position": list(place), "orientation": {"rotation_vector": list(turn)},
+        "motion": {"velocity": list(velocity), "spin": list(spin)}})))?;
+    let axes = Rotation3::new(turn).into_inner();
+    for (marker, along) in [("root", 0.0), ("tip", LENGTH)] {
+        let arm = axes.column(0) * along;
+        let at = |what: &str| format!("strip.{marker}.{what}");
+        let expected = [
+            ("position", place + arm),
+            ("velocity", velocity + spin.cross(&arm)),
+            ("angular_velocity", spin),
+        ];
+        for (what, expected) in expected {
+            let off = (run.vector(&at(what))? - expected).norm();
+            assert!(off < 1e-12, "{marker} {what}: {off}");
+        }
+        for (k, part) in axes.transpose().iter().enumerate() {
+            let name = at(&format!("orientation[{}]", k + 1));
+            near(run.value(&name)?, *part, 1e-12);
+        }
+    }
+    // Markers the other way round.
+    let mut run = Run::new(&strip(&json!({"markers": {"root": "tip", "tip": "root"}})))?;
+    near(run.value("strip.root.position[1]")?, LENGTH, 1e-15);
+    Ok(())
+}
+
+/// `modes`: the first ones, those up to a frequency, or all.
+#[test]
+fn a_strip_has_the_modes_that_are_taken() -> Result<(), String> {
+    let mut all = Run::new(&strip(&json!({})))?;
+    let all = all.frequencies()?;
+    // Source: S. S. Rao, Vibration of continuous systems (2007), chapter 11: beta L = 4.730 of the free beam.
+    let first = 22.3733 / std::f64::consts::TAU * (2.1e11 / 7850.0 / 12.0f64).sqrt() * 0.003
+        / LENGTH.powi(2);
+    near(all[0] / first, 1.0, 0.01);
+    for (modes, count) in [
+        (json!("all"), 3),
+        (json!(2), 2),
+        (json!({"up_to": 1.01 * all[1]}), 2),
+        (json!({"up_to": 0.99 * all[1]}), 1),
+    ] {
+        let mut run = Run::new(&strip(&json!({"modes": modes})))?;
+        let found = run.frequencies()?;
+        let shown = found.len().min(3);
+        assert_eq!(shown, count, "{modes}: {found:?}");
+        found
+            .iter()
+            .zip(&all)
+            .for_each(|(a, b)| near(*a, *b, 1e-6 * b));
+    }
+    Ok(())
+}
+
+/// `damping_ratio`: a mode decays as `exp(-2 pi f d t)`; a number is a parameter, a table is linear between its rows.
+#[test]
+fn a_strip_is_damped_as_described() -> Result<(), String> {
+    // Mechanical energy that is left after ten periods of the first mode, which a kick across the middle of the ends excites.
+    let left = |damping: &Value, set: &[(&str, f64)]| {
+        let mut scene = strip(&json!({"damping_ratio": damping, "modes": 1}));
+        let ends = ["root", "tip"].map(|end| {
+            json!({"name": end, "kind": "force", "marker": format!("strip.{end}"),
+                "value": [0, 0, {"table": [[0, 1], [0.05, 1], [0.0500001, 0], [1, 0]]}]})
+        });
+        scene["loads"] = json!(ends);
+        let mut run = Run::set(&scene, set)?;
+        let mut amplitude = [0.0, 0.0];
+        for (k, begin) in [0.06, 0.16].into_iter().enumerate() {
+            for step in 0..40 {
+                let until = begin + 0.5e-3 * f64::from(step);
+                let stepped = run.0.step(until);
+                stepped.map_err(|failure| failure.reason.to_string())?;
+                amplitude[k] = run.value("energy.strain")?.max(amplitude[k]);
+            }
+        }
+        Ok::<f64, String>((amplitude[0] / amplitude[1]).ln())
+    };
+    let frequency = Run::new(&strip(&json!({"modes": 1})))?.frequencies()?[0];
+    let expected = |ratio: f64| 2.0 * std::f64::consts::TAU * frequency * ratio * 0.1;
+    near(left(&json!(0.0), &[])?, 0.0, 0.02);
+    near(left(&json!(0.01), &[])? / expected(0.01), 1.0, 0.05);
+    near(
+        left(&json!(0.0), &[("strip.damping_ratio", 0.01)])? / expected(0.01),
+        1.0,
+        0.05,
+    );
+    let table = json!([[0.5 * frequency, 0.0], [1.5 * frequency, 0.02]]);
+    near(left(&table, &[])? / expected(0.01), 1.0, 0.05);
+    Ok(())
+}
+
+/// `file` and `sha256`: another file and another digest are refused.
+#[test]
+fn a_strip_is_read_from_its_file() -> Result<(), String> {
+    let refused = |keys: Value| read(&strip(&keys)).expect_err("a refusal");
+    assert!(
+        refused(json!({"file": "strap.safetensors"}))
+            .starts_with("bodies[0].file: \"strap.safetensors\": ")
+    );
+    let digest = "0".repeat(64);
+    assert!(
+        refused(json!({"sha256": digest})).starts_with("bodies[0].sha256: expected the digest of")
+    );
+    let written = read(&strip(&json!({})))?.to_json();
+    let written: Value = serde_json::from_str(&written).map_err(|error| error.to_string())?;
+    read(&written)?;
+    assert_eq!(
+        written["bodies"][0]["sha256"].as_str().map(str::len),
+        Some(64)
+    );
+    Ok(())
+}
