@@ -79,6 +79,50 @@ fn a_scene_is_a_regular_file_of_bounded_size() {
     );
 }
 
+/// The files that a scene names are read with it, and stand in its GUID.
+#[test]
+fn files_of_a_scene_are_those_that_were_packaged() {
+    let scene = include_str!("../../docs/book/examples/bodies/reduced.json");
+    let file: &[u8] = include_bytes!("../../docs/book/examples/bodies/strip.safetensors");
+    let unit = Unit::with(scene, &[("strip.safetensors", file)]);
+    let path = unit.folder().join("strip.safetensors");
+    let instance = Instance::new(&unit);
+    instance.start();
+    let bytes = instance.fingerprint();
+    let state = instance.deserialize(&bytes).expect("its own bytes");
+    assert_eq!(instance.restore(state), Status::Ok);
+    instance.free(state);
+    // A state has no files: an instance without resources says so.
+    let bare = Instance::bare(&unit);
+    let state = bare.deserialize(&bytes).expect("bytes of its model");
+    assert_eq!(bare.restore(state), Status::Error);
+    let told = bare.record.last();
+    assert!(
+        told.contains("has no folder that files are read from"),
+        "{told}"
+    );
+    bare.free(state);
+    // Another file with another source in words is another model.
+    let mut other = file.to_vec();
+    let word = other.windows(4).position(|bytes| bytes == b"Ritz");
+    other[word.expect("its source")] = b'r';
+    fs::write(&path, &other).expect("a writable folder");
+    let told = refusal(&unit);
+    assert!(told.contains("fmuGUID"), "{told}");
+    fs::write(&path, &file[..1000]).expect("a writable folder");
+    let told = refusal(&unit);
+    assert!(
+        told.contains("bodies[0].file: \"strip.safetensors\": header"),
+        "{told}"
+    );
+    fs::remove_file(&path).expect("a file to remove");
+    let told = refusal(&unit);
+    assert!(
+        told.contains("bodies[0].file: \"strip.safetensors\": "),
+        "{told}"
+    );
+}
+
 #[test]
 fn a_scene_cut_off_anywhere_is_refused() {
     let unit = Unit::new();

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 pub use flexbody::fmi::{InstanceState, Status};
 use flexbody::fmi2::abi::{CallbackFunctions, Component, FmuState, LoggerCallback};
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, beside};
 use flexbody::simulation::{Variable, variables};
 
 /// Calls a function of the interface.
@@ -42,17 +42,25 @@ pub struct Unit {
 impl Unit {
     /// The unit of a scene.
     pub fn of(scene: &str) -> Self {
+        Self::with(scene, &[])
+    }
+
+    /// The unit of a scene that names these files: names and contents.
+    pub fn with(scene: &str, files: &[(&str, &[u8])]) -> Self {
         let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
         let name = format!("flexbody-abi-{}-{number}", std::process::id());
         let folder = std::env::temp_dir().join(name);
         fs::create_dir_all(&folder).expect("a writable temporary directory");
-        fs::write(folder.join("scene.json"), scene).expect("a writable temporary directory");
+        let scenes = [("scene.json", scene.as_bytes())];
+        for (name, bytes) in scenes.iter().chain(files) {
+            fs::write(folder.join(name), bytes).expect("a writable temporary directory");
+        }
         Self::at(folder, scene)
     }
 
     /// The unit of a scene in a folder that holds it.
     pub fn at(folder: PathBuf, scene: &str) -> Self {
-        let scene = Scene::from_json(scene).expect("a valid scene");
+        let scene = Scene::from_json_with(scene, &beside(&folder)).expect("a valid scene");
         let variables = variables(&scene);
         let guid = flexbody::fmi::guid(&scene, &variables);
         let location = format!("file://{}", folder.display());

@@ -179,7 +179,10 @@ const OWNERS: [(&str, &[&str]); 14] = [
     ("schemars", &["scene/"]),
     ("libc", &["fmi2/abi.rs", "fmi/place.rs"]),
     ("quick_xml", &["page/canvas.rs", "fmi/xml.rs"]),
-    ("sha2", &["fmi/guid.rs", "fmi/state.rs"]),
+    (
+        "sha2",
+        &["fmi/guid.rs", "fmi/state.rs", "scene/container.rs"],
+    ),
     ("cpu_time", &["stopwatch.rs"]),
     ("clap", &["main.rs", "viewing.rs"]),
     ("strsim", &["scene/alike.rs"]),
