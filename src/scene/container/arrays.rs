@@ -14,6 +14,8 @@ use crate::scene::did_you_mean;
 const LENGTH: usize = 8;
 /// Longest header, bytes.
 const MOST_HEADER: usize = 1 << 22;
+/// Bound of the size of a number, whose square is one of the machine.
+const LARGEST: f64 = 1e150;
 /// Key of the texts among the arrays.
 const METADATA: &str = "__metadata__";
 /// Names of arrays; the first part of a name with a dot may be another one.
@@ -119,7 +121,7 @@ impl<'a> Arrays<'a> {
     /// Takes an array of F64.
     ///
     /// # Errors
-    /// The array is missing, has another type or shape, or numbers that are not finite.
+    /// The array is missing, has another type or shape, or numbers that are not finite or too large.
     pub fn numbers(&mut self, name: &str, shape: &[usize]) -> Result<Vec<f64>, String> {
         let numbers = self.take(name, "F64", shape, f64::from_le_bytes)?;
         check_finite(name, numbers.iter().copied())?;
@@ -129,7 +131,7 @@ impl<'a> Arrays<'a> {
     /// Takes an array of F64 that may be missing.
     ///
     /// # Errors
-    /// The array has another type or shape, or numbers that are not finite.
+    /// The array has another type or shape, or numbers that are not finite or too large.
     pub fn optional(&mut self, name: &str, shape: &[usize]) -> Result<Option<Vec<f64>>, String> {
         let is_there = self.entries.contains_key(name);
         is_there.then(|| self.numbers(name, shape)).transpose()
@@ -138,7 +140,7 @@ impl<'a> Arrays<'a> {
     /// Takes an array of F32.
     ///
     /// # Errors
-    /// The array is missing, has another type or shape, or numbers that are not finite.
+    /// The array is missing, has another type or shape, or numbers that are not finite or too large.
     pub fn singles(&mut self, name: &str, shape: &[usize]) -> Result<Vec<f32>, String> {
         let numbers = self.take(name, "F32", shape, f32::from_le_bytes)?;
         check_finite(name, numbers.iter().copied().map(f64::from))?;
@@ -259,8 +261,13 @@ fn split(bytes: &[u8]) -> Result<(&[u8], &[u8]), String> {
 }
 
 fn check_finite(name: &str, mut numbers: impl Iterator<Item = f64>) -> Result<(), String> {
-    match numbers.find(|number| !number.is_finite()) {
-        Some(found) => Err(wrong(name, "finite numbers", found)),
+    let is_fit = |number: &f64| number.abs() < LARGEST;
+    match numbers.find(|number| !is_fit(number)) {
+        Some(found) => Err(wrong(
+            name,
+            &format!("numbers of a size below {LARGEST:e}"),
+            found,
+        )),
         None => Ok(()),
     }
 }

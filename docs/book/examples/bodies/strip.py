@@ -1,9 +1,9 @@
-"""Writes strip.safetensors: a steel strip, clamped at its root or not, as a reduced model, by Ritz' method with polynomials.
+"""Writes strip.safetensors: a steel strip as a reduced model, by Ritz' method with polynomials.
 
     python docs/book/examples/bodies/strip.py
 
-The strip is a slender beam along x that bends in both directions. Its section does not shear, and its line does not stretch, so that second-order
-displacements are those of a line of constant length: u_kl(x) = -integral of w_k' w_l'.
+The strip is a slender beam along x that bends in both directions. Its section does not shear, and its line keeps its
+length: second-order displacements are u_kl(x) = -integral of w_k' w_l'.
 """
 
 import json
@@ -27,7 +27,8 @@ def along(p):
 
 
 def free_modes(height, count):
-    """Eigenvalues and modes of the free strip in the span of polynomials that vanish with their slope at the root, and rigid motions."""
+    """Eigenvalues and modes of the free strip. They span polynomials that vanish with their slope at the root, but for
+    rigid motions."""
     middle = X - LENGTH / 2
     rigid = [Polynomial([1.0]), middle]
     scaled = X / LENGTH
