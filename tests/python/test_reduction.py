@@ -1,6 +1,9 @@
 """Reduced bodies against closed forms, sums over nodes, and frequencies found by other programs."""
 
 import math
+import re
+import subprocess
+import sys
 
 import flexbody
 import numpy as np
@@ -490,3 +493,31 @@ def test_bodies_that_are_not_free_are_refused(block, ends):
     nodes = np.vstack([model.nodes, model.nodes + [1, 0, 0]])
     with pytest.raises(flexbody.Error, match="expected a body with six rigid motions, found another"):
         flexbody.reduce(*two, nodes, ends)
+
+
+def test_the_tutorial_prints_what_the_book_shows(tmp_path):
+    files = ROOT / "docs" / "book" / "src" / "tutorial" / "files"
+    command = [sys.executable, files / "arm.py"]
+    printed = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    shown = (files / "arm.txt").read_text(encoding="utf-8")
+    number = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+    assert number.sub("", printed) == number.sub("", shown)
+    found, expected = ([float(text) for text in number.findall(all_of_it)] for all_of_it in (printed, shown))
+    # The last digit depends on roundoff.
+    assert found == pytest.approx(expected, rel=1e-4)
+    assert ReducedBody.load(tmp_path / "arm.safetensors").source == "arm of the tutorial"
+
+
+def test_the_package_works_without_numpy(tmp_path):
+    """Scenes need neither numpy nor scipy; who asks for a reduction is told what to install."""
+    code = """
+import sys
+sys.modules["scipy"] = sys.modules["numpy"] = None
+import flexbody
+try:
+    flexbody.reduce
+except ImportError as error:
+    print(error)
+"""
+    printed = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert 'pip install "flexbody[fe]"' in printed

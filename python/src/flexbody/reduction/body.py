@@ -203,23 +203,26 @@ class ReducedBody:
         """Describes the body as text: mass, modes, interfaces."""
         frequencies = self.frequencies
         orders = "no second-order terms" if self.cubic is None else f"second-order terms of {self.cubic.shape[1]} modes"
+        size = max(np.abs(place).max() for place in [self.centre, *(at.position for at in self.interfaces.values())])
         lines = [
             f"source: {self.source or 'not said'}",
-            f"mass: {self.mass:.6g} kg, centre of mass: {_vector(self.centre)} m",
+            f"mass: {self.mass:.6g} kg, centre of mass: {_vector(self.centre, size)} m",
             f"inertia about it (xx yy zz xy xz yz): {_vector(self.inertia)} kg m^2",
-            f"modes: {len(frequencies)}, {frequencies[0]:.5g} to {frequencies[-1]:.5g} Hz; {orders}",
+            f"modes: {len(frequencies)}, {orders}",
             "frequencies of the free body: " + ", ".join(f"{value:.5g}" for value in frequencies) + " Hz",
         ]
         if self.highest_frequency is not None:
             lines.append(f"highest frequency that the mesh resolves: {self.highest_frequency:.5g} Hz")
         for name, motion in self.interfaces.items():
             what = "position" if motion.rotation is None else "position and orientation"
-            lines.append(f"interface {name}: {what}, at {_vector(motion.position)} m")
+            lines.append(f"interface {name}: {what}, at {_vector(motion.position, size)} m")
         if self.surface is not None:
             lines.append(f"surface: {len(self.surface.points)} points, {len(self.surface.triangles)} triangles")
         lines += [f"stress {name}" for name in self.stress]
         return "\n".join(lines)
 
 
-def _vector(values):
+def _vector(values, size=0.0):
+    """Text of a vector, with zero for what is roundoff beside its largest component, or beside a size."""
+    values = np.where(np.abs(values) < 1e-9 * max(np.abs(values).max(), size), 0.0, values)
     return "(" + ", ".join(f"{value:.6g}" for value in values) + ")"
