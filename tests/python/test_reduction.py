@@ -242,6 +242,26 @@ def test_origin_and_axes_of_the_model_do_not_matter(block, ends):
     assert there.coupling == pytest.approx(expected, abs=1e-5 * np.abs(expected).max())
 
 
+def test_axes_of_a_model_with_rotations_of_nodes_do_not_matter():
+    model = beam(6)
+    turn = scipy.linalg.expm(np.cross(np.eye(3), [0.3, -0.7, 1.1]))
+    big = sparse.kron(sparse.eye_array(14), turn).tocsc()
+    moved = model.nodes @ turn.T + [3.0, -1.0, 2.0]
+    ends = {"root": Interface(0, held="frame"), "tip": Interface(6, held="nothing")}
+    here = model.reduce(ends, modes=3)
+    there = flexbody.reduce(
+        big @ model.mass @ big.T, big @ model.stiffness @ big.T, moved, ends, modes=3, dofs=model.dofs
+    )
+    assert there.eigenvalues == pytest.approx(here.eigenvalues, rel=1e-6)
+    assert tensor(there.inertia) == pytest.approx(turn @ tensor(here.inertia) @ turn.T, rel=1e-9)
+    signs = np.sign(np.einsum("ik,ik->k", there.interfaces["tip"].modes, turn @ here.interfaces["tip"].modes))
+    for part in ("modes", "rotation"):
+        expected = turn @ getattr(here.interfaces["tip"], part) * signs
+        assert getattr(there.interfaces["tip"], part) == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+    expected = turn @ tensor(here.inertia_2) @ turn.T * np.multiply.outer(signs, signs)[:, :, None, None]
+    assert tensor(there.inertia_2) == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+
+
 def test_units_are_converted(block, ends):
     """The same body in millimetres, tonnes and seconds, with stress in MPa."""
     model = block.model

@@ -175,7 +175,10 @@ def _matrix(name, matrix):
             f"by {asymmetry:.3g}, "
             f"the largest entry is {largest:.3g}"
         )
-    return ((matrix + matrix.T) / 2).tocsc()
+    matrix = ((matrix + matrix.T) / 2).tocsc()
+    # Assemblers store zeros between directions, which a factorization would keep.
+    matrix.eliminate_zeros()
+    return matrix
 
 
 def _dofs(dofs, size, count):
