@@ -12,18 +12,8 @@ from importlib import import_module
 from flexbody._errors import Error
 from flexbody._program import Columns, FlexbodyWarning, package, program, run, simulate, view
 
-__all__ = [
-    "Columns",
-    "Error",
-    "FlexbodyWarning",
-    "package",
-    "program",
-    "reduce",
-    "reduction",
-    "run",
-    "simulate",
-    "view",
-]
+# Without `reduce` and `reduction`: a star import must not need numpy.
+__all__ = ["Columns", "Error", "FlexbodyWarning", "package", "program", "run", "simulate", "view"]
 
 
 def __getattr__(name):

@@ -22,7 +22,7 @@ class Interface:
     weights: weights of the nodes, positive in sum; equal if they are not given. For the mean displacement of a face,
         use the integrals of the shape functions over it.
     kind: `mean` (RBE3: weighted mean displacement, rotation by least squares; adds no stiffness) or `rigid` (RBE2: the
-        nodes are rigidly connected).
+        nodes are rigidly connected, by rotations of first order also in second-order terms).
     held: what joints hold, or loads act on: `position` (three translations), `frame` (translations and rotations) or
         `nothing` (the interface is only read). Static shapes are made for what is held.
     position: reference point [3] in the axes and length unit of the model; the weighted mean of the nodes if it is
