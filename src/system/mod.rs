@@ -32,7 +32,7 @@ pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
 pub use outputs::stress::StressPoint;
 pub use signal::{Drive, InputSignal, Signal, Trajectory, moved};
-pub use spectra::frequencies::fastest;
+pub use spectra::fastest::fastest;
 pub use spectra::modes::{Mode, damping_along, modes};
 pub use spectra::response::slow_response;
 pub use spectra::spectrum::{

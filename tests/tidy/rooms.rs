@@ -390,7 +390,7 @@ fn what_computes_does_not_know_kinds_of_joints_and_loads() {
         "motion/dynamics.rs",
         "motion/forces.rs",
         "motion/multipliers.rs",
-        "spectra/frequencies.rs",
+        "spectra/fastest.rs",
         "workspace.rs",
     ] {
         let source = Source::read(&format!("src/system/{file}"));

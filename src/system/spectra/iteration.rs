@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use nalgebra::Complex;
 
 use super::dense::{quadratic, roots, sort};
-use super::frequencies::largest_eigenvalue;
+use super::fastest::largest_eigenvalue;
 use super::linearization::Linearization;
 use super::modes::{Mode, in_basis};
 use crate::math::krylov::{Krylov, Ritz};

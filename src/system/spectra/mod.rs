@@ -1,7 +1,7 @@
 //! Small motions about a state: the linearized equations, their natural frequencies and eigenvalues.
 
 mod dense;
-pub(in crate::system) mod frequencies;
+pub(in crate::system) mod fastest;
 mod iteration;
 pub(in crate::system) mod linearization;
 pub(in crate::system) mod modes;

@@ -1,4 +1,4 @@
-//! How fast a system is at most.
+//! Fastest oscillation and decay of a system, which bound the steps of explicit methods.
 
 use crate::math::eigen::symmetric_eigenvalues;
 use crate::math::vector::{dot, norm};
