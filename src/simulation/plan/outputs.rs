@@ -108,12 +108,12 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Output
     let resolved = scene.resolved();
     let mut groups: Vec<OutputGroup> = Vec::new();
     for (index, variable) in variables.iter().filter(|v| v.is_computed()).enumerate() {
-        let Some((measure, is_dynamic, counts)) = nature(variable.source) else {
+        let Some(nature) = nature(variable.source) else {
             continue;
         };
         let list = without_index(&variable.name);
-        let counts = wanted.iter().any(|of| of == list) || wanted.is_empty() && counts;
-        let name = if measure == Measure::Spectrum {
+        let counts = wanted.iter().any(|of| of == list) || wanted.is_empty() && nature.counts;
+        let name = if nature.measure == Measure::Spectrum {
             &variable.name
         } else {
             list
@@ -124,11 +124,11 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Output
                 name: name.to_owned(),
                 members: vec![index],
                 eigenvalue: parts_of_eigenvalue(variable.source, variables),
-                measure,
+                measure: nature.measure,
                 unit: variable.unit,
                 bodies: resolved.bodies_read_by(list),
-                is_dynamic,
-                is_force: is_force(variable.source),
+                is_dynamic: nature.is_dynamic,
+                is_force: nature.is_force,
                 counts,
             }),
         }
@@ -168,66 +168,70 @@ fn parts_of_eigenvalue(source: Source, variables: &[Variable]) -> Vec<usize> {
     parts.map(|(index, _)| index).collect()
 }
 
-/// By what an output is measured, whether it follows from accelerations, and whether it counts where none are named;
-/// nothing of what is no output.
-fn nature(source: Source) -> Option<(Measure, bool, bool)> {
+/// How an output is compared between runs.
+struct Nature {
+    measure: Measure,
+    /// Whether it follows from accelerations.
+    is_dynamic: bool,
+    /// Whether it is a force, a moment or a stress of a body, joint, motion or coupling.
+    is_force: bool,
+    /// Whether it counts where `accuracy.of` names no outputs.
+    counts: bool,
+}
+
+/// How a variable is compared; nothing of what is no output.
+fn nature(source: Source) -> Option<Nature> {
     use Quantity::*;
     let quantity = match source {
         Source::Output(quantity) => quantity,
         Source::NaturalFrequency(_) | Source::Eigenvalue(..) => {
-            return Some((Measure::Spectrum, false, true));
+            return Some(Nature {
+                measure: Measure::Spectrum,
+                is_dynamic: false,
+                is_force: false,
+                counts: true,
+            });
         }
         Source::Time | Source::Parameter(_) | Source::Input(_) => return None,
     };
-    let is_dynamic = quantities::needs(quantity) == Evaluated::Dynamics;
-    let measure = match quantity {
+    let (measure, is_force, counts) = match quantity {
         Position(..) | Deflection(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => {
-            Measure::Displacement
+            (Measure::Displacement, false, true)
         }
         Angle(_) | Direction(..) | Orientation(..) | Quaternion(..) | RotationVector(..) => {
-            Measure::Rotation
+            (Measure::Rotation, false, true)
         }
-        Strain(_) | Curvature(_) => Measure::Elastic,
-        Momentum(_) | AngularMomentum(_) | KineticEnergy | StrainEnergy | GravityEnergy
-        | SpringEnergy | Input | Dissipated | Resolution | Residual(_) => Measure::Sum,
-        _ if is_dynamic => Measure::Elastic,
-        _ => Measure::Rate,
-    };
-    let counts = !matches!(
-        quantity,
-        KineticEnergy
-            | StrainEnergy
-            | GravityEnergy
-            | SpringEnergy
-            | Input
-            | Dissipated
-            | Resolution
-            | Residual(_)
-    );
-    Some((measure, is_dynamic, counts))
-}
-
-/// Whether an output is a force, a moment or a stress.
-fn is_force(source: Source) -> bool {
-    use Quantity::*;
-    let Source::Output(quantity) = source else {
-        return false;
-    };
-    matches!(
-        quantity,
+        Velocity(..) | SlidingVelocity(_) | AngularVelocity(..) | JointVelocity(_)
+        | LoadForce(..) | LoadMoment(..) => (Measure::Rate, false, true),
+        CouplingForce(..) | CouplingMoment(..) => (Measure::Rate, true, true),
+        Strain(_)
+        | Curvature(_)
+        | Acceleration(..)
+        | SlidingAcceleration(_)
+        | AngularAcceleration(..)
+        | JointAcceleration(_)
+        | GearForce(_)
+        | GearTorque(_) => (Measure::Elastic, false, true),
         AxialForce(_)
-            | BendingMoment(..)
-            | Torque(_)
-            | Stress(_)
-            | TorsionStress(_)
-            | ConnectivityForce(..)
-            | Reaction(..)
-            | ReactionMoment(..)
-            | MotionForce(..)
-            | MotionMoment(..)
-            | CouplingForce(..)
-            | CouplingMoment(..)
-    )
+        | BendingMoment(..)
+        | Torque(_)
+        | Stress(_)
+        | TorsionStress(_)
+        | ConnectivityForce(..)
+        | Reaction(..)
+        | ReactionMoment(..)
+        | MotionForce(..)
+        | MotionMoment(..) => (Measure::Elastic, true, true),
+        Momentum(_) | AngularMomentum(_) => (Measure::Sum, false, true),
+        KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy | Input | Dissipated
+        | Resolution | Residual(_) => (Measure::Sum, false, false),
+    };
+    Some(Nature {
+        measure,
+        is_dynamic: quantities::needs(quantity) == Evaluated::Dynamics,
+        is_force,
+        counts,
+    })
 }
 
 impl Measure {
