@@ -91,10 +91,12 @@ impl SectionStress {
 
 /// Whether sections have corners.
 pub(super) fn has_corners(body: &LineBody) -> bool {
-    matches!(
-        body.section_after(0.0).shape,
-        Some(Profile::Rectangle { .. })
-    )
+    match body.section_after(0.0).shape {
+        Some(Profile::Rectangle { .. }) => true,
+        Some(Profile::Ellipse { .. } | Profile::Circle { .. } | Profile::Tube { .. }) | None => {
+            false
+        }
+    }
 }
 
 #[cfg(test)]

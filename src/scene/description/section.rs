@@ -60,8 +60,8 @@ pub struct Section {
     pub about: Option<[f64; 2]>,
 }
 
-/// Shape of a massive cross section, its centre on the line of the body. Axes are those of the section of a rod; a cable in
-/// the plane has the first across the plane, so that its height lies in it.
+/// Shape of a cross section, from which its numbers follow. Its centre is on the line of the body. Axes are those of the section of a rod; a
+/// cable in the plane has the first across the plane, so that its height lies in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Profile {
@@ -144,17 +144,25 @@ pub struct Given {
 }
 
 impl Profile {
-    /// Lengths of the shape by their keys, m.
-    pub fn lengths(&mut self) -> Vec<(&'static str, &mut f64)> {
+    /// Lengths of the shape, m, with their keys and meanings.
+    pub fn lengths(&mut self) -> Vec<(&'static str, &'static str, &mut f64)> {
+        const RADIUS: &str = "Radius of the cross section";
         match self {
-            Self::Rectangle { width, height } | Self::Ellipse { width, height } => {
-                vec![("width", width), ("height", height)]
-            }
-            Self::Circle { radius } => vec![("radius", radius)],
+            Self::Rectangle { width, height } | Self::Ellipse { width, height } => vec![
+                ("width", "Width of the cross section", width),
+                ("height", "Height of the cross section", height),
+            ],
+            Self::Circle { radius } => vec![("radius", RADIUS, radius)],
             Self::Tube {
                 radius,
                 inner_radius,
-            } => vec![("radius", radius), ("inner_radius", inner_radius)],
+            } => {
+                let hole = "Radius of the hole in the cross section";
+                vec![
+                    ("radius", RADIUS, radius),
+                    ("inner_radius", hole, inner_radius),
+                ]
+            }
         }
     }
 
@@ -238,7 +246,7 @@ impl Profile {
             return None;
         }
         let lengths = shape.lengths().into_iter().zip(other.lengths());
-        for ((_, length), (_, end)) in lengths {
+        for ((.., length), (.., end)) in lengths {
             *length += part * (*end - *length);
         }
         Some(shape)
@@ -329,7 +337,9 @@ impl SectionNumbers {
     pub fn diameter(&self) -> f64 {
         match self.shape {
             Some(Profile::Circle { radius } | Profile::Tube { radius, .. }) => 2.0 * radius,
-            _ => 2.0 * (self.area / PI).sqrt(),
+            Some(Profile::Rectangle { .. } | Profile::Ellipse { .. }) | None => {
+                2.0 * (self.area / PI).sqrt()
+            }
         }
     }
 

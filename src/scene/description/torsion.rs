@@ -1,4 +1,4 @@
-//! Shear stress by torsion of massive cross sections.
+//! Shear stress by torsion in the shapes of cross sections.
 //!
 //! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), sections 107 (ellipse) and 109 (rectangle:
 //! stress function, whose derivatives the stresses are).

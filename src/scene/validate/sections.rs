@@ -255,21 +255,21 @@ impl Section {
             return Err(expected(&format!("{path}.{key}"), wanted, "a value"));
         }
         let place = format!("{path}.shape.{}", shape.key());
-        for (key, length) in shape.lengths() {
+        for (key, _, length) in shape.lengths() {
             positive(&format!("{place}.{key}"), "m", *length)?;
         }
-        if let Profile::Tube {
-            radius,
-            inner_radius,
-        } = shape
-            && inner_radius >= radius
-        {
-            let wanted = "less than the outer radius";
-            return Err(expected(
-                &format!("{place}.inner_radius"),
-                wanted,
+        match shape {
+            Profile::Tube {
+                radius,
                 inner_radius,
-            ));
+            } if inner_radius >= radius => {
+                let path = format!("{place}.inner_radius");
+                return Err(expected(&path, "less than the outer radius", inner_radius));
+            }
+            Profile::Rectangle { .. }
+            | Profile::Ellipse { .. }
+            | Profile::Circle { .. }
+            | Profile::Tube { .. } => {}
         }
         let couplings = [
             ("coupling", self.coupling.is_some()),

@@ -135,13 +135,7 @@ fn add_lengths(list: &mut List, cable: &Cable<'_>) {
     let Some(mut shape) = cable.body.section.shape else {
         return;
     };
-    for (k, (key, length)) in shape.lengths().into_iter().enumerate() {
-        let what = match key {
-            "width" => "Width of the cross section",
-            "height" => "Height of the cross section",
-            "radius" => "Radius of the cross section",
-            _ => "Radius of the hole in the cross section",
-        };
+    for (k, (key, what, length)) in shape.lengths().into_iter().enumerate() {
         let parameter = Parameter::SectionLength(cable.id, k);
         list.parameters(
             &cable.body.name,
@@ -318,7 +312,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         TorsionConstant(id) => scene.cable_mut(id).section.torsion_constant = Some(value),
         SectionLength(id, k) => {
             let shape = &mut scene.cable_mut(id).section.shape;
-            if let Some((_, length)) = shape.iter_mut().flat_map(|s| s.lengths()).nth(k) {
+            if let Some((.., length)) = shape.iter_mut().flat_map(|s| s.lengths()).nth(k) {
                 *length = value;
             }
         }
