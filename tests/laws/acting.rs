@@ -8,7 +8,7 @@ use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
     AppliedLoad, Bushing, BushingMeasure, Contact, ContactPoint, ContactSurface, ForceElement as _,
-    FromAngle, FromPoint, JointLimit, JointSpring, TableSpring,
+    FromAngle, FromPoint, JointLimit, JointSpring, OneSidedSpring, TableSpring,
 };
 use flexbody::system::{Angle, Attachment, Coordinate, Direction, Signal, Translation};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -95,8 +95,8 @@ impl Acted<'_> {
     }
 }
 
-/// Springs, dampers and stops on the angle between two ends and, where the first is rigid, on the way along a line of it.
-/// Stops stand where they are pressed on both sides.
+/// Springs, dampers and limits on the angle between two ends and, where the first is rigid, on the way along a line of it.
+/// Limits stand where they are passed on both sides.
 fn on_coordinates<'a>(frame: &'a Frame, ends: [Attachment; 2]) -> Vec<Acted<'a>> {
     let (made, angle) = (&frame.made, Angle { ends, turn: None });
     let [sin, cos] = [made.noise[23].sin(), made.noise[23].cos()];
@@ -126,15 +126,17 @@ fn on_coordinates<'a>(frame: &'a Frame, ends: [Attachment; 2]) -> Vec<Acted<'a>>
             [value + 0.3, f64::INFINITY],
             [value - 9.0, value + 9.0],
         ];
-        let stops = limits.map(|limits| {
+        let limited = limits.map(|limits| {
             AppliedLoad::JointLimit(JointLimit {
                 coordinate: Box::new(coordinate.clone()),
                 limits,
-                stiffness: 5.0 + made.noise[24],
-                damping: 0.03,
+                spring: OneSidedSpring {
+                    stiffness: 5.0 + made.noise[24],
+                    damping: 0.03,
+                },
             })
         });
-        stops.into_iter().chain([spring])
+        limited.into_iter().chain([spring])
     });
     let acted = |load| Acted {
         frame,
@@ -193,8 +195,10 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
             load: AppliedLoad::Contact(Box::new(Contact {
                 places: places.clone(),
                 surface,
-                stiffness: 5.0 + made.noise[24],
-                damping,
+                spring: OneSidedSpring {
+                    stiffness: 5.0 + made.noise[24],
+                    damping,
+                },
                 friction,
                 slip_velocity: 2.0,
             })),
@@ -389,7 +393,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
         within("symmetry", (&by_x - by_x.transpose()).amax(), 1e-7 * size)?;
     }
     within("damping", (&damping - &by_v).amax(), 1e-9)?;
-    // Between two places on one rigid body nothing is there to damp, nor on a stop that is not met.
+    // Between two places on one rigid body nothing is there to damp, nor at a limit that is not met.
     prop_assert!(acted.load.is_damped() || damping.amax() == 0.0);
     // Power of the forces, with what is stored, is what comes in less what is dissipated.
     let moving = DVector::from_column_slice(v.as_flattened().as_flattened());

@@ -1,11 +1,11 @@
-//! Springs, dampers, stops and bushings of random mechanisms, by their energies and laws along numerical derivatives of what
+//! Springs, dampers, joint limits and bushings of random mechanisms, by their energies and laws along numerical derivatives of what
 //! they stretch: rotations by the logarithm of matrices, angles by arc tangents.
 
 use flexbody::bodies::Marker;
 use flexbody::math::function::Function;
 use flexbody::system::joints::{Coupler, JointEquations, Primitive};
 use flexbody::system::loads::{
-    self, AppliedLoad, BetweenFrames, BushingMeasure, JointLimit, JointSpring,
+    self, AppliedLoad, BetweenFrames, BushingMeasure, JointLimit, JointSpring, OneSidedSpring,
 };
 use flexbody::system::{
     Angle, Attachment, AxisRotation, Coordinate, Direction, Drive, Parts, Translation,
@@ -15,12 +15,12 @@ use nalgebra::{DVector, Matrix3, Rotation3};
 use crate::laws::chance::Chance;
 use crate::laws::linkage::{Body, DRIVE, Held, Kind, Mechanism, Of, THREAD, V};
 
-/// Springs, stops and bushings beside gravity.
+/// Springs, joint limits and bushings beside gravity.
 #[derive(Clone, Debug)]
 pub enum Sprung {
     /// On the angle of a joint, or on its way: stiffness, damping, value at rest.
     Spring(Of, [f64; 3]),
-    /// Stops of the same: stiffness, damping, limits.
+    /// Limits of the same: stiffness, damping, limits.
     JointLimit(Of, [f64; 2], [f64; 2]),
     /// Between two bodies, the first of which may be the ground.
     Bushing(Box<Bushing>),
@@ -138,8 +138,10 @@ impl Sprung {
                 AppliedLoad::JointLimit(JointLimit {
                     coordinate: Box::new(mechanism.coordinate(*of, parts)),
                     limits: *limits,
-                    stiffness: *stiffness,
-                    damping: *damping,
+                    spring: OneSidedSpring {
+                        stiffness: *stiffness,
+                        damping: *damping,
+                    },
                 })
             }
             Self::Bushing(bushing) => {
@@ -200,7 +202,7 @@ impl Mechanism {
         Coordinate::Angle(angle, parts.angles.len() - 1)
     }
 
-    /// Springs, stops and bushings here and there, damped or not.
+    /// Springs, joint limits and bushings here and there, damped or not.
     pub fn spring(&mut self, chance: &mut Chance, is_damped: bool) {
         let damping = |chance: &mut Chance| {
             if is_damped {
@@ -274,7 +276,7 @@ impl Mechanism {
         })));
     }
 
-    /// Returns the forces of springs, stops and bushings along twists of all bodies, and their energy.
+    /// Returns the forces of springs, joint limits and bushings along twists of all bodies, and their energy.
     pub fn sprung_forces(&self) -> (DVector<f64>, f64) {
         let n = 6 * self.bodies.len();
         let (mut force, mut energy) = (DVector::zeros(n), 0.0);

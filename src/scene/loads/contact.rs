@@ -9,7 +9,7 @@ use crate::math::space::vector;
 use crate::scene::assemble::unit;
 use crate::scene::description::Surface;
 use crate::scene::validate::checks;
-use crate::system::loads::{Contact, ContactPoint, ContactSurface};
+use crate::system::loads::{Contact, ContactPoint, ContactSurface, OneSidedSpring};
 
 /// Contact with a surface of the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -144,8 +144,10 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         Ok(AppliedLoad::Contact(Box::new(Contact {
             places,
             surface: surface(&self.given.surface),
-            stiffness: self.given.stiffness,
-            damping: self.given.damping.unwrap_or_default(),
+            spring: OneSidedSpring {
+                stiffness: self.given.stiffness,
+                damping: self.given.damping.unwrap_or_default(),
+            },
             friction: self.given.friction.unwrap_or_default(),
             slip_velocity: self.given.slip_velocity.unwrap_or_default(),
         })))

@@ -1,7 +1,7 @@
 //! Limits of coordinates of joints.
 
 use super::*;
-use crate::system::loads::JointLimit;
+use crate::system::loads::{JointLimit, OneSidedSpring};
 
 /// Limits of a coordinate of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -103,8 +103,10 @@ impl<'a> ActingLoad<'a> for ResolvedJointLimit<'a> {
                 self.given.lower.unwrap_or(f64::NEG_INFINITY),
                 self.given.upper.unwrap_or(f64::INFINITY),
             ],
-            stiffness: self.given.stiffness,
-            damping: self.given.damping.unwrap_or_default(),
+            spring: OneSidedSpring {
+                stiffness: self.given.stiffness,
+                damping: self.given.damping.unwrap_or_default(),
+            },
         }))
     }
 
@@ -115,7 +117,7 @@ impl<'a> ActingLoad<'a> for ResolvedJointLimit<'a> {
         let sides = [(", below", self.given.lower), (", above", self.given.upper)];
         let sides = sides.map(|(side, limit)| words::given(side, limit, self.on.unit().name));
         LoadWords {
-            kind: "stops".into(),
+            kind: "joint limit".into(),
             on: words::coordinate(&self.on),
             size: format!("{k} {by_way}, {a} {by_rate}{}", sides.concat()),
         }

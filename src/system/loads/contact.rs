@@ -1,15 +1,15 @@
-//! Contact of a marker, or of the line of a body, with a fixed surface. Where a point is below the surface by `d`, the surface
-//! pushes along its normal with `k d (1 + a d')`, as a stop does; where the bracket is negative it pushes no more: nothing sticks.
+//! Contact of a marker, or of the line of a body, with a fixed surface. Where a point is below the surface, the surface
+//! pushes along its normal with the force `N` of a [`OneSidedSpring`] that is compressed by the depth.
 //! Friction is `-mu N v / sqrt(v^2 + w^2)`, `v` the velocity along the surface, `w` the speed of slip: smooth, and none at rest.
 //! Along a body all of this is per reference length and counts at the Gauss points of its segments.
 //!
-//! Source: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied
-//! Mechanics 42 (1975) 440-445, with a force that is linear in `d`; P. Wriggers, Computational Contact Mechanics, 2nd ed. (2006),
-//! section 5.2 (Coulomb's law with a square root in place of its corner).
+//! Source: as for the spring; P. Wriggers, Computational Contact Mechanics, 2nd ed. (2006), section 5.2 (Coulomb's law with a square
+//! root in place of its corner).
 
 use nalgebra::SMatrix;
 
-use super::{Add, ForceElement, Instant};
+use super::one_sided_spring::Compression;
+use super::{Add, ForceElement, Instant, OneSidedSpring};
 use crate::bodies::winch::{PaidOut, length_ratio};
 use crate::bodies::{Bodies, Marker, Node};
 use crate::elements::shape::Values;
@@ -55,10 +55,8 @@ pub struct Contact<const D: usize = 2> {
     pub places: Vec<ContactPoint>,
     /// Surface that is touched.
     pub surface: ContactSurface<D>,
-    /// Stiffness, N/m; along a body N/m per reference length.
-    pub stiffness: f64,
-    /// Damping relative to the stiffness, s/m.
-    pub damping: f64,
+    /// Spring along the normal; along a body per reference length.
+    pub spring: OneSidedSpring,
     /// Coefficient of friction.
     pub friction: f64,
     /// Speed of slip at which friction has `1 / sqrt(2)` of its size, m/s; positive where there is friction.
@@ -67,18 +65,14 @@ pub struct Contact<const D: usize = 2> {
 
 /// How a point touches.
 struct Touch<const D: usize, N> {
-    /// How far it is below the surface, m.
-    depth: N,
+    /// Spring along the normal, compressed by how far the point is below the surface.
+    compression: Compression<N>,
     /// Unit vector out of the surface.
     normal: Vector<D, N>,
-    /// The bracket of the force: 0 where the point leaves too fast.
-    damped: N,
     /// Velocity along the surface, m/s.
     slip: Vector<D, N>,
     /// Size of the slip velocity, with the speed at which friction is smooth, m/s.
     speed: N,
-    /// How fast it goes deeper, m/s.
-    rate: N,
 }
 
 impl<const D: usize> ContactSurface<D> {
@@ -150,21 +144,12 @@ impl<const D: usize> Contact<D> {
         }
         let rate = -normal.dot(&velocity);
         let slip = velocity + normal * rate;
-        let bracket = N::of(1.0) + N::of(self.damping) * rate;
-        let is_pushing = bracket.plain() > 0.0;
         Some(Touch {
-            depth,
+            compression: self.spring.compressed(depth, rate),
             normal,
-            damped: if is_pushing { bracket } else { N::of(0.0) },
             slip,
             speed: (slip.norm_squared() + N::of(self.slip_velocity * self.slip_velocity)).sqrt(),
-            rate,
         })
-    }
-
-    /// Force along the normal, N or N/m.
-    fn push<N: Number>(&self, touch: &Touch<D, N>) -> N {
-        N::of(self.stiffness) * touch.depth * touch.damped
     }
 
     /// Force on a point, N or N/m.
@@ -177,7 +162,7 @@ impl<const D: usize> Contact<D> {
         let Some(touch) = self.touch(marker, at, paid_out) else {
             return Vector::zeros();
         };
-        let push = self.push(&touch);
+        let push = touch.compression.force();
         if self.friction == 0.0 {
             return touch.normal * push;
         }
@@ -257,15 +242,13 @@ impl<const D: usize> Contact<D> {
         sum * length_ratio(paid_out.as_ref())
     }
 
-    /// Where it no longer pushes, what it has stored is lost.
     fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.sum(at, |touch| {
-            let beyond = touch.damped - N::of(1.0);
-            let pushed = N::of(self.stiffness) * touch.depth * beyond * touch.rate;
+            let pushed = touch.compression.dissipation();
             if self.friction == 0.0 {
                 return pushed;
             }
-            let rubbed = N::of(self.friction) * self.push(touch) / touch.speed;
+            let rubbed = N::of(self.friction) * touch.compression.force() / touch.speed;
             pushed + rubbed * touch.slip.norm_squared()
         })
     }
@@ -319,17 +302,14 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
                 Attachment::Ground(Vector::zeros()),
                 Attachment::Body(place.marker),
             ];
-            let (push, normal) = (self.push(&touch), &touch.normal);
+            let (push, normal) = (touch.compression.force(), &touch.normal);
+            let [by_depth, by_rate] = touch.compression.slopes();
             let along: SMatrix<f64, D, D> = normal * normal.transpose();
             // What is round pushes aside.
-            let turning = self.surface.curvature(touch.depth, normal) * push;
-            let stiff = along * (self.stiffness * touch.damped) - turning;
+            let turning = self.surface.curvature(touch.compression.depth, normal) * push;
+            let stiff = along * by_depth - turning;
             between(&ends, stiff * weight, 0, &mut *stiffness);
-            let mut damped = if touch.damped > 0.0 {
-                along * (self.stiffness * self.damping * touch.depth)
-            } else {
-                SMatrix::zeros()
-            };
+            let mut damped = along * by_rate;
             if self.friction > 0.0 {
                 let way = touch.slip / touch.speed;
                 let across = SMatrix::identity() - along - way * way.transpose();
@@ -347,17 +327,14 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
             if let Some((depth, _)) = self.surface.under(&end)
                 && depth.plain() > 0.0
             {
-                let stored = N::of(0.5 * self.stiffness) * depth * depth;
-                comes_in = stored * paid_out.speed();
+                comes_in = self.spring.energy(depth) * paid_out.speed();
             }
         }
         [comes_in, self.dissipation(at)]
     }
 
     fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.sum(at, |touch| {
-            N::of(0.5 * self.stiffness) * touch.depth * touch.depth
-        })
+        self.sum(at, |touch| self.spring.energy(touch.compression.depth))
     }
 
     fn changing<N: Number>(
@@ -384,7 +361,7 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
     }
 
     fn is_damped(&self) -> bool {
-        self.damping > 0.0 || self.friction > 0.0
+        self.spring.damping > 0.0 || self.friction > 0.0
     }
 
     /// Elements of a body couple their nodes already.

@@ -12,6 +12,7 @@ mod joint_limit;
 mod joint_spring;
 mod line_load;
 mod moment;
+mod one_sided_spring;
 mod spatial_moment;
 mod spring;
 mod table_spring;
@@ -27,6 +28,7 @@ pub use joint_limit::JointLimit;
 pub use joint_spring::JointSpring;
 pub use line_load::LineLoad;
 pub use moment::Moment;
+pub use one_sided_spring::OneSidedSpring;
 pub use spatial_moment::SpatialMoment;
 pub use spring::Spring;
 pub use table_spring::TableSpring;
@@ -285,7 +287,7 @@ loads! {
     TableSpring(TableSpring<D>): TableSpring<D>,
     /// A spring with a damper on a coordinate of a joint.
     JointSpring(JointSpring<D>): JointSpring<D>,
-    /// Stops of a coordinate of a joint.
+    /// Limits of a coordinate of a joint.
     JointLimit(JointLimit<D>): JointLimit<D>,
     /// Contact of a marker or a body with a surface.
     Contact(Box<Contact<D>>): Contact<D>,
