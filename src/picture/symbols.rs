@@ -230,7 +230,7 @@ pub fn joint_spring(on: &JointCoordinate<'_>) -> Vec<Stroke> {
 }
 
 /// Bars where a coordinate of a joint meets its limits: across the way, or beside the joint where it is an angle.
-pub fn stops(on: &JointCoordinate<'_>, limits: [Option<f64>; 2]) -> Vec<Stroke> {
+pub fn joint_limit(on: &JointCoordinate<'_>, limits: [Option<f64>; 2]) -> Vec<Stroke> {
     let sides = [-1.0, 1.0].into_iter().zip(limits);
     let bar = |(side, limit): (f64, Option<f64>)| {
         let limit = limit?;

@@ -174,7 +174,7 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
 
 /// Rate of the whole mass on the stiffest spring; 0 without one.
 fn spring_rate(resolved: &Resolved<'_>, size: f64, mass: f64) -> f64 {
-    // A stop or a surface is met now and then.
+    // A joint limit or a surface is met now and then.
     let loads = resolved.loads.iter();
     let loads = loads.filter(|load| !load.kind.is_one_sided());
     let of_springs = loads.map(|load| {

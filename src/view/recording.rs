@@ -404,7 +404,7 @@ mod tests {
           "experiment": { "stop_time": 0.1, "step": 0.1 } }"#;
         let scene = Scene::from_json(text).expect("a valid scene");
         let run = Recording::new(&scene, None, &Limits::PAGE, &mut |_, _| ()).expect("a run");
-        // Springs by Hooke's law, stops by how far they are passed; then forces and moments of joints.
+        // Springs by Hooke's law, joint limits by how far they are passed; then forces and moments of joints.
         let expected: [&[f64]; 7] = [
             &[0.0, -15.0],
             &[1.0],

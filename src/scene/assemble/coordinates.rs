@@ -1,4 +1,4 @@
-//! Coordinates of joints, and what stands on them: springs, stops, screws, gears.
+//! Coordinates of joints, and what stands on them: springs, limits, screws, gears.
 
 use super::{Builder, unit};
 use crate::math::space::vector;

@@ -125,7 +125,7 @@ fn sprung(is_read: bool) -> Specimen {
     specimen.claim("energy.spring", "J", 0.5 * stored)
 }
 
-/// Stops of both coordinates: `k d (1 + a d')`, two on each side; and one that is left too fast to push.
+/// Limits of both coordinates: `k d (1 + a d')`, two on each side; and one that is left too fast to push.
 fn stopped(is_read: bool) -> Specimen {
     let ([speed, rate], n) = ([0.7, -1.2], axis());
     let (bar, point) = on_axis(speed, rate);
@@ -136,7 +136,7 @@ fn stopped(is_read: bool) -> Specimen {
         stop.as_object_mut().expect("keys").extend(given);
         stop
     };
-    // It rests between two stops.
+    // It rests between two limits.
     let idle = body("idle");
     let mut far = stop("far", json!({"lower": 0.1, "stiffness": 7.0}));
     far["joint"] = json!("other");
