@@ -25,8 +25,7 @@ use crate::system::{DenseStep, Dynamics, State, StepOutcome};
 use controller::{Controller, Pitch, Trial};
 use selection::AlternativeMethod;
 
-/// Error that a step may make, and the norm in which every method measures it (decision 38). Newton's iteration measures what is left of
-/// its own in `radau.rs`.
+/// Error that a step may make, and the norm in which every method measures it (decision 38).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Relative tolerance.
@@ -40,6 +39,12 @@ pub struct Tolerance {
 impl Tolerance {
     /// Size of an error: `max(|e_q|, |e_v| time) / (position relative)`, where 1 is just tolerated. With identity inertia the Euclidean
     /// norm of `q` is the mass norm of the displacement field.
+    ///
+    /// Every method measures its estimate of the error of a step in this norm. `runge_kutta.rs` multiplies it by a factor from a second
+    /// estimate of lower order, where a method has one. `runge_kutta.rs` and `nystrom.rs` multiply it by [`Dynamics::steps_in`].
+    ///
+    /// Three other sizes have formulas of their own: corrections of Newton's iteration (`iterate` in `radau.rs`), accelerations that are not
+    /// solved (`unsolved` in `radau/rest.rs`), and the change over the first step (`first_step`).
     pub fn error_norm(&self, position: &[f64], velocity: &[f64]) -> f64 {
         let p = size(position);
         let v = size(velocity) * self.time;
