@@ -23,7 +23,7 @@ pub struct Mark<'a> {
     /// Where its name is written.
     pub label: MarkLabel,
     /// Colour of its name.
-    pub colour: &'static str,
+    pub name_colour: &'static str,
     /// Symbol.
     pub strokes: Vec<Stroke>,
 }
@@ -51,7 +51,7 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
             Symbol::Link => MarkLabel::Middle,
             _ => MarkLabel::Second,
         },
-        colour: FAINT,
+        name_colour: FAINT,
         strokes: symbols::joint(joint),
     });
     let loads = resolved.loads.iter().filter_map(of_load);
@@ -72,13 +72,13 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
         };
         Mark {
             direction,
-            colour: MOTION,
+            name_colour: MOTION,
             strokes,
             ..plain(motion.name, "motion", ends)
         }
     });
     let ports = resolved.ports.iter().map(|port| Mark {
-        colour: MOTION,
+        name_colour: MOTION,
         strokes: symbols::port(&port.kind, dimension),
         ..plain(port.name, "port", between(port.marker, port.marker))
     });
@@ -112,7 +112,7 @@ fn plain<'a>(name: &'a str, kind: &'static str, ends: Ends<'a>) -> Mark<'a> {
         ends,
         direction: None,
         label: MarkLabel::Second,
-        colour: FAINT,
+        name_colour: FAINT,
         strokes: Vec::new(),
     }
 }
@@ -128,7 +128,7 @@ fn of_load<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
             let ends = place.ends()?;
             return Some(Mark {
                 label: MarkLabel::Middle,
-                colour: SPRING,
+                name_colour: SPRING,
                 strokes: symbols::spring(ends.is_grounded()),
                 ..plain(load.name, "spring", ends)
             });
@@ -140,7 +140,7 @@ fn of_load<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
             JointCoordinate::Angle(_) => None,
         },
         label: MarkLabel::Nowhere,
-        colour: SPRING,
+        name_colour: SPRING,
         strokes,
         ..plain(load.name, kind, on.ends())
     })

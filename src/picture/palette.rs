@@ -4,7 +4,7 @@
 pub const INK: &str = "#24292f";
 /// Parts for orientation only: names of joints, gravity, wheels of gears.
 pub const FAINT: &str = "#8a929b";
-/// Joints and supports.
+/// Joints, supports and bars of joint limits. It reaches pages inside strokes, so it has no name in `NAMED`.
 pub const JOINT: &str = "#3a3f45";
 /// Loads.
 pub const LOAD: &str = "#c2571a";
@@ -23,7 +23,7 @@ pub const BED: &str = "#d3dae1";
 /// Paper, and the inside of pins.
 pub const PAPER: &str = "#ffffff";
 
-/// Colours by the names that style sheets and scripts know them by.
+/// Colours by the names that style sheets and scripts know them by. Those that reach pages inside strokes alone have none.
 const NAMED: [(&str, &str); 22] = [
     ("ink", INK),
     ("faint", FAINT),

@@ -309,7 +309,7 @@ fn of_mark(recording: &Recording, mark: &Mark<'_>, symbols: &mut SymbolTable) ->
         mark.kind,
         of_ends(recording, &mark.ends),
         recording.scene.dimension == 2,
-        mark.colour,
+        mark.name_colour,
         symbols.number(&mark.strokes)
     )
 }

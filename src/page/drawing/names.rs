@@ -110,7 +110,7 @@ impl<'a> Picture<'a> {
                 continue;
             }
             if let Some(label) = self.label_at(labels, self.at(mark.ends.second.position)) {
-                label.add(mark.name, mark.colour);
+                label.add(mark.name, mark.name_colour);
                 label.is_far = true;
             }
         }
@@ -186,7 +186,7 @@ impl<'a> Picture<'a> {
     fn name_links(&mut self) {
         for mark in marks(self.resolved) {
             if mark.label == MarkLabel::Middle {
-                self.name_link(&mark.ends, mark.name, mark.colour);
+                self.name_link(&mark.ends, mark.name, mark.name_colour);
             }
         }
     }
