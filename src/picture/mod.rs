@@ -1,5 +1,6 @@
-//! Floor 7. How a scene is drawn, for still drawings and for pages that move: its colours ([`palette`]), and the symbols of joints, springs,
-//! gears, motions, ports and loads as strokes ([`Stroke`]). Who draws knows strokes and no kinds. Pages are templates ([`filled`]).
+//! Floor 7 (`ARCHITECTURE.md`). How a scene is drawn, for still drawings and for pages that move: its colours ([`palette`]), and the symbols
+//! of joints, springs, gears, motions, ports and loads as strokes ([`Stroke`]). Code that draws sees strokes only, never kinds of joints or
+//! loads. HTML pages are templates that [`filled`] fills in.
 
 mod actions;
 mod marks;
