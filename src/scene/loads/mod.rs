@@ -1,5 +1,5 @@
-//! Loads of a scene. One file holds the scene side of a kind: keys and their checks, resolved references, parameters, words, and the load of
-//! the system that is built of them.
+//! Loads of a scene. One file holds the scene side of a kind: keys and their checks, resolved references, parameters, text for the
+//! documentation page, and the load of the system that is built of them.
 
 mod action;
 mod bushing;
@@ -46,7 +46,7 @@ type Found<T> = Result<T, Error>;
 /// A load of the system, or what is wrong with a mesh or an expression along a body.
 type AssembledLoad<const D: usize> = Result<AppliedLoad<D>, Error>;
 
-/// A load that is known in the scene.
+/// A load as written in the scene, with its name.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Load {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
@@ -57,7 +57,7 @@ pub struct Load {
 }
 part!(Load { name: String });
 
-/// A load that the scene knows, with its references resolved.
+/// A load after names have been looked up.
 #[derive(Clone, Debug)]
 pub struct ResolvedLoad<'a> {
     /// Name.
@@ -79,7 +79,7 @@ pub struct TimedKey<'a> {
     pub order: usize,
 }
 
-/// A load in words. Names and expressions stand between backticks.
+/// Text on a load for the documentation page. Names and expressions stand between backticks.
 #[derive(Clone, Debug)]
 pub struct LoadWords {
     /// Kind of load.
@@ -92,8 +92,8 @@ pub struct LoadWords {
 
 /// Load as a scene describes it: one struct of keys for each kind.
 ///
-/// A new kind of load is one file with its `SceneLoad` and [`ActingLoad`], and one line among the kinds below. A default of an item is right
-/// for a load without parameters and functions of time that no output reads.
+/// A new kind of load is one file with its `SceneLoad` and [`ActingLoad`], and one line among the kinds below. Defaults of trait items fit a
+/// load that has no parameters, does not change in time and is read by no output.
 trait SceneLoad: Clone {
     /// The load with its references resolved.
     type Acting<'a>: ActingLoad<'a>
@@ -109,7 +109,7 @@ trait SceneLoad: Clone {
     /// A missing key, a reference that does not exist, or a value out of range.
     fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>>;
 
-    /// Whether it is a force or a moment, as inputs are.
+    /// Whether it is an explicit force or moment, which could also be an input.
     fn is_action(&self) -> bool {
         false
     }
@@ -119,13 +119,13 @@ trait SceneLoad: Clone {
         None
     }
 
-    /// Returns the numbers that are parameters of the unit. The units of a load on a coordinate of a joint depend on whether this is an angle.
+    /// Returns the numbers that are parameters of the unit. `is_angle` chooses the units where the load acts on a joint coordinate.
     fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
         Vec::new()
     }
 }
 
-/// Load with its references resolved.
+/// Load after names have been looked up.
 pub trait ActingLoad<'a> {
     /// Returns the place of the load on bodies.
     fn place(&self) -> LoadPlace<'a>;
@@ -135,12 +135,12 @@ pub trait ActingLoad<'a> {
         None
     }
 
-    /// Returns the largest stiffness against displacements (N/m, of contacts of bodies N/m per length) and against rotations (N m/rad).
+    /// Returns the largest stiffness against displacements (N/m; for contact along a body N/m per length) and against rotations (N m/rad).
     fn stiffness(&self) -> [f64; 2] {
         [0.0; 2]
     }
 
-    /// Whether it acts now and then: on one side of a limit or a surface alone.
+    /// Whether it acts only beyond a limit or below a surface.
     fn is_one_sided(&self) -> bool {
         false
     }
@@ -162,7 +162,7 @@ pub trait ActingLoad<'a> {
     where
         Self: Sized;
 
-    /// Describes the load in a scene of this dimension.
+    /// Describes the load for the documentation page, in a scene of this dimension.
     fn words(&self, dimension: usize) -> LoadWords;
 }
 
@@ -206,8 +206,7 @@ macro_rules! loads {
                 }
             }
 
-            /// Returns the numbers that are parameters of the unit. The units of a load on a coordinate of a joint depend on whether this is an
-            /// angle.
+            /// Returns the numbers that are parameters of the unit. `is_angle` chooses the units where the load acts on a joint coordinate.
             pub fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
                 match self {
                     $(Self::$kind(load) => load.numbers(is_angle),)*
@@ -246,15 +245,15 @@ macro_rules! loads {
 loads! {
     /// Force at a marker, N.
     Force(action::ForceLoad): Action<'a>,
-    /// Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow,
-    /// and its work then depends on the way that the body turns.
+    /// Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow. A moment in
+    /// space is not conservative: its work depends on the path of the rotation.
     Moment(action::MomentLoad): Action<'a>,
     /// Moment on the second marker of a joint about its axis, opposite on its first, N m.
     Torque(action::Torque): Action<'a>,
     /// Force in global axes per reference length of a cable, rod or beam, N/m.
     DistributedForce(action::DistributedForceLoad): Action<'a>,
     /// Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
-    /// global axes where it does not follow, and its work then depends on the way that sections turn.
+    /// global axes where it does not follow. In space it is not conservative: its work depends on the path of the rotations.
     DistributedMoment(action::DistributedMomentLoad): Action<'a>,
     /// Spring and damper side by side between two points.
     SpringDamper(spring_damper::SpringDamper): spring_damper::ResolvedSpring<'a>,
@@ -277,7 +276,8 @@ loads! {
 }
 
 impl LoadKind {
-    /// Names of the kinds whose force or moment outputs read, and of those where that is by the coordinate of a joint.
+    /// Names of the kinds whose force or moment outputs read and, second, of those that exert a force or a moment depending on the joint
+    /// coordinate.
     pub(super) fn exerting(is_moment: bool) -> [Vec<&'static str>; 2] {
         let named = |meant: &[Exerts]| {
             let kinds = Self::all().into_iter().zip(Self::EXERTS);
@@ -294,7 +294,7 @@ impl LoadKind {
 }
 
 impl<'a> ResolvedLoadKind<'a> {
-    /// The marker that a force or moment acts on that outputs read; none of a contact of a body.
+    /// Marker at which outputs read the load's force or moment; `None` for contact along a body.
     pub fn exerts_on(&self) -> Option<ResolvedMarker<'a>> {
         let is_read = self.exerts() != [false; 2];
         self.place().second().filter(|_| is_read)
