@@ -1,5 +1,5 @@
-//! All bodies of a system: one list for each kind, behind operations over all of them. A new kind of body is a list here and a line in
-//! [`each`](super::body::each).
+//! All bodies of a system, behind operations over all of them. Each kind of part has one list, over which [`each`](super::body::each) runs. A
+//! new kind of body is a list here and a line in that macro. One list, `rods`, is no kind: it names bodies whose masses are among `masses`.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) sections: Vec<RodChain>,
     /// Masses in points: particles, planar rigid bodies, and masses on other bodies.
     pub(super) masses: Vec<LumpedMass>,
-    /// Straight rigid bodies whose sections are read.
+    /// Straight rigid bodies whose sections are read. Their masses are among `masses`.
     pub(super) rods: Vec<RigidRod>,
     /// Rigid bodies of space.
     pub(super) rigid: Vec<RigidBodyFrame>,

@@ -1,5 +1,17 @@
 //! What every kind of body does. A kind implements [`BodyPart`] in a file of its own and stands once in [`each`]; [`Bodies`](super::Bodies)
 //! goes through the kinds list by list, so there is no virtual call.
+//!
+//! Terms, with more in `docs/NOTATION.md`:
+//!
+//! - `x` are nodal coordinates. Each node has two vectors: a position and a direction, or two axes, or numbers inside an element. `v` are
+//!   their rates, `a` their accelerations, `f` the forces on them.
+//! - `y` are free coordinates: those of the nodes that linear constraints leave free. Where axes rotate, rotations are among them, and the
+//!   axes follow.
+//! - `q` are the coordinates that are integrated: the displacement of `y` from the reference, transformed so that its inertia is the identity.
+//! - A *frame* is a unit quaternion that the state stores for a rigid body in space or for a section in space.
+//! - A *rotation* leads from the stored frame to the present axes: three numbers, of a section of a rod one, about its tangent. It is nearly
+//!   an angle, in rad, and begins at zero wherever the frame is renewed.
+//! - A *spin* is an angular velocity along these axes, of a section of a rod about its tangent, rad/s.
 
 use nalgebra::{SMatrix, Vector3};
 
@@ -66,14 +78,30 @@ macro_rules! each {
 pub(super) use each;
 
 /// A kind of body, or a part of bodies that several kinds have: a line, a mass in a point, a rigid body of space, the sections along a
-/// line. What a kind does not implement it does not have.
+/// line.
+///
+/// Each default means that the part contributes nothing. Only that of [`BodyPart::add_inertia_now`] falls back on another item. The compiler
+/// does not see that an item is missing, and results are then wrong. By groups, a part implements:
+///
+/// - Building: `add_links`, `cost`. Damped parts implement `is_damped`. Parts with constant node entries implement `unplace` and
+///   `add_fixed_numbers`, those with frames `frame_count`. Parts with stiffness or with nodes of sections implement `mark_rotating`.
+/// - Map, where axes follow from rotations: `place`, `place_rates`, `place_changes`, `add_centripetal`, `pull_back`, `for_each_geometric`.
+///   Rotations that `q` alone tells need `convert`, `rotation_in` and `renew`. Those of sections need `convert_free`, `rotation_at` and
+///   `renew_free`.
+/// - Mass: `add_mass`. Mass at nodes needs `mass`, `add_center`, `add_weight`, `add_inertia`, `add_mass_times` and `add_quadratic`. A mass
+///   that changes needs `add_inertia_now` and `kinetic_beside`. Inertia against spins of sections needs `add_spin_momentum`,
+///   `add_gyroscopic`, `add_frame_spin`, `frame_spin_energy` and `kinetic_beside`.
+/// - Forces, of parts with stiffness: `add_force`, `add_force_of`, `add_tangent`. Moments on sections in space need `add_torques`.
+/// - Energies and momenta: `add_momentum`. Parts with stiffness implement `strain_energy` and `for_each_strain_energy`, damped ones
+///   `dissipation`.
+/// - Linearization: `linearize` of parts with mass or axes, `linearize_elements` of parts with stiffness.
 pub(super) trait BodyPart<const D: usize> {
-    /// Mass, kg.
+    /// Mass at the reference length, kg.
     fn mass(&self) -> f64 {
         0.0
     }
 
-    /// Cost of an evaluation, in that of an element of a line.
+    /// Cost of one evaluation, where one line element costs 1.
     fn cost(&self) -> usize {
         0
     }
@@ -86,33 +114,36 @@ pub(super) trait BodyPart<const D: usize> {
     /// Adds pairs of nodes that its mass and its internal forces couple.
     fn add_links(&self, links: &mut Links);
 
-    /// Puts what has rotated or is twisted into the place where it has not.
+    /// Sets its nodes in `nodes` to the unrotated, untwisted reference.
     fn unplace(&self, _nodes: &mut [Node<D>]) {}
 
-    /// Adds numbers of its nodes that are no coordinates, with their values in `unplaced` nodes.
+    /// Adds node entries that are constant, not unknowns, with their values in the reference (`unplaced`).
     fn add_fixed_numbers(&self, _unplaced: &[Node<D>], _fixed: &mut Vec<(NodeNumber, f64)>) {}
 
     /// Marks how its nodes rotate between the stages of a step. Sections come after lines.
     fn mark_rotating(&self, _rotating: &mut RotatingNodes) {}
 
-    /// Number of frames that a state holds of it.
+    /// Number of frames (quaternions) that a state stores for it.
     fn frame_count(&self) -> usize {
         0
     }
 
-    /// Takes rotations, which `x` holds before in their places, to axes. Rotations count from the frames `from` of a state.
+    /// Computes axes from rotations. On entry `x` holds rotation numbers where axes belong; on return it holds the axes. `from` are the frames
+    /// that the state stores. `rotations` keeps the rotations for the other items.
     fn place(&self, _from: &[Quaternion], _rotations: &mut Rotations, _x: &mut [Node<D>]) {}
 
-    /// Takes rates of rotations, which `v` holds before in their places, to rates of axes.
+    /// Computes rates of axes. On entry `v` holds rates of rotations where rates of axes belong; on return it holds the rates of axes.
     fn place_rates(&self, _x: &[Node<D>], _rotations: &mut Rotations, _v: &mut [Node<D>]) {}
 
-    /// Takes small rotations about axes, which `dx` holds before in their places, to changes of axes.
+    /// Computes changes of axes. On entry `dx` holds small rotations about the axes where changes of axes belong; on return it holds the
+    /// changes of axes.
     fn place_changes<N: Number>(&self, _x: &[Node<D, N>], _dx: &mut [Node<D, N>]) {}
 
-    /// Adds to accelerations of axes what rates alone ask for.
+    /// Adds the part of the acceleration of axes that is quadratic in rates.
     fn add_centripetal<N: Number>(&self, _motion: NodalMotion<'_, D, N>, _a: &mut [Node<D, N>]) {}
 
-    /// Takes forces on axes to moments, with rates less what these ask for.
+    /// Turns forces on axes into moments. Where rates are given, it also subtracts the quadratic inertia forces of rigid bodies. Those of
+    /// sections are in [`BodyPart::add_gyroscopic`].
     fn pull_back<N: Number>(
         &self,
         _motion: (&[Node<D, N>], Option<&[Node<D, N>]>),
@@ -120,13 +151,16 @@ pub(super) trait BodyPart<const D: usize> {
     ) {
     }
 
-    /// Adds the moments of sections to what is pulled back.
+    /// Adds moments on sections in space, N m, to forces that [`BodyPart::pull_back`] has returned. `torques` are along the axes of the
+    /// sections, `[section frames][3]`.
     fn add_torques<N: Number>(&self, _torques: &[[N; 3]], _f: &mut [Node<D, N>]) {}
 
-    /// Converts changes of `q` between spins, or their derivatives, and rotations from the frames of the state.
+    /// Converts a vector over `q` between spins and rates of rotations. `First` converts spins to rates of rotations, or small rotations about
+    /// axes to changes of rotations. `Second` converts rates of spins to second derivatives of rotations. `Back` is the inverse of `First`.
     fn convert(&self, _order: Derivative, _at: &Rotations, _q: &mut [f64]) {}
 
-    /// [`BodyPart::convert`] over the free coordinates `y`, where nodal vectors count as well.
+    /// [`BodyPart::convert`] over the free coordinates `y`, for rotations of sections, which also depend on slopes of the line. `nodal` is the
+    /// same vector over the nodes.
     fn convert_free(
         &self,
         _order: Derivative,
@@ -136,20 +170,22 @@ pub(super) trait BodyPart<const D: usize> {
     ) {
     }
 
-    /// Rotation in the coordinates `q`, rad.
+    /// Size of the rotation that the coordinates `q` hold, rad.
     fn rotation_in(&self, _q: &[f64]) -> f64 {
         0.0
     }
 
-    /// Largest rotation that does not stand in `q` alone, rad.
+    /// Largest rotation of its sections from their stored frames, rad. Sections rotate with their tangents as well, so `q` alone does not tell
+    /// it.
     fn rotation_at(&self, _at: &Rotations) -> f64 {
         0.0
     }
 
-    /// Rotations in `q` begin at zero anew, and rates in `v` become spins.
+    /// Moves the rotation in `q` into the stored frame and sets it to zero; converts rates in `v` to angular velocities.
     fn renew(&self, _frames: &mut [Quaternion], _q: &mut [f64], _v: &mut [f64]) {}
 
-    /// Rotations over the free coordinates begin at zero anew, and rates become spins.
+    /// [`BodyPart::renew`] for rotations of sections. `at` holds nodal coordinates and rotations, `free` coordinates and rates over `y`. Rates
+    /// become those of rotations from the renewed frames.
     fn renew_free(
         &self,
         _at: (&[Node<D>], &Rotations),
@@ -158,7 +194,7 @@ pub(super) trait BodyPart<const D: usize> {
     ) {
     }
 
-    /// Calls with the geometric stiffness of forces on axes, pair by pair of nodes that have coordinates.
+    /// Calls `add` with the symmetric geometric stiffness of the forces `f` on axes: two nodes that have coordinates, and their block.
     fn for_each_geometric(
         &self,
         _f: &[Node<D>],
@@ -170,7 +206,8 @@ pub(super) trait BodyPart<const D: usize> {
     /// Adds its mass over the free coordinates.
     fn add_mass(&self, assembly: &Assembly<D>, mass: &mut Matrix<f64>);
 
-    /// Adds its mass times a matrix over the axes of space to a stiffness over the free coordinates.
+    /// Adds its mass, with the matrix `axes` in place of the identity of space, to a matrix over the free coordinates. It gives the stiffness
+    /// of centrifugal forces, where `axes` is the squared matrix of the rotation of the scene's frame.
     fn add_mass_times(
         &self,
         _axes: &SMatrix<f64, D, D>,
@@ -180,15 +217,15 @@ pub(super) trait BodyPart<const D: usize> {
     ) {
     }
 
-    /// `f += s M a`, with axes of rigid bodies as coordinates.
+    /// `f += s M a`, with axes of rigid bodies as coordinates; without inertia against spins of sections.
     fn add_inertia<N: Number>(&self, _s: f64, _a: &[Node<D, N>], _f: &mut [Node<D, N>]) {}
 
-    /// `f += M a` of the mass that it has at the time.
+    /// `f += M a` with the present mass (a winch pays out).
     fn add_inertia_now(&self, _drives: &[[f64; 3]], a: &[Node<D>], f: &mut [Node<D>]) {
         self.add_inertia(1.0, a, f);
     }
 
-    /// Adds the momentum conjugate to spins of sections, where a velocity or displacement is `dx`.
+    /// Adds the momentum conjugate to spins of sections. `motion` holds nodal coordinates, and rates or displacements.
     fn add_spin_momentum(&self, _motion: (&[Node<D>], &[Node<D>]), _momentum: &mut [Node<D>]) {}
 
     /// Adds the forces of gravity (m/s^2), N.
@@ -204,7 +241,7 @@ pub(super) trait BodyPart<const D: usize> {
         0.0
     }
 
-    /// [`BodyPart::add_force`] of numbers of any kind, element by element.
+    /// [`BodyPart::add_force`] for any number type (duals), without vector lanes.
     fn add_force_of<N: Number>(
         &self,
         _motion: NodalMotion<'_, D, N>,
@@ -216,7 +253,7 @@ pub(super) trait BodyPart<const D: usize> {
     #[inline(always)]
     fn add_gyroscopic<N: Number>(&self, _motion: NodalMotion<'_, D, N>, _f: &mut [Node<D, N>]) {}
 
-    /// Adds what a frame of the scene that rotates, rad/s, adds to the inertia of spins.
+    /// Adds the inertia forces on spins of sections in a scene described in a frame rotating at `rotation` (rad/s).
     fn add_frame_spin<N: Number>(
         &self,
         _motion: NodalMotion<'_, D, N>,
@@ -235,7 +272,7 @@ pub(super) trait BodyPart<const D: usize> {
     ) {
     }
 
-    /// Adds `x^T M x` of vectors over the nodes that are mapped one by one; nothing of what a winch pays out.
+    /// Adds `map(x)^T M map(x)`, where `map` takes each vector of a node. A line that a winch pays out adds nothing.
     fn add_quadratic<N: Number>(
         &self,
         _x: &[Node<D, N>],
@@ -249,7 +286,7 @@ pub(super) trait BodyPart<const D: usize> {
         N::of(0.0)
     }
 
-    /// Kinetic energy of the spins that a frame of the scene which rotates, rad/s, gives to sections, J.
+    /// Kinetic energy of the spins that sections have from a frame of the scene rotating at `rotation` (rad/s), J.
     fn frame_spin_energy<N: Number>(&self, _x: &[Node<D, N>], _rotation: [f64; 3]) -> N {
         N::of(0.0)
     }
@@ -259,7 +296,7 @@ pub(super) trait BodyPart<const D: usize> {
         N::of(0.0)
     }
 
-    /// Calls with strain energies, J, of every element at two configurations at the reference length.
+    /// Calls once per element with its strain energy, J, in configurations `x[0]` and `x[1]`, without winches.
     fn for_each_strain_energy(&self, _x: [&[Node<D>]; 2], _call: &mut impl FnMut([f64; 2])) {}
 
     /// Power that damping dissipates, W.

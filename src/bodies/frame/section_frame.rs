@@ -35,14 +35,14 @@ pub struct SectionFrame {
     pub places: [Option<(usize, f64)>; 3],
 }
 
-/// Which derivative of rotations, found from that of spins.
+/// Conversion of a vector between spins and rotations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivative {
-    /// Rates, or small changes.
+    /// Spins become rates of rotations, or small rotations about axes become changes of rotations.
     First,
-    /// Second derivatives in time.
+    /// Rates of spins become second derivatives of rotations.
     Second,
-    /// The way back of the first: spins, or small rotations about tangents or along the axes of sections with a shear rotation.
+    /// Rates of rotations become spins, or changes of rotations become small rotations about axes.
     Back,
 }
 
