@@ -1,10 +1,10 @@
 //! Joints, motions, loads, ports and masses of a scene in words, as tables of the documentation.
 
 use super::table::{table, worded};
-use crate::scene::words::{at_point, code, coordinate, ends, given, number, values, vector};
+use crate::scene::words::{code, ends, number, values};
 use crate::scene::{
-    DirectionSource, JointPrimitive, MotionKind, PortKind, ResolvedGear, ResolvedJoint,
-    ResolvedMotion, ResolvedPort, Scene,
+    DirectionSource, MotionKind, PortKind, ResolvedGear, ResolvedJoint, ResolvedMotion,
+    ResolvedPort, Scene,
 };
 use crate::system::Drive;
 
@@ -119,67 +119,17 @@ fn crosses(port: &ResolvedPort<'_>, dimension: usize) -> String {
 
 /// The row of a joint.
 fn joint_in_words(dimension: usize, joint: &ResolvedJoint<'_>) -> String {
-    let kind = joint.kind_name();
-    let holds = joint.primitives.iter();
-    let holds = holds.map(|hold| hold_in_words(dimension, joint, hold));
-    let until = joint.release.and_then(|release| release.time);
-    let until = until.map(|time| format!("lets go at {} s", number(time)));
-    let holds = holds.chain(until).collect::<Vec<_>>().join("; ");
-    worded(&[&code(joint.name), kind, &ends(&joint.ends), &holds])
-}
-
-/// Describes what a joint holds.
-fn hold_in_words(dimension: usize, joint: &ResolvedJoint<'_>, hold: &JointPrimitive) -> String {
-    let point = at_point(dimension, &joint.ends);
-    match hold {
-        JointPrimitive::AtPoint => format!("the position{point}"),
-        JointPrimitive::Inline(direction) => {
-            let axes = if joint.ends.is_grounded() {
-                ""
-            } else {
-                " of the first"
-            };
-            let along = vector(dimension, *direction);
-            format!("the position on a line along {along}{axes}{point}")
-        }
-        JointPrimitive::Orientation(angle) => {
-            format!("the direction{}", given(" at", *angle, "rad"))
-        }
-        JointPrimitive::Distance(length) => {
-            format!("the distance{}{point}", given(" of", *length, "m"))
-        }
-        JointPrimitive::ParallelAxes(axis) => {
-            let axis = vector(dimension, *axis);
-            format!("the axis that is along {axis} at the start")
-        }
-        JointPrimitive::Perpendicular(a, b) => {
-            let [a, b] = [*a, *b].map(|of| vector(dimension, of));
-            format!("a right angle between the axes that are along {a} and {b} at the start")
-        }
-        JointPrimitive::Homokinetic(a, b) => {
-            let [a, b] = [*a, *b].map(|of| vector(dimension, of));
-            format!("equal rotation about the axes that are along {a} and {b} at the start")
-        }
-        JointPrimitive::Inplane(across) => format!(
-            "the position in the plane across {} at the start{point}",
-            vector(dimension, *across)
-        ),
-        JointPrimitive::Screw(pitch) => format!("{} m along it a full turn", number(*pitch)),
-        JointPrimitive::PointOnCurve => "the position on the line of the cable".into(),
-        JointPrimitive::Spring {
-            rest,
-            stiffness,
-            damping,
-        } => {
-            let [k, c] = [*stiffness, *damping].map(number);
-            let rest = given(", at rest at", *rest, "rad");
-            format!("{k} N·m/rad and {c} N·m·s/rad against rotation{rest}")
-        }
-    }
+    let holds = joint.words(dimension);
+    worded(&[
+        &code(joint.name),
+        joint.kind_name(),
+        &ends(&joint.ends),
+        &holds,
+    ])
 }
 
 fn gear_in_words(gear: &ResolvedGear<'_>) -> String {
-    let [first, second] = gear.coordinates.map(|of| coordinate(&of));
+    let [first, second] = gear.words();
     worded(&[&code(gear.name), &first, &second, &number(gear.ratio)])
 }
 

@@ -7,8 +7,7 @@ use super::stroke::{
     Arc, Cells, FrameAxes, FramePoints, Radius, Stroke, StrokePoint, StrokeShape, Style,
 };
 use crate::scene::{
-    JointCoordinate, JointPrimitive, MotionKind, Place, PortKind, ResolvedGear, ResolvedJoint,
-    Symbol,
+    JointCoordinate, MotionKind, Place, PortKind, ResolvedGear, ResolvedJoint, Symbol,
 };
 
 /// Width of most lines, units.
@@ -401,5 +400,5 @@ pub fn load(is_moment: bool, dimension: usize, colour: &'static str) -> Vec<Stro
 
 /// Returns the direction of a joint that its symbol is drawn along.
 pub(super) fn direction(joint: &ResolvedJoint<'_>) -> Option<[f64; 3]> {
-    joint.primitives.iter().find_map(JointPrimitive::direction)
+    joint.primitives.iter().find_map(|of| of.direction())
 }

@@ -7,7 +7,7 @@
 use super::description::{Body, Input, LineBody, LineModel, SectionNumbers};
 use super::resolved::{First, Place, Resolved};
 use super::{Error, Scene};
-use crate::scene::description::JointPrimitive;
+use crate::scene::joints::JointPrimitive;
 
 /// Choice of the planner for a body of `"element": "auto"`.
 #[derive(Clone, Debug, PartialEq)]

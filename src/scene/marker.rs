@@ -2,17 +2,15 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::description::{Kinds as _, Symbol};
 use super::resolved::{
     BodyReference, Cable, ConstraintOwnerId, DirectionSource, Ends, First, Form, JointCoordinate,
-    LineId, MarkerId, MotionKind, Pivot, Place, Reduced, ReducedId, Resolved, ResolvedJoint,
-    ResolvedMarker, Rigid, RigidId, Slider,
+    LineId, MarkerId, MotionKind, Pivot, Place, Reduced, ReducedId, Resolved, ResolvedMarker, Rigid,
+    RigidId, Slider,
 };
 use super::unit::{METRE, RADIAN, Unit};
 use super::{Body, LineBody, Model, ReducedBody, RigidBody, Scene};
 use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
-use crate::scene::description::JointPrimitive;
 use crate::system::Drive;
 
 /// From a point to another.
@@ -336,102 +334,6 @@ impl<'a> Ends<'a> {
             First::Ground(_) | First::Cable(_) => vec![self.second],
             First::Marker(first) => vec![first, self.second],
         }
-    }
-}
-
-impl<'a> ResolvedJoint<'a> {
-    /// Returns the specification of the joint's kind.
-    pub fn kind_name(&self) -> &'static str {
-        self.kind.name()
-    }
-
-    /// How it is drawn.
-    pub fn symbol(&self) -> Symbol {
-        self.kind.symbol()
-    }
-
-    /// Stiffness (N m/rad) and damping (N m s/rad) of its spring.
-    pub fn spring(&self) -> Option<[f64; 2]> {
-        self.primitives.iter().find_map(|hold| match hold {
-            JointPrimitive::Spring {
-                stiffness, damping, ..
-            } => Some([*stiffness, *damping]),
-            _ => None,
-        })
-    }
-
-    /// Whether it holds the direction of what it joins.
-    pub fn holds_direction(&self) -> bool {
-        self.primitives.iter().any(JointPrimitive::is_directional)
-    }
-
-    /// Whether it holds a position or a distance.
-    pub fn holds_position(&self) -> bool {
-        let is_spring = |of: &JointPrimitive| matches!(of, JointPrimitive::Spring { .. });
-        let mut primitives = self.primitives.iter();
-        primitives.any(|of| !of.is_directional() && !is_spring(of))
-    }
-
-    /// As a joint with an angle: its ends rotate about one point.
-    pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
-        if self
-            .primitives
-            .iter()
-            .any(|hold| matches!(hold, JointPrimitive::Inplane(_)))
-        {
-            return None;
-        }
-        let axis = self.primitives.iter().find_map(|hold| match hold {
-            JointPrimitive::ParallelAxes(axis) => Some(*axis),
-            _ => None,
-        });
-        match (axis, &self.primitives[..]) {
-            (
-                None,
-                [JointPrimitive::AtPoint]
-                | [JointPrimitive::AtPoint, JointPrimitive::Spring { .. }],
-            )
-            | (Some(_), _) => {}
-            (None, _) => return None,
-        }
-        Some(Pivot {
-            name: self.name,
-            joint: self.holder,
-            ends: self.ends,
-            axis,
-        })
-    }
-
-    /// As a joint along a line of the ground or of a rigid body.
-    pub(super) fn slider(&self) -> Option<Slider<'a>> {
-        let direction = self.primitives.iter().find_map(|hold| match hold {
-            JointPrimitive::Inline(direction) => Some(*direction),
-            _ => None,
-        })?;
-        let along = match self.ends.first {
-            First::Ground(_) => direction,
-            First::Marker(ResolvedMarker {
-                place: Place::Point(..),
-                direction: [cos, sin, _],
-                ..
-            }) if self.is_planar => {
-                let [x, y, _] = direction;
-                [cos * x - sin * y, sin * x + cos * y, 0.0]
-            }
-            First::Marker(ResolvedMarker {
-                place: Place::Point(..) | Place::Interface(..),
-                ..
-            }) => direction,
-            First::Marker(_) | First::Cable(_) => return None,
-        };
-        let size = length(along);
-        Some(Slider {
-            name: self.name,
-            joint: self.holder,
-            ends: self.ends,
-            direction,
-            along: along.map(|part| part / size),
-        })
     }
 }
 

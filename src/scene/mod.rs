@@ -11,6 +11,7 @@ mod container;
 mod description;
 mod elements;
 mod files;
+mod joints;
 mod loads;
 mod marker;
 mod mesh;
@@ -34,13 +35,14 @@ pub use assemble::{Assembled, assemble};
 pub use container::{Container, Details};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, Inertia,
-    Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, JointPrimitive,
-    LineBody, LineModel, Material, Method, Model, Modes, Orientation, OutputKind, Profile,
-    ReducedBody, RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin,
-    Station, Strain, Surface, Symbol, Table, Value,
+    Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, LineBody,
+    LineModel, Material, Method, Model, Modes, Orientation, OutputKind, Profile, ReducedBody,
+    RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain,
+    Surface, Table, Value,
 };
 pub use elements::Chosen;
 pub use files::{Files, beside, bounded};
+pub use joints::{JointPrimitive, ResolvedGear, ResolvedJoint, Symbol};
 pub use loads::{
     ActingLoad, Action, Exerts, LoadNumber, LoadPlace, LoadWords, NumberMut, ResolvedFluid,
     ResolvedLoad, ResolvedLoadKind, TimedKey,
@@ -50,8 +52,8 @@ pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
     DirectionSource, Ends, First, Incoming, Input, InputKind, JointCoordinate, LineId, LoadId,
     MarkerId, MotionKind, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Reduced,
-    ReducedId, Resolved, ResolvedGear, ResolvedJoint, ResolvedMarker, ResolvedMass, ResolvedMotion,
-    ResolvedPort, Rigid, RigidId, SlideId, Slider,
+    ReducedId, Resolved, ResolvedMarker, ResolvedMass, ResolvedMotion, ResolvedPort, Rigid, RigidId,
+    SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use unit::Unit;

@@ -1,7 +1,8 @@
 //! Numbers of a scene that are parameters of its unit. What has none of the kind asked for is an error of the caller.
 
 use super::Scene;
-use super::description::{JointKind, MotionPort, PortKind, Revolute};
+use super::description::{MotionPort, PortKind};
+use super::joints::{JointKind, Revolute};
 
 impl Scene {
     /// Mutable access to the revolute joint at this place in the list of joints.

@@ -6,10 +6,11 @@ mod outputs;
 use std::collections::BTreeMap;
 
 use super::description::{
-    JointKind, JointPrimitive, LineBody, Port as GivenPort, ReducedBody, RigidBody, Scene, Value,
+    LineBody, Port as GivenPort, ReducedBody, RigidBody, Scene, Value,
 };
+use super::joints::{ResolvedGear, ResolvedJoint};
 use super::loads::{Action, ResolvedLoad};
-use crate::system::{Drive, Release};
+use crate::system::Drive;
 pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
@@ -195,7 +196,7 @@ pub struct Slider<'a> {
     pub joint: ConstraintOwnerId,
     /// Ends of the joint.
     pub ends: Ends<'a>,
-    /// Direction of the line as [`JointPrimitive::Inline`] has it.
+    /// Direction of the line as [`Inline`](super::joints::JointPrimitive::Inline) has it.
     pub direction: [f64; 3],
     /// Direction of the line at the start, a unit vector in global axes.
     pub along: [f64; 3],
@@ -208,19 +209,6 @@ pub enum JointCoordinate<'a> {
     Displacement(Slider<'a>),
     /// The angle about its axis, rad.
     Angle(Pivot<'a>),
-}
-
-/// A gear between two joints.
-#[derive(Clone, Debug)]
-pub struct ResolvedGear<'a> {
-    /// Name.
-    pub name: &'a str,
-    /// Which holder it is.
-    pub holder: ConstraintOwnerId,
-    /// Coordinates of the two joints that the gear couples.
-    pub coordinates: [JointCoordinate<'a>; 2],
-    /// Change of the second by that of the first.
-    pub ratio: f64,
 }
 
 /// Object with an angle: a marker, or a joint between two markers.
@@ -241,28 +229,6 @@ pub struct ResolvedMass<'a> {
     pub mass: f64,
     /// Moment of inertia, kg m^2.
     pub inertia: f64,
-}
-
-/// A joint.
-#[derive(Clone, Debug)]
-pub struct ResolvedJoint<'a> {
-    /// Name.
-    pub name: &'a str,
-    /// Which holder it is.
-    pub holder: ConstraintOwnerId,
-    /// As described.
-    /// Whether the scene is planar.
-    pub(super) kind: &'a JointKind,
-    /// Whether the scene is one of the plane.
-    pub(super) is_planar: bool,
-    /// Ends of the joint.
-    pub ends: Ends<'a>,
-    /// Primitives of the joint, in space with directions in global axes at the start.
-    pub primitives: Vec<JointPrimitive>,
-    /// Place of the cable among the chains, and number of the slide, of a point on the curve of a cable.
-    pub slide: Option<(usize, SlideId)>,
-    /// Time or input of the release, if the joint can be released.
-    pub release: Option<Release>,
 }
 
 /// A driven motion.

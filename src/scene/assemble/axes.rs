@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::Builder;
 use crate::bodies::{Marker, axes_at};
 use crate::math::space::{Vector, components, moment, normal, normals, vector};
-use crate::scene::description::JointPrimitive;
+use crate::scene::joints::{JointPrimitive, ResolvedJoint};
 use crate::scene::resolved::{self, DirectionSource, Pivot, Place};
 use crate::system::joints::{Across, Clamp, Homokinetic, Perpendicular, Primitive};
 use crate::system::{Attachment, AxisRotation, Direction, reach};
@@ -44,7 +44,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// In space, the turn that a joint with an axis lets its bodies make.
-    pub(super) fn turn_of(&self, joint: &resolved::ResolvedJoint<'_>) -> Option<AxisRotation<D>> {
+    pub(crate) fn turn_of(&self, joint: &ResolvedJoint<'_>) -> Option<AxisRotation<D>> {
         self.turn(joint.pivot()?)
     }
 
@@ -68,7 +68,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A direction of the first body across one of the second.
-    pub(super) fn right_angle(&self, ends: [Attachment<D>; 2], of: [Vector<D>; 2]) -> Primitive<D> {
+    pub(crate) fn right_angle(&self, ends: [Attachment<D>; 2], of: [Vector<D>; 2]) -> Primitive<D> {
         let [first, second] = of.map(|direction| direction.normalize());
         Primitive::Perpendicular(Perpendicular {
             direction: self.fixed(&ends[0], first),
@@ -77,7 +77,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// Equal rotation about an axis of the first body and one of the second.
-    pub(super) fn equal_rotation(
+    pub(crate) fn equal_rotation(
         &self,
         ends: [Attachment<D>; 2],
         axes: [Vector<D>; 2],
@@ -95,7 +95,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The way between both ends across a direction of the first body.
-    pub(super) fn across_way(
+    pub(crate) fn across_way(
         &self,
         ends: [Attachment<D>; 2],
         direction: Vector<D>,
@@ -113,7 +113,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The second end on a line of the first body.
-    pub(super) fn on_line(&self, ends: [Attachment<D>; 2], along: [f64; 3]) -> Vec<Primitive<D>> {
+    pub(crate) fn on_line(&self, ends: [Attachment<D>; 2], along: [f64; 3]) -> Vec<Primitive<D>> {
         let along = super::unit(along);
         let normals = normals(&along);
         normals
@@ -122,7 +122,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// An axis of the second body along that of the first.
-    pub(super) fn along_axis(&self, ends: [Attachment<D>; 2], axis: [f64; 3]) -> Vec<Primitive<D>> {
+    pub(crate) fn along_axis(&self, ends: [Attachment<D>; 2], axis: [f64; 3]) -> Vec<Primitive<D>> {
         let axis = super::unit(axis);
         let normals = normals(&axis);
         normals
@@ -131,7 +131,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A section of a rod or beam that is welded to the ground is held by rows alone, if no other joint does so already.
-    pub(super) fn clamp(&self, joint: &resolved::ResolvedJoint<'_>) -> Option<Primitive<D>> {
+    pub(crate) fn clamp(&self, joint: &ResolvedJoint<'_>) -> Option<Primitive<D>> {
         let (
             [JointPrimitive::AtPoint, JointPrimitive::Orientation(_)],
             true,
@@ -158,7 +158,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// How both bodies stand to each other; the direction of a cable across two axes of a rigid body.
-    pub(super) fn standing(&self, ends: [Attachment<D>; 2]) -> Vec<Primitive<D>> {
+    pub(crate) fn standing(&self, ends: [Attachment<D>; 2]) -> Vec<Primitive<D>> {
         let nodes = &self.parts.bodies.reference;
         let cable = ends.iter().position(|end| !end.is_rigid());
         let along: Vector<D> = match cable {

@@ -2,16 +2,14 @@
 
 use super::{Builder, unit};
 use crate::math::space::vector;
-use crate::scene::resolved::{
-    DirectionSource, First, JointCoordinate, Pivot, ResolvedGear, Slider,
-};
+use crate::scene::resolved::{DirectionSource, First, JointCoordinate, Pivot, Slider};
 use crate::system::joints::{Coupler, Primitive};
 use crate::system::loads::{AppliedLoad, JointSpring};
 use crate::system::{Angle, Attachment, Coordinate, Direction, Translation};
 
 impl<const D: usize> Builder<'_, D> {
     /// The way along the line of a joint.
-    pub(super) fn way(&self, slider: &Slider<'_>) -> Translation<D> {
+    pub(crate) fn way(&self, slider: &Slider<'_>) -> Translation<D> {
         let ends = self.ends(slider.ends);
         let still = [0.0, 1.0];
         let (direction, turn) = match (slider.ends.first, &ends[0]) {
@@ -45,7 +43,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// Returns the value in the shapes and positions that the scene describes, m or rad.
-    pub(super) fn at_start(&self, coordinate: &Coordinate<D>) -> f64 {
+    pub(crate) fn at_start(&self, coordinate: &Coordinate<D>) -> f64 {
         let angles = vec![0.0; self.parts.angles.len()];
         coordinate.value(&self.parts.bodies.reference, &angles)
     }
@@ -66,7 +64,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// `second - ratio first` stays what it is at the start.
-    fn related(&mut self, both: &[JointCoordinate<'_>; 2], ratio: f64) -> Primitive<D> {
+    pub(crate) fn related(&mut self, both: &[JointCoordinate<'_>; 2], ratio: f64) -> Primitive<D> {
         let [first, second] = both.each_ref().map(|of| self.coordinate(of));
         let offset = self.at_start(&second) - ratio * self.at_start(&first);
         let size = match both[1] {
@@ -82,7 +80,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The way of a screw, by its pitch.
-    pub(super) fn screw(
+    pub(crate) fn screw(
         &mut self,
         pivot: Pivot<'_>,
         slider: Slider<'_>,
@@ -93,15 +91,5 @@ impl<const D: usize> Builder<'_, D> {
             JointCoordinate::Displacement(slider),
         ];
         self.related(&both, pitch / std::f64::consts::TAU)
-    }
-
-    pub(super) fn gears(&mut self) {
-        for ResolvedGear {
-            coordinates, ratio, ..
-        } in &self.resolved.gears
-        {
-            let related = self.related(coordinates, *ratio);
-            self.hold(related, self.ends(coordinates[1].ends()));
-        }
     }
 }

@@ -24,10 +24,9 @@ use super::{Error, OutputKind, Scene};
 use crate::bodies::{Bodies, LumpedMass, Marker, Node};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
-use crate::scene::description::JointPrimitive;
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, Attachment, AxisRotation, BuildError, Coordinate, Parts, State, StressPoint, System,
+    Angle, Attachment, AxisRotation, BuildError, Parts, State, StressPoint, System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -256,7 +255,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    pub(super) fn marker(&self, marker: resolved::ResolvedMarker<'_>) -> Marker {
+    pub(crate) fn marker(&self, marker: resolved::ResolvedMarker<'_>) -> Marker {
         self.markers[marker.id.index()]
     }
 
@@ -293,7 +292,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The ends of something; the ground where the second one is at the start, or at its point.
-    pub(super) fn ends(&self, ends: Ends<'_>) -> [Attachment<D>; 2] {
+    pub(crate) fn ends(&self, ends: Ends<'_>) -> [Attachment<D>; 2] {
         let second = self.marker(ends.second);
         let first = match ends.first {
             First::Ground(point) => {
@@ -307,7 +306,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A marker, seen from the ground.
-    pub(super) fn on_marker(&self, marker: resolved::ResolvedMarker<'_>) -> [Attachment<D>; 2] {
+    pub(crate) fn on_marker(&self, marker: resolved::ResolvedMarker<'_>) -> [Attachment<D>; 2] {
         let ground = Attachment::Ground(Vector::zeros());
         [ground, Attachment::Body(self.marker(marker))]
     }
@@ -319,12 +318,16 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    pub(super) fn distance_at_start(&self, ends: &[Attachment<D>; 2]) -> f64 {
+    pub(crate) fn distance_at_start(&self, ends: &[Attachment<D>; 2]) -> f64 {
         let nodes = &self.parts.bodies.reference;
         (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
 
-    fn count_angle(&mut self, ends: [Attachment<D>; 2], turn: Option<AxisRotation<D>>) -> usize {
+    pub(crate) fn count_angle(
+        &mut self,
+        ends: [Attachment<D>; 2],
+        turn: Option<AxisRotation<D>>,
+    ) -> usize {
         self.parts.angles.push(Angle { ends, turn });
         self.parts.angles.len() - 1
     }
@@ -336,7 +339,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    fn hold(&mut self, primitive: Primitive<D>, ends: [Attachment<D>; 2]) {
+    pub(crate) fn hold(&mut self, primitive: Primitive<D>, ends: [Attachment<D>; 2]) {
         self.parts.joints.push(JointEquations {
             holds: vec![primitive],
             ends,
@@ -347,115 +350,10 @@ impl<const D: usize> Builder<'_, D> {
         });
     }
 
-    fn joints(&mut self) {
-        for joint in &self.resolved.joints {
-            let ends = self.ends(joint.ends);
-            let mut holds = Vec::new();
-            for hold in &joint.primitives {
-                match (hold, joint.pivot(), joint.slider()) {
-                    (JointPrimitive::Screw(pitch), Some(pivot), Some(slider)) => {
-                        holds.push(self.screw(pivot, slider, *pitch));
-                    }
-                    _ => holds.extend(self.primitives(hold, joint, ends)),
-                }
-            }
-            // A joint that can be released needs multipliers.
-            holds.extend(self.clamp(joint).filter(|_| joint.release.is_none()));
-            let springs = joint.primitives.iter();
-            let turn = self.turn_of(joint);
-            let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));
-            let spring = spring.last();
-            self.parts.joints.push(JointEquations {
-                holds,
-                ends,
-                spring,
-                turn,
-                way: joint.slider().map(|slider| self.way(&slider)),
-                release: joint.release,
-            });
-        }
-    }
-
     /// From the direction of the first end to that of the second at the start, where none is given.
-    fn angle(&self, ends: [Attachment<D>; 2], given: Option<f64>) -> f64 {
+    pub(crate) fn angle(&self, ends: [Attachment<D>; 2], given: Option<f64>) -> f64 {
         let turn = None;
         given.unwrap_or_else(|| Angle { ends, turn }.value(&self.parts.bodies.reference, 0.0))
-    }
-
-    /// The equations of what a joint holds; none of a spring.
-    fn primitives(
-        &self,
-        hold: &JointPrimitive,
-        joint: &resolved::ResolvedJoint<'_>,
-        ends: [Attachment<D>; 2],
-    ) -> Vec<Primitive<D>> {
-        let is_framed = ends.iter().any(Attachment::is_framed);
-        match *hold {
-            JointPrimitive::Inline(direction) if D == 3 && !joint.ends.is_grounded() => {
-                self.on_line(ends, direction)
-            }
-            JointPrimitive::ParallelAxes(axis) => self.along_axis(ends, axis),
-            JointPrimitive::Perpendicular(first, second) => {
-                vec![self.right_angle(ends, [first, second].map(vector))]
-            }
-            JointPrimitive::Homokinetic(first, second) => {
-                vec![self.equal_rotation(ends, [first, second].map(vector))]
-            }
-            JointPrimitive::Inplane(across) => vec![self.across_way(ends, unit(across))],
-            JointPrimitive::Orientation(_) if D == 3 && is_framed => self.standing(ends),
-            _ => self.primitive(hold, joint, ends).into_iter().collect(),
-        }
-    }
-
-    /// The equation of what a joint holds; none of a spring.
-    fn primitive(
-        &self,
-        hold: &JointPrimitive,
-        joint: &resolved::ResolvedJoint<'_>,
-        ends: [Attachment<D>; 2],
-    ) -> Option<Primitive<D>> {
-        Some(match *hold {
-            JointPrimitive::AtPoint => Primitive::Coincident,
-            JointPrimitive::Inline(direction) => Primitive::Line(unit(direction)),
-            JointPrimitive::Orientation(given) if D == 2 => {
-                Primitive::Direction(self.angle(ends, given))
-            }
-            JointPrimitive::Orientation(_) => {
-                Primitive::Clamped(vector(joint.ends.second.direction))
-            }
-            JointPrimitive::Distance(given) => {
-                Primitive::Distance(given.unwrap_or_else(|| self.distance_at_start(&ends)))
-            }
-            JointPrimitive::PointOnCurve => Primitive::Curve(joint.slide?.0),
-            JointPrimitive::Spring { .. }
-            | JointPrimitive::ParallelAxes(_)
-            | JointPrimitive::Perpendicular(..)
-            | JointPrimitive::Homokinetic(..)
-            | JointPrimitive::Inplane(_)
-            | JointPrimitive::Screw(_) => return None,
-        })
-    }
-
-    /// Appends the spring of a revolute joint to the loads; its place there.
-    fn spring_of(
-        &mut self,
-        hold: &JointPrimitive,
-        ends: [Attachment<D>; 2],
-        turn: Option<AxisRotation<D>>,
-    ) -> Option<usize> {
-        let JointPrimitive::Spring {
-            rest,
-            stiffness,
-            damping,
-        } = *hold
-        else {
-            return None;
-        };
-        let counted = self.count_angle(ends, turn);
-        let angle = Coordinate::Angle(Angle { ends, turn }, counted);
-        let spring = self.joint_spring(angle, [stiffness, damping], rest);
-        self.parts.loads.push(spring);
-        Some(self.parts.loads.len() - 1)
     }
 }
 
@@ -466,7 +364,7 @@ fn back(principal: &Matrix3<f64>) -> Quaternion {
 }
 
 /// The direction as a unit vector.
-pub(super) fn unit<const D: usize>(direction: [f64; 3]) -> Vector<D> {
+pub(crate) fn unit<const D: usize>(direction: [f64; 3]) -> Vector<D> {
     vector::<D, f64>(direction).normalize()
 }
 

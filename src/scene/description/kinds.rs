@@ -4,7 +4,8 @@ use schemars::Schema;
 use serde_json::{Map, Value, json};
 
 use super::tagged::Kinds;
-use super::{Input, JointKind, MotionKind, Output, PortKind};
+use super::{Input, MotionKind, Output, PortKind};
+use crate::scene::joints::JointKind;
 use crate::scene::loads::LoadKind;
 
 /// Makes one titled variant for every kind of all parts, with all keys that it takes.

@@ -5,10 +5,8 @@ mod accuracy;
 mod action;
 mod body;
 mod element;
-mod gear;
 mod initial;
 mod input;
-mod joint;
 mod kinds;
 mod motion;
 mod output;
@@ -30,6 +28,7 @@ use schemars::JsonSchema;
 use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize};
 
+use super::joints::{Gear, Joint};
 use super::loads::Load;
 
 pub use about::About;
@@ -39,10 +38,8 @@ pub use body::{
     Axial, Body, InitialMotion, LineBody, LineModel, Mass, Material, Model, RigidBody, Shape,
     Strain,
 };
-pub use gear::{CoordinateKind, Gear};
 pub use initial::{Initial, InitialState};
 pub use input::Input;
-pub use joint::{Generic, Joint, JointKind, JointPrimitive, Revolute, Symbol};
 pub use kinds::{tell_apart, tell_by_tag};
 pub use motion::{Motion, MotionKind};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};

@@ -26,7 +26,8 @@ use serde::{Deserialize, Serialize};
 
 use super::assemble::Builder;
 use super::description::tagged::{Kinds, kinds, part};
-use super::description::{CoordinateKind, SceneVector, Value};
+use super::description::{SceneVector, Value};
+use super::joints::CoordinateKind;
 use super::resolved::{
     Cable, Ends, First, Form, JointCoordinate, LoadId, Resolved, ResolvedMarker,
 };

@@ -1,7 +1,7 @@
 //! Places of loads on bodies and in joints.
 
 use crate::scene::Error;
-use crate::scene::description::CoordinateKind;
+use crate::scene::joints::CoordinateKind;
 use crate::scene::resolved::{Cable, Ends, JointCoordinate, Resolved, ResolvedMarker};
 
 /// Place of a load on bodies.

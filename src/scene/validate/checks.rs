@@ -372,3 +372,12 @@ mod tests {
         }
     }
 }
+
+/// Lists names in a sentence: `a, b or c`.
+pub fn or(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [name] => (*name).into(),
+        [names @ .., last] => format!("{} or {last}", names.join(", ")),
+    }
+}

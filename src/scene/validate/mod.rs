@@ -3,10 +3,7 @@
 mod accuracy;
 mod bodies;
 pub(super) mod checks;
-mod coaxial;
-mod gears;
 mod inputs;
-mod joints;
 mod lines;
 mod motions;
 mod outputs;
@@ -160,7 +157,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// Numbers what holds something in the system.
-    fn hold(&mut self, path: &str, name: &'a str) -> ConstraintOwnerId {
+    pub(super) fn hold(&mut self, path: &str, name: &'a str) -> ConstraintOwnerId {
         self.holders.push(ConstraintOwner {
             path: path.into(),
             name,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{expected, needed, quoted, unknown};
+use super::checks::{expected, needed, or, quoted, unknown};
 use super::references::refuse_point;
 use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
@@ -72,15 +72,6 @@ fn validate_count(path: &str, count: u32) -> Result<(), Error> {
     }
     let wanted = format!("an integer from 1 to {MOST_FREQUENCIES}");
     Err(expected(&format!("{path}.count"), &wanted, count))
-}
-
-/// Lists names in a sentence: `a, b or c`.
-fn or(names: &[&str]) -> String {
-    match names {
-        [] => String::new(),
-        [name] => (*name).into(),
-        [names @ .., last] => format!("{} or {last}", names.join(", ")),
-    }
 }
 
 impl<'a> Resolved<'a> {
@@ -272,9 +263,9 @@ impl<'a> Resolved<'a> {
 
     fn travel(&self, path: &str, name: &str) -> Result<OutputTarget<'a>, Error> {
         let joint = self.require_joint(path, name)?;
-        let slide = joint.slide.map(|(_, slide)| slide);
-        let slide =
-            slide.ok_or_else(|| expected(path, "a joint of kind point_on_cable", quoted(name)))?;
+        let slide = joint
+            .slide
+            .ok_or_else(|| expected(path, "a joint of kind point_on_cable", quoted(name)))?;
         Ok(OutputTarget::Slide(joint.name, slide))
     }
 

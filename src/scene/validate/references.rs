@@ -1,11 +1,11 @@
 //! Names that refer to other parts of a scene, and what they refer to.
 
 use super::checks::{expected, quoted, unknown, vector};
-use crate::scene::description::CoordinateKind;
+use crate::scene::joints::{CoordinateKind, ResolvedJoint};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
     BodyReference, Cable, Ends, First, Form, JointCoordinate, Pivot, Place, Resolved,
-    ResolvedJoint, ResolvedMarker, Slider,
+    ResolvedMarker, Slider,
 };
 use crate::scene::{Error, LineBody, SceneVector};
 

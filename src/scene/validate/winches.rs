@@ -1,8 +1,8 @@
 //! Checks of cables that winches pay out.
 
 use super::checks::{expected, quoted};
-use crate::scene::description::JointPrimitive;
 use crate::scene::description::{InitialState, LineModel, Shape, Strain};
+use crate::scene::joints::JointPrimitive;
 use crate::scene::resolved::{Cable, First, MotionKind, Place, Resolved, ResolvedMarker};
 use crate::scene::{Error, Model};
 

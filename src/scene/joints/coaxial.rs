@@ -3,8 +3,7 @@
 
 use nalgebra::Vector3;
 
-use crate::scene::description::JointPrimitive;
-use crate::scene::resolved::{First, Place, Resolved, ResolvedJoint};
+use super::*;
 
 /// Angle between axes, rad, up to which they are one: the error of directions that are written with six digits, or with five and a
 /// length below one.
@@ -57,14 +56,14 @@ fn bodies(joint: &ResolvedJoint<'_>) -> Option<[Option<usize>; 2]> {
 /// The axis about which a joint lets its bodies rotate.
 fn axis_of(joint: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
     joint.primitives.iter().find_map(|hold| match hold {
-        JointPrimitive::ParallelAxes(axis) => Vector3::from(*axis).try_normalize(0.0),
+        ParallelAxes(axis) => Vector3::from(*axis).try_normalize(0.0),
         _ => None,
     })
 }
 
 /// The point that a joint holds, as described.
 fn point(joint: &ResolvedJoint<'_>) -> Option<Vector3<f64>> {
-    let holds = |hold: &JointPrimitive| matches!(hold, JointPrimitive::AtPoint);
+    let holds = |hold: &JointPrimitive| matches!(hold, AtPoint);
     let at = match joint.ends.first {
         First::Ground(Some(point)) => point,
         _ => joint.ends.second.position,
@@ -90,7 +89,7 @@ fn common(a: &ResolvedJoint<'_>, b: &ResolvedJoint<'_>) -> Option<Vector3<f64>> 
 /// Gives a joint an axis, in the sense of its own.
 fn turn(joint: &mut ResolvedJoint<'_>, axis: Vector3<f64>) {
     for hold in &mut joint.primitives {
-        if let JointPrimitive::ParallelAxes(own) | JointPrimitive::Inline(own) = hold {
+        if let ParallelAxes(own) | Inline(own) = hold {
             let along = Vector3::from(*own).dot(&axis);
             let off = Vector3::from(*own).cross(&axis).norm();
             // A line of a joint may have another direction than its axis; what agrees stays as it is.

@@ -1,0 +1,34 @@
+//! Screws.
+
+use super::*;
+
+/// A screw.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Screw {
+    /// Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
+    pub markers: [String; 2],
+    /// With `ground` only: a point of the line on the ground, m; by default the position of the second marker at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<SceneVector>,
+    /// Axis of the screw. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
+    /// or beam the tangent and both axes of its section.
+    pub direction: SceneVector,
+    /// Displacement along the axis for each full turn, m; negative for a left-handed thread.
+    pub pitch: f64,
+}
+
+impl SceneJoint for Screw {
+    fn parts(&self) -> JointParts {
+        let (along, pitch) = (self.direction.full(), JointPrimitive::Screw(self.pitch));
+        JointParts::new(
+            Symbol::Prismatic,
+            [Inline(along), ParallelAxes(along), pitch],
+        )
+        .at(self.point)
+        .along([Some(self.direction), None])
+    }
+
+    fn check(&self, path: &str, _ends: &Ends<'_>) -> Found<()> {
+        not_zero(&format!("{path}.pitch"), "m", self.pitch)
+    }
+}
