@@ -2,10 +2,7 @@
 
 use super::table::{table, worded};
 use crate::scene::words::{code, ends, number, values};
-use crate::scene::{
-    DirectionSource, MotionKind, PortKind, ResolvedGear, ResolvedJoint, ResolvedMotion,
-    ResolvedPort, Scene,
-};
+use crate::scene::{PortKind, ResolvedGear, ResolvedJoint, ResolvedMotion, ResolvedPort, Scene};
 use crate::system::Drive;
 
 /// Tables of the parts of a scene; nothing for what it has none of.
@@ -15,7 +12,8 @@ pub(super) fn parts(scene: &Scene) -> String {
     let joints = joints.map(|joint| joint_in_words(scene.dimension, joint));
     let gears = resolved.gears.iter().map(gear_in_words);
     let motions = resolved.motions.iter().map(|motion| {
-        let what = format!("{} {}", driven(motion), code(motion.kind.of()));
+        let quantity = motion.driven.quantity();
+        let what = format!("{} {}", quantity.words, code(quantity.place.name()));
         worded(&[&code(motion.name), &what, &course(motion)])
     });
     let loads = resolved.loads.iter().map(|load| {
@@ -133,19 +131,8 @@ fn gear_in_words(gear: &ResolvedGear<'_>) -> String {
     worded(&[&code(gear.name), &first, &second, &number(gear.ratio)])
 }
 
-fn driven(motion: &ResolvedMotion<'_>) -> &'static str {
-    match &motion.kind {
-        MotionKind::Angle(DirectionSource::Marker(_), _) => "the direction of",
-        MotionKind::Angle(DirectionSource::Pivot(_), _) => "the angle of",
-        MotionKind::Position(..) => "the position of",
-        MotionKind::Orientation(..) => "the orientation of",
-        MotionKind::Displacement(..) => "the way along",
-        MotionKind::Winch(..) => "the length paid out at",
-    }
-}
-
 fn course(motion: &ResolvedMotion<'_>) -> String {
-    let derivatives = motion.kind.drives().iter().find_map(|drive| match drive {
+    let derivatives = motion.driven.drives.iter().find_map(|drive| match drive {
         Drive::Input { derivatives, .. } => Some(*derivatives),
         Drive::Turned { attitude, .. } => Some(attitude.derivatives),
         Drive::Function(_) => None,

@@ -5,8 +5,7 @@ use super::stroke::Stroke;
 use super::symbols;
 use crate::math::vector::norm;
 use crate::scene::{
-    Ends, First, JointCoordinate, LoadPlace, MotionKind, Resolved, ResolvedLoad, ResolvedMarker,
-    Symbol,
+    Ends, First, JointCoordinate, LoadPlace, Resolved, ResolvedLoad, ResolvedMarker, Symbol,
 };
 
 /// Part of a scene with a symbol.
@@ -63,19 +62,24 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
             ..plain(gear.name, "gear", between(first, second))
         }
     });
-    let motions = resolved.motions.iter().map(|motion| {
-        let strokes = symbols::motion(&motion.kind, dimension);
-        let marker = motion.kind.marker();
-        let (ends, direction) = match &motion.kind {
-            MotionKind::Displacement(slider, _) => (slider.ends, Some(slider.direction)),
-            _ => (between(marker, marker), None),
+    let motions = resolved.motions.iter().filter_map(|motion| {
+        let quantity = motion.driven.quantity();
+        let strokes = symbols::motion(&quantity, dimension);
+        let (ends, direction) = match quantity.place {
+            LoadPlace::Coordinate(JointCoordinate::Displacement(slider)) => {
+                (slider.ends, Some(slider.direction))
+            }
+            place => {
+                let marker = place.second()?;
+                (between(marker, marker), None)
+            }
         };
-        Mark {
+        Some(Mark {
             direction,
             name_colour: MOTION,
             strokes,
             ..plain(motion.name, "motion", ends)
-        }
+        })
     });
     let ports = resolved.ports.iter().map(|port| Mark {
         name_colour: MOTION,

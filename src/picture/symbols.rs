@@ -7,7 +7,8 @@ use super::stroke::{
     Arc, Cells, FrameAxes, FramePoints, Radius, Stroke, StrokePoint, StrokeShape, Style,
 };
 use crate::scene::{
-    JointCoordinate, MotionKind, Place, PortKind, ResolvedGear, ResolvedJoint, Symbol,
+    DrivenQuantity, JointCoordinate, LoadPlace, Place, PortKind, ResolvedGear, ResolvedJoint,
+    Symbol,
 };
 
 /// Width of most lines, units.
@@ -317,13 +318,12 @@ fn drives(points: FramePoints, dimension: usize) -> Vec<Stroke> {
 }
 
 /// A driven motion.
-pub fn motion(kind: &MotionKind<'_>, dimension: usize) -> Vec<Stroke> {
-    match kind {
-        MotionKind::Angle(..) | MotionKind::Orientation(..) | MotionKind::Winch(..) => {
-            vec![rotation(FramePoints::Second, MOTION)]
-        }
-        MotionKind::Position(..) => drives(FramePoints::Second, dimension),
-        MotionKind::Displacement(..) => drive(FramePoints::Second, FrameAxes::Axis),
+pub fn motion(quantity: &DrivenQuantity<'_>, dimension: usize) -> Vec<Stroke> {
+    let [has_force, _] = quantity.exerts;
+    match quantity.place {
+        LoadPlace::Coordinate(_) if has_force => drive(FramePoints::Second, FrameAxes::Axis),
+        _ if has_force => drives(FramePoints::Second, dimension),
+        _ => vec![rotation(FramePoints::Second, MOTION)],
     }
 }
 

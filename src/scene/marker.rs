@@ -4,14 +4,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
     BodyReference, Cable, ConstraintOwnerId, DirectionSource, Ends, First, Form, JointCoordinate,
-    LineId, MarkerId, MotionKind, Pivot, Place, Reduced, ReducedId, Resolved, ResolvedMarker, Rigid,
-    RigidId, Slider,
+    LineId, MarkerId, Pivot, Place, Reduced, ReducedId, Resolved, ResolvedMarker, Rigid, RigidId,
+    Slider,
 };
 use super::unit::{METRE, RADIAN, Unit};
 use super::{Body, LineBody, Model, ReducedBody, RigidBody, Scene};
 use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
-use crate::system::Drive;
 
 /// From a point to another.
 pub(super) fn difference(to: [f64; 3], from: [f64; 3]) -> [f64; 3] {
@@ -404,57 +403,6 @@ impl<'a> DirectionSource<'a> {
         match self {
             Self::Marker(marker) => *marker,
             Self::Pivot(pivot) => pivot.ends.second,
-        }
-    }
-}
-
-impl<'a> MotionKind<'a> {
-    /// Name of the marker or joint that is driven.
-    pub fn of(&self) -> &'a str {
-        match self {
-            Self::Angle(source, _) => source.name(),
-            Self::Position(marker, _) | Self::Orientation(marker, _) | Self::Winch(marker, _) => {
-                marker.name
-            }
-            Self::Displacement(slider, _) => slider.name,
-        }
-    }
-
-    /// The marker that is driven, or the second one of the joint.
-    pub fn marker(&self) -> ResolvedMarker<'a> {
-        match self {
-            Self::Angle(source, _) => source.marker(),
-            Self::Position(marker, _) | Self::Orientation(marker, _) | Self::Winch(marker, _) => {
-                *marker
-            }
-            Self::Displacement(slider, _) => slider.ends.second,
-        }
-    }
-
-    /// The course of every coordinate.
-    pub fn drives(&self) -> &[Drive] {
-        match self {
-            Self::Angle(_, drive) | Self::Displacement(_, drive) | Self::Winch(_, drive) => {
-                std::slice::from_ref(drive)
-            }
-            Self::Position(_, drives) | Self::Orientation(_, drives) => drives,
-        }
-    }
-
-    /// Where what is driven is as described, one number a coordinate: m, rad, or parts of a quaternion.
-    pub fn start(&self) -> Vec<f64> {
-        match self {
-            Self::Angle(DirectionSource::Marker(marker), _) => {
-                let [x, y, _] = marker.direction;
-                vec![y.atan2(x)]
-            }
-            // In space the angle is counted from the start.
-            Self::Angle(DirectionSource::Pivot(pivot), _) if pivot.axis.is_some() => vec![0.0],
-            Self::Angle(DirectionSource::Pivot(pivot), _) => vec![pivot.ends.angle()],
-            Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
-            Self::Orientation(marker, _) => marker.place.quaternion().to_vec(),
-            Self::Displacement(slider, _) => vec![slider.start()],
-            Self::Winch(..) => vec![0.0],
         }
     }
 }

@@ -2,9 +2,7 @@
 
 use super::Error;
 use super::description::OutputKind;
-use super::resolved::{
-    Cable, DirectionSource, InputKind, MotionKind, OutputTarget, Place, Resolved, ResolvedMarker,
-};
+use super::resolved::{Cable, InputKind, OutputTarget, Place, Resolved, ResolvedMarker};
 
 /// Shortest segment between two nodes, in elements of even length: shorter ones swing so fast that they
 /// would set the steps of the whole scene.
@@ -77,14 +75,8 @@ impl<'a> Resolved<'a> {
             self.masses.iter().map(|mass| mass.marker).collect();
         found.extend(self.ports.iter().map(|port| port.marker));
         found.extend(self.joints.iter().flat_map(|joint| joint.ends.markers()));
-        found.extend(self.motions.iter().filter_map(|motion| match motion.kind {
-            MotionKind::Position(marker, _)
-            | MotionKind::Orientation(marker, _)
-            | MotionKind::Winch(marker, _) => Some(marker),
-            MotionKind::Angle(DirectionSource::Marker(marker), _) => Some(marker),
-            // The joint has its nodes.
-            MotionKind::Angle(DirectionSource::Pivot(_), _) | MotionKind::Displacement(..) => None,
-        }));
+        let motions = self.motions.iter();
+        found.extend(motions.flat_map(|motion| motion.driven.quantity().place.markers()));
         // Forces and moments come after all other loads.
         let (actions, others): (Vec<_>, Vec<_>) = { self.loads.iter() }
             .map(|load| &load.kind)

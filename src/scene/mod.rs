@@ -15,6 +15,7 @@ mod joints;
 mod loads;
 mod marker;
 mod mesh;
+mod motions;
 mod numbers;
 mod owners;
 mod ports;
@@ -47,13 +48,13 @@ pub use loads::{
     ActingLoad, Action, Exerts, LoadNumber, LoadPlace, LoadWords, NumberMut, ResolvedFluid,
     ResolvedLoad, ResolvedLoadKind, TimedKey,
 };
+pub use motions::{Driven, DrivenQuantity, ROTATION_ORDERS, ResolvedMotion};
 pub use remarks::remarks;
 pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
     DirectionSource, Ends, First, Incoming, Input, InputKind, JointCoordinate, LineId, LoadId,
-    MarkerId, MotionKind, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Reduced,
-    ReducedId, Resolved, ResolvedMarker, ResolvedMass, ResolvedMotion, ResolvedPort, Rigid, RigidId,
-    SlideId, Slider,
+    MarkerId, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Reduced, ReducedId,
+    Resolved, ResolvedMarker, ResolvedMass, ResolvedPort, Rigid, RigidId, SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use unit::Unit;
@@ -75,6 +76,9 @@ pub struct Error {
     /// Expectation and finding, in words.
     pub message: String,
 }
+
+/// What a check finds, or what is wrong.
+type Found<T> = Result<T, Error>;
 
 impl Error {
     /// An error at `path` with `message`.

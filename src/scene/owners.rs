@@ -1,6 +1,6 @@
 //! Which bodies an output belongs to.
 
-use super::resolved::{DirectionSource, MotionKind, Resolved};
+use super::resolved::Resolved;
 
 impl Resolved<'_> {
     /// Places of the bodies that an output is read at, by its name without an index: of a joint, motion, load or port those that it joins,
@@ -16,13 +16,7 @@ impl Resolved<'_> {
             found.extend(joint.ends.bodies());
         }
         for motion in self.motions.iter().filter(|motion| motion.name == first) {
-            match &motion.kind {
-                MotionKind::Angle(DirectionSource::Pivot(pivot), _) => {
-                    found.extend(pivot.ends.bodies());
-                }
-                MotionKind::Displacement(slider, _) => found.extend(slider.ends.bodies()),
-                kind => found.push(kind.marker().place.body_index()),
-            }
+            found.extend(motion.driven.quantity().place.bodies());
         }
         for load in self.loads.iter().filter(|load| load.name == first) {
             found.extend(load.kind.place().bodies());

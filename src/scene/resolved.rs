@@ -5,12 +5,10 @@ mod outputs;
 
 use std::collections::BTreeMap;
 
-use super::description::{
-    LineBody, Port as GivenPort, ReducedBody, RigidBody, Scene, Value,
-};
+use super::description::{LineBody, Port as GivenPort, ReducedBody, RigidBody, Scene};
 use super::joints::{ResolvedGear, ResolvedJoint};
 use super::loads::{Action, ResolvedLoad};
-use crate::system::Drive;
+use super::motions::{Driven, ResolvedMotion};
 pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
@@ -231,34 +229,6 @@ pub struct ResolvedMass<'a> {
     pub inertia: f64,
 }
 
-/// A driven motion.
-#[derive(Clone, Debug)]
-pub struct ResolvedMotion<'a> {
-    /// Name; of a port, where it belongs to one.
-    pub name: &'a str,
-    /// Which holder it is.
-    pub holder: ConstraintOwnerId,
-    /// Driven quantity and the course of each of its coordinates.
-    pub kind: MotionKind<'a>,
-    /// Course as written in the scene. Empty if the master sets it.
-    pub values: &'a [Value],
-}
-
-/// Driven quantity, with the course of every coordinate.
-#[derive(Clone, Debug)]
-pub enum MotionKind<'a> {
-    /// An angle, rad.
-    Angle(DirectionSource<'a>, Drive),
-    /// The position of a marker, m.
-    Position(ResolvedMarker<'a>, Vec<Drive>),
-    /// How the frame of a rigid body stands in space: the four parts of a quaternion, scalar first.
-    Orientation(ResolvedMarker<'a>, Vec<Drive>),
-    /// Displacement along a line, m.
-    Displacement(Slider<'a>, Drive),
-    /// The length that is paid out at the end of a cable, m.
-    Winch(ResolvedMarker<'a>, Drive),
-}
-
 /// An input.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {
@@ -327,7 +297,7 @@ pub enum PortKind<'a> {
 #[derive(Clone, Debug)]
 pub enum Incoming<'a> {
     /// Value and rate of every coordinate, next to each other.
-    Motion(Box<MotionKind<'a>>),
+    Motion(Box<Driven<'a>>),
     /// In space how the frame of a rigid body would stand: a quaternion, scalar first, then the angular velocity.
     Orientation(ResolvedMarker<'a>),
 }

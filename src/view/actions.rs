@@ -3,9 +3,7 @@
 use crate::math::function::Function;
 use crate::math::space::spins;
 use crate::picture::known_actions;
-use crate::scene::{
-    self, Along, ConstraintOwnerId, LoadId, LoadPlace, MarkerId, MotionKind, Resolved,
-};
+use crate::scene::{self, Along, ConstraintOwnerId, LoadId, LoadPlace, MarkerId, Resolved};
 use crate::simulation::{Error, Quantity, Simulation};
 use crate::system::Signal;
 
@@ -78,18 +76,10 @@ fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = MovingActio
         ];
         (joint.name, joint.holder, joint.ends.second.id, holds)
     });
-    let is_winch = |kind: &MotionKind<'_>| matches!(kind, MotionKind::Winch(..));
-    let motions = resolved
-        .motions
-        .iter()
-        .filter(move |motion| !is_winch(&motion.kind));
-    let motions = motions.map(|motion| {
-        let turns = matches!(
-            motion.kind,
-            MotionKind::Angle(..) | MotionKind::Orientation(..)
-        );
-        let marker = motion.kind.marker().id;
-        (motion.name, motion.holder, marker, [!turns, turns])
+    let motions = resolved.motions.iter().filter_map(|motion| {
+        let quantity = motion.driven.quantity();
+        let marker = quantity.place.second()?.id;
+        Some((motion.name, motion.holder, marker, quantity.exerts))
     });
     let of =
         move |(name, holder, marker, holds): (&'a str, ConstraintOwnerId, MarkerId, [bool; 2])| {

@@ -49,7 +49,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// Returns the rotation of a joint about its axis. `None` for a marker.
-    pub(super) fn axis_turn(&self, source: &DirectionSource<'_>) -> Option<AxisRotation<D>> {
+    pub(crate) fn axis_turn(&self, source: &DirectionSource<'_>) -> Option<AxisRotation<D>> {
         match source {
             DirectionSource::Pivot(pivot) => self.turn(*pivot),
             DirectionSource::Marker(_) => None,
@@ -107,7 +107,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// Returns the reference size of residuals of displacements between two ends, m.
-    pub(super) fn size_of(&self, ends: &[Attachment<D>; 2]) -> f64 {
+    pub(crate) fn size_of(&self, ends: &[Attachment<D>; 2]) -> f64 {
         let size = reach(ends).max(self.distance_at_start(ends));
         if size > 0.0 { size } else { 1.0 }
     }

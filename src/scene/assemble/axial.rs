@@ -3,9 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::scene::Axial;
-use crate::scene::resolved::{
-    Cable, Ends, First, MotionKind, Place, PortKind, Resolved, ResolvedMarker,
-};
+use crate::scene::resolved::{Cable, Place, Resolved, ResolvedMarker};
 
 /// Part of the length from an end up to which a marker is at it.
 const AT_END: f64 = 1e-9;
@@ -48,24 +46,13 @@ impl Resolved<'_> {
                 held[1] |= s > 1.0 - AT_END;
             }
         };
-        let ends_of = |ends: Ends<'_>, hold: &mut dyn FnMut(ResolvedMarker<'_>)| {
-            hold(ends.second);
-            if let First::Marker(first) = ends.first {
-                hold(first);
-            }
-        };
         for joint in self.joints.iter().filter(|joint| joint.holds_position()) {
-            ends_of(joint.ends, &mut hold);
+            joint.ends.markers().into_iter().for_each(&mut hold);
         }
-        let of_ports = self.ports.iter().filter_map(|port| match &port.kind {
-            PortKind::Motion { position, .. } => Some(&**position),
-            PortKind::Force { .. } | PortKind::Coupling { .. } => None,
-        });
-        for motion in self.motions.iter().chain(of_ports) {
-            match &motion.kind {
-                MotionKind::Position(marker, _) => hold(*marker),
-                MotionKind::Displacement(slider, _) => ends_of(slider.ends, &mut hold),
-                MotionKind::Angle(..) | MotionKind::Orientation(..) | MotionKind::Winch(..) => {}
+        for motion in self.all_motions() {
+            let quantity = motion.driven.quantity();
+            if quantity.exerts[0] {
+                quantity.place.markers().into_iter().for_each(&mut hold);
             }
         }
         held

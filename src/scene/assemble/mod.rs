@@ -6,7 +6,6 @@ mod bodies;
 mod coordinates;
 mod initial;
 mod memory;
-mod motions;
 mod ports;
 mod solids;
 mod stress;

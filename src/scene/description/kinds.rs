@@ -4,9 +4,10 @@ use schemars::Schema;
 use serde_json::{Map, Value, json};
 
 use super::tagged::Kinds;
-use super::{Input, MotionKind, Output, PortKind};
+use super::{Input, Output, PortKind};
 use crate::scene::joints::JointKind;
 use crate::scene::loads::LoadKind;
+use crate::scene::motions::MotionKind;
 
 /// Makes one titled variant for every kind of all parts, with all keys that it takes.
 pub fn tell_apart(schema: &mut Schema) {

@@ -8,7 +8,6 @@ mod element;
 mod initial;
 mod input;
 mod kinds;
-mod motion;
 mod output;
 mod port;
 mod reader;
@@ -30,6 +29,7 @@ use serde::{Deserialize, Serialize};
 
 use super::joints::{Gear, Joint};
 use super::loads::Load;
+use super::motions::Motion;
 
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
@@ -41,7 +41,6 @@ pub use body::{
 pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
-pub use motion::{Motion, MotionKind};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;

@@ -42,7 +42,7 @@ use super::validate::checks::{
     direction, expected, finite, not_negative, not_zero, or, planar, positive, quoted, shape,
     spring_damper,
 };
-use super::{Error, number, words};
+use super::{Error, Found, number, words};
 use crate::math::space::vector;
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{Angle, Attachment, AxisRotation, Coordinate, Release};
@@ -50,9 +50,6 @@ use JointPrimitive::{
     AtPoint, Distance, Homokinetic, Inline, Inplane, Orientation, ParallelAxes, Perpendicular,
     PointOnCurve,
 };
-
-/// What a check finds, or what is wrong.
-type Found<T> = Result<T, Error>;
 
 /// Cosine of an angle that is a right one but for rounding.
 const RIGHT: f64 = 1e-6;

@@ -36,14 +36,12 @@ use super::validate::checks::{
     components, direction, expected, finite, needed, not_negative, positive, quoted, spring_damper,
     unknown, value,
 };
-use super::{Error, number, words};
+use super::{Error, Found, number, words};
 use crate::system::Signal;
 use crate::system::loads::AppliedLoad;
 use NumberMut::{Axes, Needed, Optional};
 use number::damper;
 
-/// What a check finds, or what is wrong.
-type Found<T> = Result<T, Error>;
 /// A load of the system, or what is wrong with a mesh or an expression along a body.
 type AssembledLoad<const D: usize> = Result<AppliedLoad<D>, Error>;
 

@@ -5,7 +5,6 @@ mod bodies;
 pub(super) mod checks;
 mod inputs;
 mod lines;
-mod motions;
 mod outputs;
 mod ports;
 mod reduced;
@@ -15,7 +14,6 @@ mod sections;
 mod stress;
 #[cfg(test)]
 mod tests;
-mod winches;
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
@@ -166,7 +164,7 @@ impl<'a> Resolved<'a> {
     }
 
     /// Places for as many numbers that the master sets; gives back the first.
-    fn place(&mut self, count: usize) -> usize {
+    pub(super) fn place(&mut self, count: usize) -> usize {
         self.numbers += count;
         self.numbers - count
     }

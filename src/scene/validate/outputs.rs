@@ -8,8 +8,7 @@ use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
 use crate::scene::loads::LoadKind;
 use crate::scene::resolved::{
-    self, AngleId, DirectionSource, First, MotionKind, OutputTarget, Reaction, Resolved,
-    ResolvedMarker,
+    self, AngleId, DirectionSource, First, OutputTarget, Reaction, Resolved, ResolvedMarker,
 };
 
 /// Replacement in space for an angle of a marker, in a message.
@@ -346,15 +345,16 @@ impl<'a> Resolved<'a> {
             let known = self.motions.iter().map(|motion| motion.name);
             return Err(unknown(path, "a motion of this scene", name, known));
         };
-        if let MotionKind::Winch(marker, _) = motion.kind {
+        let [has_force, has_moment] = motion.driven.quantity().exerts;
+        if !has_force && !has_moment {
             let wanted = "a motion other than a winch, whose force is `axial_force` of its marker";
-            return Err(expected(path, wanted, quoted(marker.name)));
+            return Err(expected(
+                path,
+                wanted,
+                quoted(motion.driven.quantity().place.name()),
+            ));
         }
-        let is_rotational = matches!(
-            motion.kind,
-            MotionKind::Angle(..) | MotionKind::Orientation(..)
-        );
-        if is_rotational != is_moment {
+        if has_moment != is_moment {
             let wanted = if is_moment {
                 "a motion driven by a moment"
             } else {

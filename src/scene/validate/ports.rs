@@ -6,9 +6,10 @@ use super::checks::{expected, not_negative, quoted, spring_damper};
 use crate::scene::Error;
 use crate::scene::description::{ActionKind, Along, MotionPort, OutputKind, Port, PortKind};
 use crate::scene::loads::{Action, LoadPlace};
+use crate::scene::motions::{Driven, DrivenKind, ResolvedMotion};
 use crate::scene::resolved::{
-    self, Coupling, CouplingId, DirectionSource, Incoming, InputKind, MotionKind, Output,
-    OutputTarget, Resolved, ResolvedMarker, ResolvedMotion,
+    self, Coupling, CouplingId, DirectionSource, Incoming, InputKind, Output, OutputTarget,
+    Resolved, ResolvedMarker,
 };
 use crate::scene::unit::spring_units;
 use crate::system::Signal;
@@ -44,13 +45,13 @@ impl<'a> Resolved<'a> {
     /// A missing key, a marker that does not exist, has no angle or is driven already, or a stiffness or damping out of
     /// range.
     pub(super) fn resolve_ports(&mut self) -> Result<(), Error> {
-        let driven = self.motions.iter().filter_map(|motion| match &motion.kind {
-            MotionKind::Position(marker, _) => Some((false, marker.name)),
-            MotionKind::Angle(DirectionSource::Marker(marker), _)
-            | MotionKind::Orientation(marker, _) => Some((true, marker.name)),
-            MotionKind::Angle(DirectionSource::Pivot(_), _)
-            | MotionKind::Displacement(..)
-            | MotionKind::Winch(..) => None,
+        let driven = self.motions.iter().filter_map(|motion| {
+            let quantity = motion.driven.quantity();
+            match (quantity.place, quantity.exerts) {
+                (LoadPlace::Marker(_), [false, false]) => None,
+                (LoadPlace::Marker(marker), [_, has_moment]) => Some((has_moment, marker.name)),
+                _ => None,
+            }
         });
         let mut driven: BTreeSet<(bool, &str)> = driven.collect();
         for (index, port) in self.scene.ports.iter().enumerate() {
@@ -148,16 +149,24 @@ impl<'a> Resolved<'a> {
 
     /// The motions that come in: with two derivatives or, with a spring and damper, which do not feel
     /// accelerations, with one.
-    fn position(&mut self, marker: ResolvedMarker<'a>, derivatives: usize) -> MotionKind<'a> {
+    fn position(&mut self, marker: ResolvedMarker<'a>, derivatives: usize) -> Driven<'a> {
         let coordinates = 0..self.scene.dimension;
-        let drives = coordinates.map(|_| self.driven(derivatives)).collect();
-        MotionKind::Position(marker, drives)
+        Driven {
+            kind: DrivenKind::Position(marker),
+            drives: coordinates.map(|_| self.driven(derivatives)).collect(),
+        }
     }
 
-    fn angle(&mut self, marker: ResolvedMarker<'a>, derivatives: usize) -> MotionKind<'a> {
-        match self.scene.dimension {
-            2 => MotionKind::Angle(DirectionSource::Marker(marker), self.driven(derivatives)),
-            _ => MotionKind::Orientation(marker, self.rotation_drives(derivatives)),
+    fn angle(&mut self, marker: ResolvedMarker<'a>, derivatives: usize) -> Driven<'a> {
+        if self.scene.dimension == 2 {
+            return Driven {
+                kind: DrivenKind::Angle(DirectionSource::Marker(marker)),
+                drives: vec![self.driven(derivatives)],
+            };
+        }
+        Driven {
+            kind: DrivenKind::Orientation(marker),
+            drives: self.rotation_drives(derivatives),
         }
     }
 
@@ -169,10 +178,10 @@ impl<'a> Resolved<'a> {
     ) -> resolved::PortKind<'a> {
         let position = self.position(marker, 2);
         let angle = port.turns().then(|| self.angle(marker, 2));
-        let mut motion = |kind| ResolvedMotion {
+        let mut motion = |driven| ResolvedMotion {
             name: &port.name,
             holder: self.hold(path, &port.name),
-            kind,
+            driven,
             values: &[],
         };
         resolved::PortKind::Motion {

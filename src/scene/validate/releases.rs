@@ -3,7 +3,7 @@
 use super::checks::{expected, quoted};
 use crate::scene::Error;
 use crate::scene::loads::LoadPlace;
-use crate::scene::resolved::{ConstraintOwnerId, DirectionSource, InputKind, MotionKind, Resolved};
+use crate::scene::resolved::{ConstraintOwnerId, InputKind, Resolved};
 use crate::system::Release;
 
 impl Resolved<'_> {
@@ -53,12 +53,8 @@ impl Resolved<'_> {
             found.extend(gear.coordinates.iter().map(|on| (on.joint(), gear.name)));
         }
         for motion in &self.motions {
-            match &motion.kind {
-                MotionKind::Angle(DirectionSource::Pivot(pivot), _) => {
-                    found.push((pivot.joint, motion.name));
-                }
-                MotionKind::Displacement(slider, _) => found.push((slider.joint, motion.name)),
-                _ => {}
+            if let LoadPlace::Coordinate(on) = motion.driven.quantity().place {
+                found.push((on.joint(), motion.name));
             }
         }
         for load in &self.loads {

@@ -484,7 +484,7 @@ fn values_become_functions_and_inputs_have_their_starts() {
     let straight = table.function().expect("a table");
     assert!(matches!(smooth, Function::Spline(_)) && matches!(straight, Function::Linear(_)));
     assert_eq!((smooth.value(0.25), straight.value(0.25)), (0.3125, 0.5));
-    let [Drive::Function(Function::Spline(_))] = resolved.motions[1].kind.drives() else {
+    let [Drive::Function(Function::Spline(_))] = resolved.motions[1].driven.drives[..] else {
         panic!("a spline");
     };
     assert_eq!(resolved.motions[2].values, []);

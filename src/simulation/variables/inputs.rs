@@ -3,7 +3,7 @@
 use super::{AXES, DrivePart, List, PARTS, Source, component};
 use crate::scene::unit::*;
 use crate::scene::{
-    ActionKind, Coupling, Incoming, Input, InputKind, MotionKind, PortKind, Resolved,
+    ActionKind, Coupling, Driven, Incoming, Input, InputKind, PortKind, ROTATION_ORDERS, Resolved,
     ResolvedMarker,
 };
 use crate::system::{Attitude, Drive};
@@ -14,7 +14,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         add_load(list, input, None);
     }
     for motion in &resolved.motions {
-        add_motion(list, &motion.kind, motion.name, "drives");
+        add_motion(list, &motion.driven, motion.name, "drives");
     }
     for port in &resolved.ports {
         match &port.kind {
@@ -25,7 +25,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
             }
             PortKind::Motion { position, angle } => {
                 for motion in [position].into_iter().chain(angle) {
-                    add_motion(list, &motion.kind, port.name, "drives");
+                    add_motion(list, &motion.driven, port.name, "drives");
                 }
             }
             PortKind::Coupling { position, angle } => {
@@ -44,7 +44,7 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
     let coordinates = match &coupling.incoming {
         Incoming::Motion(motion) => {
             add_motion(list, motion, port, "pulls");
-            motion.drives().len()
+            motion.drives.len()
         }
         Incoming::Orientation(marker) => {
             let attitude = Attitude {
@@ -85,7 +85,7 @@ fn add_orientation(
         });
     }
     let place = list.variables.len();
-    for (order, (key, kind, unit)) in ROTATION.iter().enumerate().skip(1) {
+    for (order, (key, kind, unit)) in ROTATION_ORDERS.iter().enumerate().skip(1) {
         for (k, axis) in AXES
             .iter()
             .enumerate()
@@ -216,58 +216,31 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     }
 }
 
-/// Keys, meanings and units of an angle and its derivatives.
-const ROTATION: [(&str, &str, Unit); 3] = [
-    ("angle", "Angle", RADIAN),
-    ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND),
-    (
-        "angular_acceleration",
-        "Angular acceleration",
-        RADIAN_PER_SECOND_2,
-    ),
-];
-
-/// Keys, meanings and units of a motion and its derivatives.
-fn orders(kind: &MotionKind<'_>) -> [(&'static str, &'static str, Unit); 3] {
-    match kind {
-        MotionKind::Angle(..) | MotionKind::Orientation(..) => ROTATION,
-        MotionKind::Position(..) | MotionKind::Displacement(..) | MotionKind::Winch(..) => [
-            match kind {
-                MotionKind::Position(..) => ("position", "Position", METRE),
-                MotionKind::Winch(..) => ("travel", "Length paid out", METRE),
-                _ => ("displacement", "Displacement", METRE),
-            },
-            ("velocity", "Velocity", METRE_PER_SECOND),
-            ("acceleration", "Acceleration", METRE_PER_SECOND_2),
-        ],
-    }
-}
-
 /// Inputs of a motion that the master sets, if it does. The variables are listed derivative by derivative;
 /// the numbers of each driven coordinate lie side by side.
-fn add_motion(list: &mut List, motion: &MotionKind<'_>, name: &str, verb: &str) {
-    if let MotionKind::Orientation(marker, drives) = motion {
-        if let Some(Drive::Turned { attitude, .. }) = drives.first() {
-            add_orientation(list, *attitude, name, verb, marker);
-        }
-        return;
+fn add_motion(list: &mut List, driven: &Driven<'_>, name: &str, verb: &str) {
+    let (drives, quantity) = (&driven.drives, driven.quantity());
+    if let (Some(Drive::Turned { attitude, .. }), Some(marker)) =
+        (drives.first(), quantity.place.second())
+    {
+        return add_orientation(list, *attitude, name, verb, &marker);
     }
-    for (order, (key, what, unit)) in orders(motion).into_iter().enumerate() {
-        let coordinates = motion.drives().iter().zip(motion.start());
-        for (axis, (drive, start)) in coordinates.enumerate() {
+    for (order, (key, what, unit)) in quantity.orders.into_iter().enumerate() {
+        let coordinates = drives.iter().zip(&quantity.start);
+        for (axis, (drive, &start)) in coordinates.enumerate() {
             let first = match drive {
                 Drive::Input { first, derivatives } if order <= *derivatives => *first,
                 Drive::Input { .. } | Drive::Turned { .. } | Drive::Function(_) => continue,
             };
-            let what = format!("{what} to which {name} {verb} {}", motion.of());
+            let what = format!("{what} to which {name} {verb} {}", quantity.place.name());
             let name = format!("{name}.{key}");
             let start = if order == 0 { start } else { 0.0 };
-            let (name, what) = match motion {
-                MotionKind::Position(..) => (
+            let (name, what) = match drives.len() {
+                1 => (name, what),
+                _ => (
                     component(&name, axis),
                     format!("{what}, component {}", AXES[axis]),
                 ),
-                _ => (name, what),
             };
             let (place, source) = (list.variables.len(), Source::Input(first + order));
             list.add(name, what, Some(unit), source, Some(start));

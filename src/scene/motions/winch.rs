@@ -1,10 +1,69 @@
-//! Checks of cables that winches pay out.
+//! Winches.
 
-use super::checks::{expected, quoted};
+use super::*;
+use crate::scene::Model;
 use crate::scene::description::{InitialState, LineModel, Shape, Strain};
 use crate::scene::joints::JointPrimitive;
-use crate::scene::resolved::{Cable, First, MotionKind, Place, Resolved, ResolvedMarker};
-use crate::scene::{Error, Model};
+use crate::scene::resolved::First;
+
+/// A winch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WinchMotion {
+    /// Marker at the end of the cable where the winch is, `body.marker`.
+    pub marker: String,
+    /// Course of the length paid out in time, m; 0 at the start.
+    pub value: MotionValue,
+}
+
+impl SceneMotion for WinchMotion {
+    type Of<'a> = ResolvedMarker<'a>;
+
+    fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Of<'a>> {
+        let marker = scene.require_paid_out(&format!("{path}.marker"), &self.marker)?;
+        if let MotionValue::One(Value::Number(number)) = &self.value
+            && *number != 0.0
+        {
+            let wanted =
+                "a length that begins at 0, since the cable is as long as its shape at the start";
+            return Err(expected(&format!("{path}.value"), wanted, number));
+        }
+        Ok(marker)
+    }
+
+    fn quantity<'a>(of: &Self::Of<'a>) -> DrivenQuantity<'a> {
+        DrivenQuantity {
+            place: LoadPlace::Marker(*of),
+            exerts: [false; 2],
+            start: vec![0.0],
+            orders: displacement("travel", "Length paid out"),
+            words: "the length paid out at",
+        }
+    }
+
+    fn primitive<const D: usize>(
+        of: &Self::Of<'_>,
+        builder: &mut Builder<'_, D>,
+        drives: &[usize],
+    ) -> Primitive<D> {
+        if let Place::Along(cable, at) = of.place
+            && let Some(chain) = cable.id.chain()
+        {
+            builder.parts.winches.push((chain, at > 0.5, drives[0]));
+        }
+        Primitive::PaidOut(drives[0])
+    }
+}
+
+/// Returns the cable that a motion pays out, if it is a winch.
+fn paid_out<'a>(motion: &ResolvedMotion<'a>) -> Option<Cable<'a>> {
+    match motion.driven.kind {
+        DrivenKind::Winch(ResolvedMarker {
+            place: Place::Along(cable, _),
+            ..
+        }) => Some(cable),
+        _ => None,
+    }
+}
 
 impl<'a> Resolved<'a> {
     /// Finds the marker at which a winch pays out its cable.
@@ -12,11 +71,7 @@ impl<'a> Resolved<'a> {
     /// # Errors
     /// The marker does not exist, is not at the end of a flexible cable, or its cable has stations, another strain or a
     /// curved shape that bends.
-    pub(super) fn require_paid_out(
-        &self,
-        path: &str,
-        name: &'a str,
-    ) -> Result<ResolvedMarker<'a>, Error> {
+    fn require_paid_out(&self, path: &str, name: &'a str) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         let wanted = "a marker at an end of a cable that bends and stretches";
         let Place::Along(cable, at) = marker.place else {
@@ -47,13 +102,7 @@ impl<'a> Resolved<'a> {
     /// Cables that winches pay out, each with the index of its winch among the motions.
     fn winches(&self) -> impl Iterator<Item = (usize, Cable<'a>)> {
         let motions = self.motions.iter().enumerate();
-        motions.filter_map(|(index, motion)| match motion.kind {
-            MotionKind::Winch(marker, _) => match marker.place {
-                Place::Along(cable, _) => Some((index, cable)),
-                Place::Point(..) | Place::Interface(..) => None,
-            },
-            _ => None,
-        })
+        motions.filter_map(|(index, motion)| Some((index, paid_out(motion)?)))
     }
 
     /// Whether a winch pays out a cable.
@@ -67,7 +116,7 @@ impl<'a> Resolved<'a> {
     /// # Errors
     /// A second winch of a cable, a rotating frame, a steady motion at the start, a load between the ends, or an
     /// unsuitable fluid.
-    pub(super) fn check_winches(&self) -> Result<(), Error> {
+    pub(in crate::scene) fn check_winches(&self) -> Result<(), Error> {
         let mut cables: Vec<(usize, Cable<'a>)> = Vec::new();
         for (index, cable) in self.winches() {
             let path = format!("motions[{index}]");
