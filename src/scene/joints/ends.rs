@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::primitive::ThinRod;
 use super::*;
 use crate::scene::marker::GROUND;
+use crate::scene::validate::refuse_point;
 
 impl<'a> Resolved<'a> {
     /// Resolves the ends of a joint.

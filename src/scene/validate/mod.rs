@@ -20,6 +20,8 @@ use std::ops::RangeInclusive;
 
 use super::resolved::{ConstraintOwner, ConstraintOwnerId, Resolved};
 use super::{Body, Error, InitialState, Scene};
+pub(super) use references::refuse_point;
+
 use checks::{expected, name, positive, quoted, scene_name, sentence, spin, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.

@@ -380,7 +380,7 @@ impl<'a> Resolved<'a> {
 ///
 /// # Errors
 /// The marker is at such an interface.
-pub(super) fn refuse_point(path: &str, marker: ResolvedMarker<'_>) -> Result<(), Error> {
+pub(in crate::scene) fn refuse_point(path: &str, marker: ResolvedMarker<'_>) -> Result<(), Error> {
     let Some(interface) = marker.place.point_interface() else {
         return Ok(());
     };
