@@ -75,7 +75,7 @@ impl Start {
     pub fn new(scene: Scene) -> Outcome<Self> {
         let resolved = scene.resolve().map_err(|error| error.to_string())?;
         let assembled = resolved.assemble().map_err(|error| error.to_string())?;
-        let drives = (resolved.motions.iter()).flat_map(|motion| motion.kind.drives());
+        let drives = (resolved.motions.iter()).flat_map(|motion| &motion.driven.drives);
         let is_input = |drive: &Drive| !matches!(drive, Drive::Function(_));
         if drives.into_iter().any(is_input) {
             return Err("motions: expected functions of time, found one driven by inputs".into());

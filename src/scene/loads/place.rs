@@ -1,10 +1,10 @@
-//! Places of loads on bodies and in joints.
+//! Places of loads and motions on bodies and in joints.
 
 use crate::scene::Error;
 use crate::scene::joints::CoordinateKind;
 use crate::scene::resolved::{Cable, Ends, JointCoordinate, Resolved, ResolvedMarker};
 
-/// Place of a load on bodies.
+/// Place of a load or a motion on bodies.
 #[derive(Clone, Copy, Debug)]
 pub enum LoadPlace<'a> {
     /// A marker.
