@@ -295,6 +295,15 @@ pub fn name<'a>(path: &str, name: &'a str, names: &mut BTreeSet<&'a str>) -> Res
     Ok(())
 }
 
+/// Lists names in a sentence: `a, b or c`.
+pub fn or(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [name] => (*name).into(),
+        [names @ .., last] => format!("{} or {last}", names.join(", ")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use serde_json::{Value, json};
@@ -370,14 +379,5 @@ mod tests {
             scene["about"] = json!({ key: text });
             assert_eq!(refusal(&scene), format!("about.{key}: {found}"));
         }
-    }
-}
-
-/// Lists names in a sentence: `a, b or c`.
-pub fn or(names: &[&str]) -> String {
-    match names {
-        [] => String::new(),
-        [name] => (*name).into(),
-        [names @ .., last] => format!("{} or {last}", names.join(", ")),
     }
 }
