@@ -194,7 +194,7 @@ pub struct Slider<'a> {
     pub joint: ConstraintOwnerId,
     /// Ends of the joint.
     pub ends: Ends<'a>,
-    /// Direction of the line as [`Inline`](super::joints::JointPrimitive::Inline) has it.
+    /// Direction of the line as [`Inline`](crate::scene::JointPrimitive::Inline) has it.
     pub direction: [f64; 3],
     /// Direction of the line at the start, a unit vector in global axes.
     pub along: [f64; 3],
