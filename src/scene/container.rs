@@ -45,7 +45,7 @@ pub struct Container {
     pub center: Vector3<f64>,
     /// Principal axes in the file's axes, as columns, right-handed.
     pub axes: Matrix3<f64>,
-    /// What pictures and outputs take beside the model.
+    /// Arrays that pictures and outputs take beside the model.
     pub details: Details,
     /// The file.
     bytes: Arc<[u8]>,
@@ -74,8 +74,8 @@ impl Container {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         let mut arrays = Arrays::new(bytes)?;
         let (source, highest_frequency) = told(arrays.metadata())?;
-        let body = Rigid::read(&mut arrays)?;
-        let mut reader = Turned {
+        let body = RigidPart::read(&mut arrays)?;
+        let mut reader = ModelReader {
             modes: count_of_modes(&arrays)?,
             paired: 0,
             arrays,
@@ -184,14 +184,14 @@ fn count_of_modes(arrays: &Arrays<'_>) -> Result<usize, String> {
 }
 
 /// Mass, centre and principal axes.
-struct Rigid {
+struct RigidPart {
     mass: f64,
     center: Vector3<f64>,
     moments: [f64; 3],
     axes: Matrix3<f64>,
 }
 
-impl Rigid {
+impl RigidPart {
     fn read(arrays: &mut Arrays<'_>) -> Result<Self, String> {
         let mass = arrays.numbers("mass", &[1])?[0];
         if mass <= 0.0 {
@@ -221,14 +221,14 @@ impl Rigid {
 }
 
 /// Reads arrays of modes and turns them to the principal axes.
-struct Turned<'a> {
+struct ModelReader<'a> {
     arrays: Arrays<'a>,
-    body: Rigid,
+    body: RigidPart,
     modes: usize,
     paired: usize,
 }
 
-impl Turned<'_> {
+impl ModelReader<'_> {
     fn model(&mut self) -> Result<ReducedModel, String> {
         let n = self.modes;
         let eigenvalues = self.arrays.numbers("eigenvalues", &[n])?;

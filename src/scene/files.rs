@@ -9,9 +9,9 @@ use std::sync::Arc;
 use super::container::Container;
 use super::description::Body;
 use super::validate::checks::{expected, quoted};
-use super::{Error, ReducedBody, Scene};
+use super::{Error, FileBody, Scene};
 
-/// What gives the bytes of a file that a scene names, or says why it cannot.
+/// Function that gives the bytes of a file that a scene names, or says why it cannot.
 pub type Files<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// End of the names of files of reduced models.
@@ -22,6 +22,9 @@ const MOST_BYTES: u64 = 1 << 26;
 const MOST_LETTERS: usize = 200;
 
 /// Refuses every file.
+///
+/// # Errors
+/// Always.
 pub(super) fn none(_name: &str) -> Result<Vec<u8>, String> {
     Err("this reader of scenes has no folder that files are read from".into())
 }
@@ -67,6 +70,9 @@ impl Scene {
 }
 
 /// Gives the files of a folder.
+///
+/// # Errors
+/// Those of [`bounded`], in words.
 pub fn beside(folder: &Path) -> impl Fn(&str) -> Result<Vec<u8>, String> {
     let folder = folder.to_owned();
     move |name| bounded(&folder.join(name)).map_err(|error| error.to_string())
@@ -101,7 +107,7 @@ pub fn bounded(path: &Path) -> io::Result<Vec<u8>> {
     }
 }
 
-impl ReducedBody {
+impl FileBody {
     fn read(&self, path: &str, files: Files<'_>) -> Result<Container, Error> {
         check_name(path, &self.file)?;
         let wrong = |error: String| Error::new(path, format!("{}: {error}", quoted(&self.file)));
@@ -124,6 +130,9 @@ impl ReducedBody {
 }
 
 /// Checks that a name is one of a file beside the scene or below, on every system.
+///
+/// # Errors
+/// Another name.
 fn check_name(path: &str, name: &str) -> Result<(), Error> {
     let is_fit = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
     let is_part = |part: &str| {

@@ -8,7 +8,7 @@ use super::resolved::{
     Slider,
 };
 use super::unit::{METRE, RADIAN, Unit};
-use super::{Body, LineBody, Model, ReducedBody, RigidBody, Scene};
+use super::{Body, FileBody, LineBody, Model, RigidBody, Scene};
 use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
 
@@ -116,7 +116,7 @@ impl Scene {
     }
 
     /// A reduced body, to be changed.
-    pub fn reduced_mut(&mut self, id: ReducedId) -> &mut ReducedBody {
+    pub fn reduced_mut(&mut self, id: ReducedId) -> &mut FileBody {
         let reduced = self.bodies[id.0].reduced_mut();
         reduced
             .unwrap_or_else(|| unreachable!("a number of a reduced body is that of a reduced body"))

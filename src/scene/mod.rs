@@ -35,9 +35,9 @@ pub use alike::did_you_mean;
 pub use assemble::{Assembled, assemble};
 pub use container::{Container, Details};
 pub use description::{
-    About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, Inertia,
-    Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, LineBody,
-    LineModel, Material, Method, Model, Modes, Orientation, OutputKind, Profile, ReducedBody,
+    About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, FileBody,
+    Inertia, Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation,
+    LineBody, LineModel, Material, Method, Model, Modes, Orientation, OutputKind, Profile,
     RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain,
     Surface, Table, Value,
 };

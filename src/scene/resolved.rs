@@ -5,8 +5,7 @@ mod outputs;
 
 use std::collections::BTreeMap;
 
-use super::description::{LineBody, Port as GivenPort, ReducedBody, RigidBody, Scene};
-use super::joints::{ResolvedGear, ResolvedJoint};
+use super::description::{FileBody, LineBody, Port as GivenPort, RigidBody, Scene};
 use super::loads::{Action, ResolvedLoad};
 use super::motions::{Driven, ResolvedMotion};
 pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
@@ -112,7 +111,7 @@ pub struct Reduced<'a> {
     /// Which one.
     pub id: ReducedId,
     /// As described.
-    pub body: &'a ReducedBody,
+    pub body: &'a FileBody,
 }
 
 /// A body of any kind.

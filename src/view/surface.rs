@@ -7,7 +7,7 @@ use super::recording::Recording;
 use super::sections::{has_corners, sections};
 use crate::elements::shape;
 use crate::math::rotation::{self, Quaternion};
-use crate::scene::{BodyReference, ReducedBody, RigidBody, Solid};
+use crate::scene::{BodyReference, FileBody, RigidBody, Solid};
 use crate::simulation::Pose;
 
 /// Points around what is round, and fewest sections along a body.
@@ -371,7 +371,7 @@ fn solid(rigid: &RigidBody, body: usize, size: f64) -> BodySurface {
 }
 
 /// Bars from the centre of mass of a reduced body to its interfaces, which move with its axes.
-fn star(reduced: &ReducedBody, body: usize, size: f64) -> BodySurface {
+fn star(reduced: &FileBody, body: usize, size: f64) -> BodySurface {
     let (mut built, container) = (Built::default(), reduced.contained());
     let interfaces = 0..container.model.interfaces.len();
     let ends = interfaces.map(|index| container.place(index));

@@ -4,7 +4,7 @@ use super::picture::{Picture, seen};
 use crate::page::canvas::Point;
 use crate::picture::Style;
 use crate::picture::palette::{BODY, INK, INSIDE};
-use crate::scene::{BodyReference, Cable, LineBody, ReducedBody, RigidBody};
+use crate::scene::{BodyReference, Cable, FileBody, LineBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable.
 const PARTS: u32 = 96;
@@ -41,7 +41,7 @@ pub(super) fn rigid_outline(rigid: &RigidBody, dimension: usize) -> Vec<[f64; 3]
 }
 
 /// Interfaces of a reduced body, which stand for it as a star around its centre, m.
-pub(super) fn star(reduced: &ReducedBody) -> Vec<[f64; 3]> {
+pub(super) fn star(reduced: &FileBody) -> Vec<[f64; 3]> {
     let interfaces = 0..reduced.contained().model.interfaces.len();
     interfaces.map(|index| reduced.place(index)).collect()
 }

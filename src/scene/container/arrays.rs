@@ -37,7 +37,7 @@ const KNOWN: [&str; 15] = [
     "surface.triangles",
 ];
 
-/// What was wrong with an array.
+/// Message about an array.
 pub(super) fn wrong(name: &str, wanted: &str, found: impl Display) -> String {
     format!("{name}: expected {wanted}, found {found}")
 }
@@ -53,7 +53,7 @@ fn read<T: DeserializeOwned>(name: &str, value: Value) -> Result<T, String> {
 /// Where an array is, as the header has it.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
+struct ArrayEntry {
     dtype: String,
     shape: Vec<usize>,
     data_offsets: [usize; 2],
@@ -62,7 +62,7 @@ struct Entry {
 /// Arrays of a file, which are taken one after the other.
 pub(super) struct Arrays<'a> {
     data: &'a [u8],
-    entries: BTreeMap<String, Entry>,
+    entries: BTreeMap<String, ArrayEntry>,
     metadata: BTreeMap<String, String>,
     taken: Vec<String>,
 }

@@ -1,3 +1,5 @@
+//! Files of reduced models: read, turned, and refused by name.
+
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::{Map, Value, json};
 
@@ -278,6 +280,7 @@ fn arrays_that_are_no_reduced_model_are_refused_by_name() {
         numbers[at] = value;
         with(name, &shape.clone(), &numbers)
     };
+    #[rustfmt::skip] // a table
     let cases = [
         (
             changed("mass", 0, 0.0),
@@ -426,6 +429,7 @@ fn headers_that_lie_are_refused() {
     };
     let huge = u64::MAX;
     let size: usize = file.arrays.iter().map(|(.., bytes)| bytes.len()).sum();
+    #[rustfmt::skip] // a table
     let cases = [
         (
             lie("/centre/data_offsets", json!([0, 24])),

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::accuracy::elements;
 use super::section::between;
 use super::{
-    Inertia, Orientation, ReducedBody, SceneVector, Section, SectionNumbers, Solid, Spin, Station,
+    FileBody, Inertia, Orientation, SceneVector, Section, SectionNumbers, Solid, Spin, Station,
 };
 
 /// A body; `element` says of which kind.
@@ -37,7 +37,7 @@ pub enum Body {
     Rigid(RigidBody),
     /// Finite element model reduced to modes, from a file; in space. It moves freely, with small deformations.
     #[schemars(title = "ReducedBody")]
-    Reduced(ReducedBody),
+    Reduced(FileBody),
 }
 
 /// A body of cable elements, or a rigid rod where they need not bend.

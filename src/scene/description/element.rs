@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 use super::body::{Body, InitialMotion, LineBody, LineModel, Model, RigidBody};
-use super::reduced::ReducedBody;
+use super::reduced::FileBody;
 use super::section::Section;
 use super::strict::{Strict, at, typed};
 
@@ -126,7 +126,7 @@ impl Body {
     }
 
     /// The body if it is one of kind `reduced`.
-    pub fn reduced(&self) -> Option<&ReducedBody> {
+    pub fn reduced(&self) -> Option<&FileBody> {
         match self {
             Self::Reduced(body) => Some(body),
             Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Rigid(_) => None,
@@ -134,7 +134,7 @@ impl Body {
     }
 
     /// The body, to be changed, if it is one of kind `reduced`.
-    pub fn reduced_mut(&mut self) -> Option<&mut ReducedBody> {
+    pub fn reduced_mut(&mut self) -> Option<&mut FileBody> {
         match self {
             Self::Reduced(body) => Some(body),
             Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Rigid(_) => None,

@@ -44,7 +44,7 @@ pub use kinds::{tell_apart, tell_by_tag};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;
-pub use reduced::{DampingRatio, Modes, ModesUpTo, ReducedBody};
+pub use reduced::{DampingRatio, FileBody, Modes, ModesUpTo};
 pub use renamed::check_names;
 pub use rotation::{Inertia, Orientation};
 pub use section::{Profile, Section, SectionNumbers, Station};

@@ -18,7 +18,7 @@ use crate::scene::container::Container;
 /// Finite element model reduced to modes, from a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ReducedBody {
+pub struct FileBody {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// File of the reduced model, beside the scene: letters, digits, `_`, `-` and `.`, folders before `/`; its name ends in `.safetensors`.
@@ -44,7 +44,7 @@ pub struct ReducedBody {
     /// Named interfaces of the file.
     #[serde(default)]
     pub markers: BTreeMap<String, String>,
-    /// What the file holds; nothing before it is read.
+    /// Content of the file; nothing before it is read.
     #[serde(skip)]
     pub container: Option<Arc<Container>>,
 }
@@ -57,7 +57,7 @@ pub enum Modes {
     All(AllModes),
     /// So many first ones.
     Count(#[schemars(range(min = 1))] u32),
-    /// Those up to a frequency.
+    /// Modes up to a frequency.
     UpTo(ModesUpTo),
 }
 
@@ -109,7 +109,7 @@ impl<'de> Deserialize<'de> for Modes {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum DampingRatio {
-    /// The same of all modes.
+    /// One ratio of all modes.
     Number(#[schemars(range(min = 0.0))] f64),
     /// Pairs of a frequency, Hz, and the ratio there.
     Table(Vec<[f64; 2]>),
@@ -151,8 +151,8 @@ impl DampingRatio {
     }
 }
 
-impl ReducedBody {
-    /// What the file holds.
+impl FileBody {
+    /// Returns the content of the file.
     ///
     /// # Panics
     /// When the file was not read: a scene that was read has its files.

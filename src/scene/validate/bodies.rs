@@ -338,6 +338,10 @@ impl RigidBody {
 }
 
 impl Orientation {
+    /// Checks the numbers of an orientation.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, or none of an orientation.
     pub(super) fn validate(&self, path: &str) -> Result<(), Error> {
         let numbers = self.numbers();
         match self.axes() {

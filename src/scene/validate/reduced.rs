@@ -2,9 +2,9 @@
 
 use super::checks::{expected, finite, not_negative, positive, quoted, unknown, vector};
 use crate::scene::description::{DampingRatio, Modes, ModesUpTo};
-use crate::scene::{Container, Error, ReducedBody};
+use crate::scene::{Container, Error, FileBody};
 
-impl ReducedBody {
+impl FileBody {
     /// Checks a reduced body on its own.
     ///
     /// # Errors

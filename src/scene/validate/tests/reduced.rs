@@ -111,6 +111,7 @@ fn markers_stand_at_interfaces() -> Result<(), Error> {
 
 #[test]
 fn files_are_named_and_checked() {
+    #[rustfmt::skip] // a table
     let cases = [
         (
             "/bodies/0/file",
@@ -168,6 +169,7 @@ fn files_are_named_and_checked() {
 
 #[test]
 fn values_of_reduced_bodies_are_checked() {
+    #[rustfmt::skip] // a table
     let cases = [
         (
             "/dimension",
@@ -280,6 +282,7 @@ fn what_needs_axes_is_refused_at_points() {
     let point = "expected an interface with rotations (reduce the model with rotations there, NAME.rotation), found \
                  \"bracket.tip\", whose interface \"B\" has none";
     let pair = json!(["ground", "bracket.tip"]);
+    #[rustfmt::skip] // a table
     let cases = [
         (
             "/joints/-",
@@ -390,6 +393,7 @@ fn what_needs_axes_is_refused_at_points() {
 
 #[test]
 fn what_belongs_to_lines_and_rigid_bodies_is_refused() {
+    #[rustfmt::skip] // a table
     let cases = [
         (
             "/masses",
