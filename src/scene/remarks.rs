@@ -1,4 +1,4 @@
-//! Values that are likely slips of units: allowed, and told before anything is planned or run.
+//! Values that are allowed and told before anything is planned or run: likely slips of units, and modes that are left out.
 
 use std::f64::consts::PI;
 
@@ -15,10 +15,11 @@ const LENGTHS: [f64; 2] = [1e-3, 1e3];
 /// First frequency above which hardly any body is, Hz.
 const FASTEST: f64 = 1e6;
 
-/// Lists probable mistakes of units in a scene, in words, with their places. Each kind of mistake is listed once,
+/// Lists probable mistakes of units in a scene, and reduced bodies with fewer modes than their files have, in words, with their places. Each kind of mistake is listed once,
 /// whatever the number of bodies.
 pub fn remarks(scene: &Scene) -> Vec<String> {
-    let kinds: [fn(&Body) -> Option<String>; 4] = [softness, lightness, length, frequency];
+    let kinds: [fn(&Body) -> Option<String>; 5] =
+        [softness, lightness, length, frequency, left_out];
     let told = |slip: &fn(&Body) -> Option<String>| {
         let bodies = scene.bodies.iter().enumerate();
         let mut found = bodies.filter_map(|(index, body)| Some((index, slip(body)?)));
@@ -100,6 +101,21 @@ fn reach(body: &RigidBody) -> Option<f64> {
         x.hypot(y).hypot(z)
     });
     markers.reduce(f64::max)
+}
+
+/// A reduced body with fewer modes than its file has. Static shapes, which make joints as compliant as they are, are among the stiffest
+/// modes of the free body.
+fn left_out(body: &Body) -> Option<String> {
+    let Body::Reduced(reduced) = body else {
+        return None;
+    };
+    let (taken, all) = (reduced.mode_count(), reduced.contained().model.modes());
+    (taken < all).then(|| {
+        format!(
+            ".modes: found {taken} of {all} modes, which leaves out the compliance of the others at interfaces: joints there are too stiff (reduce the finite \
+             element model to fewer modes instead, with its static shapes)"
+        )
+    })
 }
 
 /// A body that vibrates hardly as fast.

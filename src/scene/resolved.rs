@@ -6,6 +6,7 @@ mod outputs;
 use std::collections::BTreeMap;
 
 use super::description::{FileBody, LineBody, Port as GivenPort, RigidBody, Scene};
+use super::joints::{ResolvedGear, ResolvedJoint};
 use super::loads::{Action, ResolvedLoad};
 use super::motions::{Driven, ResolvedMotion};
 pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
