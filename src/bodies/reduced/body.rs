@@ -184,7 +184,7 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
         [stiffness, damping]: [&mut Matrix<f64>; 2],
     ) {
         let x = motion.x;
-        self.stiffness_blocks(x, |a, b, block| assembly.add(a, b, block, stiffness));
+        self.elastic_blocks(x, |a, b, block| assembly.add(a, b, block, stiffness));
         if BodyPart::<D>::is_damped(self) {
             self.damping_blocks(x, |a, b, block| assembly.add(a, b, block, damping));
         }

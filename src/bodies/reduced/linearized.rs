@@ -6,6 +6,7 @@ use super::{ReducedBody, Site, coupling_at};
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{RigidBodyFrame, axes_at, rotation_block};
+use crate::elements::reduced::ModalStiffness;
 use crate::math::space::components;
 
 /// Nodes with amplitudes whose derivatives are computed together.
@@ -49,13 +50,7 @@ impl Stiffness for Diagonal<'_> {
     }
 }
 
-/// Second derivatives of the strain energy.
-struct Elastic<'a> {
-    body: &'a ReducedBody,
-    eta: &'a [f64],
-}
-
-impl Stiffness for Elastic<'_> {
+impl Stiffness for ModalStiffness<'_> {
     fn rotations(&self) -> Matrix3<f64> {
         Matrix3::zeros()
     }
@@ -65,7 +60,7 @@ impl Stiffness for Elastic<'_> {
     }
 
     fn modal(&self, k: usize, l: usize) -> f64 {
-        self.body.strain.second(self.eta, k, l)
+        self.at(k, l)
     }
 }
 
@@ -188,15 +183,6 @@ impl ReducedBody {
         );
     }
 
-    /// Calls with the stiffness of the modes without deformation.
-    pub(super) fn stiffness_blocks<const D: usize>(
-        &self,
-        x: &[Node<D>],
-        add: impl FnMut(usize, usize, &NodeBlock<D>),
-    ) {
-        self.blocks(&Diagonal(&self.model.eigenvalues), x, add);
-    }
-
     /// Calls with the second derivatives of the strain energy.
     pub(super) fn elastic_blocks<const D: usize>(
         &self,
@@ -204,7 +190,7 @@ impl ReducedBody {
         add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
         let eta = self.amplitudes(x);
-        self.blocks(&Elastic { body: self, eta }, x, add);
+        self.blocks(&self.strain.stiffness(eta), x, add);
     }
 
     /// Calls with the damping of the modes.

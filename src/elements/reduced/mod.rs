@@ -20,7 +20,7 @@ use nalgebra::Vector3;
 use crate::math::jet::Number;
 
 pub use inertia::{SPIN_SCALE, SpinScale};
-pub use strain::ModalStrain;
+pub use strain::{ModalStiffness, ModalStrain};
 
 /// Most modes whose pairs have second-order displacements.
 pub const PAIRED: usize = 16;

@@ -72,23 +72,50 @@ impl ModalStrain {
         }
     }
 
-    /// Second derivative of the energy by two amplitudes.
-    pub fn second(&self, eta: &[f64], k: usize, l: usize) -> f64 {
-        let mut sum = 0.0;
+    /// Second derivatives of the energy at amplitudes of the modes.
+    pub fn stiffness<'a>(&'a self, eta: &'a [f64]) -> ModalStiffness<'a> {
+        let mut pairs = [[0.0; PAIRED]; PAIRED];
+        let paired = self.paired;
         for (m, eigenvalue) in self.eigenvalues.iter().enumerate() {
-            let (mut by_k, mut by_l) = (f64::from(u8::from(m == k)), f64::from(u8::from(m == l)));
-            let strain = self.strain(m, eta, |at, turned| {
-                by_k -= if at == k { turned } else { 0.0 };
-                by_l -= if at == l { turned } else { 0.0 };
-            });
-            let is_paired = k < self.paired && l < self.paired;
-            let pair = if is_paired {
-                self.pairs[(m * self.paired + k) * self.paired + l]
-            } else {
-                0.0
-            };
-            sum += eigenvalue * (by_k * by_l - strain * pair);
+            let mut by = [0.0; PAIRED];
+            let strain = self.strain(m, eta, |k, turned| by[k] = -turned);
+            if m < paired {
+                by[m] += 1.0;
+            }
+            let weights = &self.pairs[m * paired * paired..(m + 1) * paired * paired];
+            for (k, sums) in pairs.iter_mut().enumerate().take(paired) {
+                for (l, sum) in sums.iter_mut().enumerate().take(paired) {
+                    *sum += eigenvalue * (by[k] * by[l] - strain * weights[paired * k + l]);
+                }
+            }
         }
-        sum
+        ModalStiffness {
+            strain: self,
+            eta,
+            pairs,
+        }
+    }
+}
+
+/// Second derivatives of a strain energy over amplitudes of the modes.
+#[derive(Clone, Debug)]
+pub struct ModalStiffness<'a> {
+    strain: &'a ModalStrain,
+    eta: &'a [f64],
+    /// Those by the amplitudes that form pairs.
+    pairs: [[f64; PAIRED]; PAIRED],
+}
+
+impl ModalStiffness<'_> {
+    /// Second derivative of the energy by two amplitudes.
+    pub fn at(&self, k: usize, l: usize) -> f64 {
+        let (low, high) = (k.min(l), k.max(l));
+        let eigenvalue = self.strain.eigenvalues[high];
+        match (low < self.strain.paired, high < self.strain.paired) {
+            (true, true) => self.pairs[k][l],
+            (true, false) => -eigenvalue * self.strain.turned(high, low, self.eta),
+            _ if low == high => eigenvalue,
+            _ => 0.0,
+        }
     }
 }

@@ -285,7 +285,7 @@ fn elastic_forces_and_stiffness_derive_from_the_energy() {
         let (more, less) = (force_at(&more), force_at(&less));
         for l in 0..MODES {
             let difference = (less[l] - more[l]) / (2.0 * step);
-            let second = strain.second(&eta, k, l);
+            let second = strain.stiffness(&eta).at(k, l);
             assert!(
                 (second - difference).abs() < 1e-6 * second.abs().max(400.0),
                 "{k} {l}"

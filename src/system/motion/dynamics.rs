@@ -312,8 +312,20 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
             .inertia(elimination, weights)
     }
 
-    /// As [`Dynamics::solve`], over small rotations in place of changes of coordinates: equilibria are found in these.
+    /// As [`Dynamics::solve`], where rotations are zero: small rotations are changes of coordinates there, but for reduced bodies.
     pub fn solve_small(&mut self, x: &mut [f64]) {
+        let is_reduced = !self.system.bodies.reduced().is_empty();
+        if is_reduced {
+            self.system.to_tangent(0, self.work, x);
+        }
+        self.solve_tangent(x);
+        if is_reduced {
+            self.system.back_from_tangent(0, self.work, x);
+        }
+    }
+
+    /// Solves in place over what the tangent is made in.
+    fn solve_tangent(&mut self, x: &mut [f64]) {
         self.operations += SOLVE;
         self.work
             .linearization
@@ -402,7 +414,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn solve(&mut self, x: &mut [f64]) {
         self.system.to_tangent(0, self.work, x);
-        self.solve_small(x);
+        self.solve_tangent(x);
         self.system.back_from_tangent(0, self.work, x);
     }
 
