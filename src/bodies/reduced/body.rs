@@ -248,15 +248,11 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
     }
 
     fn linearize(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
-        let [stiffness, _] = &mut terms.symmetric;
-        self.geometric_blocks(at.forces, at.motion.x, &mut |a, b, block| {
-            at.assembly.add(a, b, block, stiffness);
-        });
-    }
-
-    fn linearize_elements(&self, at: &mut LinearizationPoint<'_, D>, terms: &mut LinearTerms) {
         let [stiffness, damping] = &mut terms.symmetric;
         let (x, assembly) = (at.motion.x, at.assembly);
+        self.geometric_blocks(at.forces, x, &mut |a, b, block| {
+            assembly.add(a, b, block, stiffness);
+        });
         self.elastic_blocks(x, |a, b, block| assembly.add(a, b, block, stiffness));
         if !at.at_rest && BodyPart::<D>::is_damped(self) {
             terms.is_damped = true;
