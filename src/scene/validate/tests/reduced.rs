@@ -215,6 +215,17 @@ fn values_of_reduced_bodies_are_checked() {
             json!({"upto": 30}),
             "bodies[0].modes.upto: expected one of the keys up_to, found \"upto\"; did you mean `up_to`",
         ),
+    ];
+    for (pointer, value, expected) in cases {
+        let told = told(pointer, value);
+        assert!(told.starts_with(expected), "{told}\nnot {expected}");
+    }
+}
+
+#[test]
+fn damping_and_places_of_reduced_bodies_are_checked() {
+    #[rustfmt::skip] // a table
+    let cases = [
         (
             "/bodies/0/damping_ratio",
             json!(-0.1),
@@ -363,6 +374,11 @@ fn what_needs_axes_is_refused_at_points() {
     for (pointer, value, place) in cases {
         assert_eq!(told(pointer, value), format!("{place}: {point}"));
     }
+}
+
+#[test]
+fn what_needs_no_axes_is_taken_at_points() {
+    let pair = json!(["ground", "bracket.tip"]);
     let allowed = [
         ("/joints/1/kind", json!("spherical")),
         (
