@@ -396,16 +396,17 @@ impl<const D: usize> Tangent<D> {
         // The real system comes first.
         let (has_real, first) = (S % 2 == 1, S % 2);
         for (free, at) in assembly.runs() {
-            let q: [&[f64]; S] = std::array::from_fn(|i| &q[i][free.clone()]);
-            let (x, z) = (&mut self.x[at.clone()], &mut self.z[at]);
-            for (k, (x, z)) in x.iter_mut().zip(z).enumerate() {
+            let n = free.len();
+            let q: [&[f64]; S] = std::array::from_fn(|i| &q[i][free.clone()][..n]);
+            let (x, z) = (&mut self.x[at.clone()][..n], &mut self.z[at][..n]);
+            for k in 0..n {
                 let y: [f64; S] = std::array::from_fn(|i| q[i][k]);
                 if has_real {
-                    *x = product(&forward[0], &y);
+                    x[k] = product(&forward[0], &y);
                 }
                 if S > 1 {
                     let [re, im] = [first, first + 1].map(|row| product(&forward[row], &y));
-                    *z = Complex::new(re, im);
+                    z[k] = Complex::new(re, im);
                 }
             }
         }

@@ -56,6 +56,8 @@ pub struct Radau {
     last: Option<f64>,
     /// Whether the tangent belongs to the current state or is good enough for it.
     tangent: bool,
+    /// Whether the last acceleration was at the current state.
+    is_at_state: bool,
     /// Step for which the factors were made.
     factored: f64,
     attempted: f64,
@@ -98,6 +100,7 @@ impl Radau {
             error_v: zero.clone(),
             last: None,
             tangent: false,
+            is_at_state: false,
             factored: 0.0,
             attempted: 0.0,
             rate: 1.0,
@@ -147,7 +150,9 @@ impl Radau {
             let at = time + C[stage] * h;
             dynamics.acceleration(at, &self.stage_q, &self.stage_v, &mut self.f[stage]);
             dynamics.set_stage(stage);
-            self.powers[stage] = dynamics.power();
+            if stage != END && !dynamics.dissipates() {
+                self.powers[stage] = dynamics.power();
+            }
         }
         for (f, row) in self.f.iter_mut().zip(&A_INVERSE) {
             add(f, &mixed(row, -1.0 / h, &self.zv));
@@ -279,8 +284,13 @@ impl Radau {
             coordinates: q,
             rates: v,
         } = state;
+        let is_at_state = std::mem::take(&mut self.is_at_state);
         if !self.tangent {
-            dynamics.linearize(time, q, v);
+            if is_at_state {
+                dynamics.linearize_last(time, q, v);
+            } else {
+                dynamics.linearize(time, q, v);
+            }
             self.tangent = true;
             self.factored = 0.0;
         }
@@ -310,6 +320,7 @@ impl OneStepMethod for Radau {
 
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         dynamics.acceleration(time, q, v, &mut self.a);
+        self.is_at_state = true;
     }
 
     fn polish_accelerations(
@@ -379,7 +390,7 @@ impl OneStepMethod for Radau {
     }
 
     fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
-        dynamics.acceleration(time, q, v, &mut self.a);
+        self.refresh(dynamics, time, q, v);
         self.last = None;
         self.tangent = false;
         self.factored = 0.0;
@@ -401,6 +412,7 @@ impl OneStepMethod for Radau {
             rates: v,
         } = state;
         self.attempted = h;
+        self.powers = [[0.0; 2]; 3];
         // Of rotations a whole turn more is a solution too.
         let has_rotations = dynamics.has_rotations();
         let fail = |this: &mut Self, factor: f64| {
@@ -451,6 +463,7 @@ impl OneStepMethod for Radau {
         }
         self.last = Some(self.attempted);
         self.tangent = self.rate < FAST;
+        self.is_at_state = true;
         self.rejected = false;
         self.is_slow = false;
     }

@@ -78,8 +78,6 @@ pub struct NodalForces<const D: usize = 2> {
     pub(super) dissipated: f64,
     /// Forces of linear constraints over the nodes, `[nodes]`, N; while a tangent is assembled those of all other constraints and loads.
     pub(super) linear_constraint_forces: Vec<Node<D>>,
-    /// Power that comes in and power that is dissipated at the last acceleration, W.
-    pub(super) power: [f64; 2],
 }
 
 /// Matrices and multipliers of the non-linear constraints. An acceleration computes them.
@@ -193,7 +191,6 @@ impl<const D: usize> Workspace<D> {
                 torques: vec![[0.0; 3]; system.bodies.moments()],
                 dissipated: 0.0,
                 linear_constraint_forces: nodes.clone(),
-                power: [0.0; 2],
             },
             kinematics,
             constraints: Constraints {

@@ -65,7 +65,7 @@ impl Dynamics for Problem {
         self.power = (self.powers)(time, pair(v));
     }
 
-    fn power(&self) -> [f64; 2] {
+    fn power(&mut self) -> [f64; 2] {
         self.power
     }
 

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use super::pattern::{Column, Step, of_size};
+use super::pattern::{CHAINS, Column, Step, of_size};
 use super::{Matrix, Pattern, kernels};
 
 /// Cholesky factor W, lower triangular in elimination order, of a positive definite A = W W^T,
@@ -16,21 +16,38 @@ pub struct Cholesky {
     factors: Matrix<f64>,
     roots: Vec<f64>,
     inverse_roots: Vec<f64>,
-    /// For every step of the pattern.
-    pieces: Vec<StepColumns>,
+    /// All columns, in the order they are eliminated.
+    pieces: Vec<Piece>,
 }
 
-/// The columns of one step of the pattern.
+/// Columns that are gone through together.
 #[derive(Clone, Debug)]
-struct StepColumns {
+struct Piece {
     columns: Range<usize>,
-    /// The columns of a run where it is isotropic, else nothing; and the first of their variables.
+    kind: PieceKind,
+}
+
+#[derive(Clone, Debug)]
+enum PieceKind {
+    /// `L` is the identity here: a body that nothing couples.
+    Identity,
+    /// Isotropic columns of nodes, each joined to the next one alone.
+    Nodes(NodeRun),
+    /// A step of the pattern.
+    Step(Step),
+}
+
+/// A run of nodes.
+#[derive(Clone, Debug)]
+struct NodeRun {
+    /// Columns that a next node follows.
     links: Vec<NodeColumn>,
+    /// `s` by `p` of the last node, where its column belongs to the run.
+    last: Option<f64>,
+    /// The first of the variables.
     start: usize,
     /// Variables of a column.
     size: usize,
-    /// Whether `L` is the identity here: a body that nothing couples.
-    is_identity: bool,
 }
 
 /// Where `W^-1 x` is not zero for some `x`.
@@ -54,27 +71,29 @@ struct NodeColumn {
     direct: [f64; 2],
 }
 
+/// Whether a block over two vectors is the same in all directions; of a diagonal block the lower triangle is read.
+fn is_isotropic<const B: usize>(block: &[[f64; B]; B], is_diagonal: bool) -> bool {
+    let dimension = B / 2;
+    let mut entries = (0..B).flat_map(|r| (0..B).map(move |c| (r, c)));
+    entries.all(|(r, c)| {
+        if is_diagonal && c >= r {
+            true
+        } else if r % dimension == c % dimension {
+            // The entry of the first axis over the same vectors.
+            block[r][c] == block[r - r % dimension][c - c % dimension]
+        } else {
+            block[r][c] == 0.0
+        }
+    })
+}
+
 impl NodeColumn {
     /// From the blocks of a column over two vectors, unless they depend on the direction.
     fn new<const B: usize>([diagonal, below]: &[[[f64; B]; B]; 2]) -> Option<Self> {
-        let dimension = B / 2;
-        for r in 0..B {
-            for c in 0..B {
-                // The entry of the first axis over the same vectors.
-                let (twin_r, twin_c) = (r - r % dimension, c - c % dimension);
-                let isotropic = |block: &[[f64; B]; B]| {
-                    if r % dimension == c % dimension {
-                        block[r][c] == block[twin_r][twin_c]
-                    } else {
-                        block[r][c] == 0.0
-                    }
-                };
-                if !isotropic(below) || (c < r && !isotropic(diagonal)) {
-                    return None;
-                }
-            }
+        if !(is_isotropic(diagonal, true) && is_isotropic(below, false)) {
+            return None;
         }
-        let d = dimension;
+        let d = B / 2;
         let (own, below) = (
             diagonal[d][0],
             [[below[0][0], below[0][d]], [below[d][0], below[d][d]]],
@@ -84,6 +103,61 @@ impl NodeColumn {
             below,
             direct: below.map(|row| row[0] - row[1] * own),
         })
+    }
+}
+
+impl NodeRun {
+    /// The columns of a step, if they are isotropic and the next nodes are all that is below.
+    fn new(pattern: &Pattern, step: &Step, values: &[f64]) -> Option<Self> {
+        match step {
+            Step::Chain {
+                size,
+                values: run,
+                variables,
+            } => {
+                let links = of_size!(size, B => {
+                    let blocks = values[run.clone()].as_chunks::<B>().0.as_chunks::<B>().0;
+                    let links = blocks.as_chunks::<2>().0.iter().map(NodeColumn::new);
+                    // Two vectors a node.
+                    B.is_multiple_of(2).then(|| links.collect::<Option<Vec<NodeColumn>>>()).flatten()
+                });
+                Some(Self {
+                    links: links?,
+                    last: None,
+                    start: variables.start,
+                    size: *size,
+                })
+            }
+            Step::Column(j) => {
+                let column = &pattern.columns[*j];
+                let size = column.size;
+                if !(column.rows.is_empty() && CHAINS.contains(&size)) {
+                    return None;
+                }
+                let last = of_size!(size, B => {
+                    let block = values[column.at..].as_chunks::<B>().0.as_chunks::<B>().0;
+                    let is_node = B.is_multiple_of(2) && is_isotropic(&block[0], true);
+                    is_node.then(|| block[0][B / 2][0])
+                });
+                Some(Self {
+                    links: Vec::new(),
+                    last: Some(last?),
+                    start: column.start,
+                    size,
+                })
+            }
+        }
+    }
+
+    /// Takes over the run that begins with the node that this one ends with. False where there is none.
+    fn join(&mut self, next: &Self) -> bool {
+        let end = self.start + self.links.len() * self.size;
+        let is_next = self.last.is_none() && (next.start, next.size) == (end, self.size);
+        if is_next {
+            self.links.extend(&next.links);
+            self.last = next.last;
+        }
+        is_next
     }
 }
 
@@ -109,9 +183,8 @@ impl Cholesky {
 
     /// `x <- W^-1 x`.
     pub fn forward(&self, pattern: &Pattern, x: &mut [f64]) {
-        let pieces = self.pieces.iter().enumerate();
-        for (index, _) in pieces.filter(|(_, piece)| !piece.is_identity) {
-            self.forward_piece(pattern, index, 0, x);
+        for piece in &self.pieces {
+            self.forward_piece(pattern, piece, 0, x);
         }
         scale(x, &self.inverse_roots);
     }
@@ -119,7 +192,7 @@ impl Cholesky {
     /// `x <- W^-1 x` where `x` is zero but at vertices that it was made for.
     pub fn forward_within(&self, pattern: &Pattern, reach: &Reach, x: &mut [f64]) {
         for &(piece, skipped) in &reach.pieces {
-            self.forward_piece(pattern, piece, skipped, x);
+            self.forward_piece(pattern, &self.pieces[piece], skipped, x);
         }
         for range in &reach.variables {
             scale(&mut x[range.clone()], &self.inverse_roots[range.clone()]);
@@ -127,13 +200,23 @@ impl Cholesky {
     }
 
     /// One piece, but for its first columns.
-    fn forward_piece(&self, pattern: &Pattern, index: usize, skipped: usize, x: &mut [f64]) {
-        let (piece, step) = (&self.pieces[index], &pattern.steps[index]);
-        if piece.links.is_empty() {
-            kernels::forward(pattern, &[step.skip(skipped)], &self.factors.values, x);
-        } else {
-            let x = &mut x[piece.start + skipped * piece.size..];
-            of_size!(piece.size, B => forward_links::<{ B / 2 }>(&piece.links[skipped..], x));
+    #[inline(always)]
+    fn forward_piece(&self, pattern: &Pattern, piece: &Piece, skipped: usize, x: &mut [f64]) {
+        match &piece.kind {
+            PieceKind::Identity => {}
+            PieceKind::Nodes(run) => {
+                let x = &mut x[run.start + skipped * run.size..];
+                let links = &run.links[skipped..];
+                of_size!(run.size, B => forward_links::<{ B / 2 }>(links, run.last, x));
+            }
+            PieceKind::Step(step) => {
+                let values = &self.factors.values;
+                if skipped == 0 {
+                    kernels::forward(pattern, std::slice::from_ref(step), values, x);
+                } else {
+                    kernels::forward(pattern, &[step.skip(skipped)], values, x);
+                }
+            }
         }
     }
 
@@ -151,7 +234,8 @@ impl Cholesky {
             let index = self.pieces.partition_point(|p| p.columns.end <= j);
             let piece = &self.pieces[index];
             // A column of a run reaches the next one.
-            if !piece.is_identity && reach.pieces.last().is_none_or(|(last, _)| *last < index) {
+            let is_identity = matches!(piece.kind, PieceKind::Identity);
+            if !is_identity && reach.pieces.last().is_none_or(|(last, _)| *last < index) {
                 reach.pieces.push((index, j - piece.columns.start));
             }
             let end = column.start + column.size;
@@ -168,14 +252,17 @@ impl Cholesky {
         for ((y, x), factor) in y.iter_mut().zip(x).zip(&self.inverse_roots) {
             *y = x * factor;
         }
-        let pieces = self.pieces.iter().zip(&pattern.steps).rev();
-        for (piece, step) in pieces.filter(|(piece, _)| !piece.is_identity) {
-            if piece.links.is_empty() {
-                let step = std::slice::from_ref(step);
-                kernels::backward::<f64, false>(pattern, step, &self.factors.values, y);
-            } else {
-                let y = &mut y[piece.start..];
-                of_size!(piece.size, B => backward_links::<{ B / 2 }>(&piece.links, y));
+        for piece in self.pieces.iter().rev() {
+            match &piece.kind {
+                PieceKind::Identity => {}
+                PieceKind::Nodes(run) => {
+                    let y = &mut y[run.start..];
+                    of_size!(run.size, B => backward_links::<{ B / 2 }>(&run.links, run.last, y));
+                }
+                PieceKind::Step(step) => {
+                    let step = std::slice::from_ref(step);
+                    kernels::backward::<f64, false>(pattern, step, &self.factors.values, y);
+                }
             }
         }
     }
@@ -183,70 +270,80 @@ impl Cholesky {
     /// `x <- W x`.
     pub fn multiply(&self, pattern: &Pattern, x: &mut [f64]) {
         scale(x, &self.roots);
-        for piece in self.pieces.iter().rev().filter(|piece| !piece.is_identity) {
-            if piece.links.is_empty() {
-                for column in pattern.columns[piece.columns.clone()].iter().rev() {
-                    kernels::multiply_lower(pattern, column, &self.factors.values, x);
+        for piece in self.pieces.iter().rev() {
+            match &piece.kind {
+                PieceKind::Identity => {}
+                PieceKind::Nodes(run) => {
+                    let x = &mut x[run.start..];
+                    of_size!(run.size, B => multiply_links::<{ B / 2 }>(&run.links, run.last, x));
                 }
-            } else {
-                let x = &mut x[piece.start..];
-                of_size!(piece.size, B => multiply_links::<{ B / 2 }>(&piece.links, x));
+                PieceKind::Step(_) => {
+                    for column in pattern.columns[piece.columns.clone()].iter().rev() {
+                        kernels::multiply_lower(pattern, column, &self.factors.values, x);
+                    }
+                }
             }
         }
     }
 
     /// `x <- W^T x`.
     pub fn multiply_transposed(&self, pattern: &Pattern, x: &mut [f64]) {
-        for piece in self.pieces.iter().filter(|piece| !piece.is_identity) {
-            if piece.links.is_empty() {
-                for column in &pattern.columns[piece.columns.clone()] {
-                    kernels::multiply_lower_transposed(pattern, column, &self.factors.values, x);
+        for piece in &self.pieces {
+            match &piece.kind {
+                PieceKind::Identity => {}
+                PieceKind::Nodes(run) => {
+                    let x = &mut x[run.start..];
+                    of_size!(run.size, B => {
+                        multiply_links_transposed::<{ B / 2 }>(&run.links, run.last, x);
+                    });
                 }
-            } else {
-                let x = &mut x[piece.start..];
-                of_size!(piece.size, B => multiply_links_transposed::<{ B / 2 }>(&piece.links, x));
+                PieceKind::Step(_) => {
+                    for column in &pattern.columns[piece.columns.clone()] {
+                        kernels::multiply_lower_transposed(
+                            pattern,
+                            column,
+                            &self.factors.values,
+                            x,
+                        );
+                    }
+                }
             }
         }
         scale(x, &self.roots);
     }
 }
 
-fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<StepColumns> {
+/// The pieces of a factor; a run of nodes takes in the node that it ends with where nothing is below that.
+fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
     let mut first = 0;
-    let piece = |step: &Step| {
-        let (count, links, start, size) = match step {
-            Step::Column(_) => (1, None, 0, 0),
+    for step in &pattern.steps {
+        let count = match step {
+            Step::Column(_) => 1,
             Step::Chain {
-                size,
-                values,
-                variables,
-            } => {
-                let links = of_size!(size, B => {
-                    let blocks = factors.values[values.clone()].as_chunks::<B>().0;
-                    let columns = blocks.as_chunks::<B>().0.as_chunks::<2>().0;
-                    let links = columns.iter().map(NodeColumn::new);
-                    // Two vectors a node.
-                    B.is_multiple_of(2).then(|| links.collect::<Option<Vec<NodeColumn>>>()).flatten()
-                });
-                let count = variables.len() / size;
-                (count, links, variables.start, *size)
-            }
+                size, variables, ..
+            } => variables.len() / size,
         };
         let columns = first..first + count;
         first += count;
-        let is_identity = match step {
-            Step::Column(j) => is_identity(&pattern.columns[*j], &factors.values),
-            Step::Chain { .. } => false,
-        };
-        StepColumns {
-            columns,
-            links: links.unwrap_or_default(),
-            start,
-            size,
-            is_identity,
+        let run = NodeRun::new(pattern, step, &factors.values);
+        if let (Some(next), Some(before)) = (&run, pieces.last_mut())
+            && let PieceKind::Nodes(run) = &mut before.kind
+            && run.join(next)
+        {
+            before.columns.end = columns.end;
+            continue;
         }
-    };
-    pattern.steps.iter().map(piece).collect()
+        let kind = match (run, step) {
+            (_, Step::Column(j)) if is_identity(&pattern.columns[*j], &factors.values) => {
+                PieceKind::Identity
+            }
+            (Some(run), _) => PieceKind::Nodes(run),
+            (None, step) => PieceKind::Step(step.clone()),
+        };
+        pieces.push(Piece { columns, kind });
+    }
+    pieces
 }
 
 /// Whether a column of L has nothing but ones on the diagonal.
@@ -277,7 +374,7 @@ fn less<const D: usize>(a: [f64; D], k: f64, b: [f64; D]) -> [f64; D] {
 // component, a sweep takes nearly twice the instructions.
 
 /// `x <- L^-1 x` over a run; `x` starts with its variables.
-fn forward_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
+fn forward_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &mut [f64]) {
     let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;
@@ -292,17 +389,21 @@ fn forward_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
         next[0] = p;
         node = next;
     }
-    node[1] = s;
+    node[1] = last.map_or(s, |own| less(s, own, p));
 }
 
 /// `x <- L^-T x`.
-fn backward_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
+fn backward_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &mut [f64]) {
     let nodes = &mut nodes::<D>(x)[..links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
-    let Some(last) = nodes.next() else {
+    let Some(node) = nodes.next() else {
         return;
     };
-    let [mut p, mut s] = *last;
+    let [mut p, mut s] = *node;
+    if let Some(own) = last {
+        p = less(p, own, s);
+        node[0] = p;
+    }
     for (link, node) in links.iter().rev().zip(nodes) {
         let [[_, by_p], [_, by_s]] = link.below;
         let own = less(node[0], link.own, node[1]);
@@ -314,13 +415,16 @@ fn backward_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
 }
 
 /// `x <- L x`.
-fn multiply_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
+fn multiply_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &mut [f64]) {
     let nodes = &mut nodes::<D>(x)[..links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
     let Some(mut next) = nodes.next() else {
         return;
     };
     let [mut of_p, mut of_s] = *next;
+    if let Some(own) = last {
+        of_s = plus(of_s, own, of_p);
+    }
     for (link, node) in links.iter().rev().zip(nodes) {
         let ([[pp, ps], [sp, ss]], [p, s]) = (link.below, *node);
         *next = [
@@ -334,7 +438,11 @@ fn multiply_links<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
 }
 
 /// `x <- L^T x`.
-fn multiply_links_transposed<const D: usize>(links: &[NodeColumn], x: &mut [f64]) {
+fn multiply_links_transposed<const D: usize>(
+    links: &[NodeColumn],
+    last: Option<f64>,
+    x: &mut [f64],
+) {
     let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;
@@ -348,6 +456,9 @@ fn multiply_links_transposed<const D: usize>(links: &[NodeColumn], x: &mut [f64]
         ];
         (p, s) = (next_p, next_s);
         node = next;
+    }
+    if let Some(own) = last {
+        node[0] = plus(p, own, s);
     }
 }
 

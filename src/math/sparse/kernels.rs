@@ -336,7 +336,12 @@ fn multiply_column<T: Number>(
 
 /// The part of one column in `x <- L x`; later columns come first.
 pub(super) fn multiply_lower(pattern: &Pattern, column: &Column, values: &[f64], x: &mut [f64]) {
-    let (size, start) = (column.size, column.start);
+    of_any_size!(column.size, n => lower_column(n, pattern, column, values, x));
+}
+
+#[inline(always)]
+fn lower_column(size: usize, pattern: &Pattern, column: &Column, values: &[f64], x: &mut [f64]) {
+    let start = column.start;
     let (diagonal, mut rest) = values[column.at..].split_at(size * size);
     let end = start + size;
     let (x, later) = x.split_at_mut(end);
@@ -361,7 +366,17 @@ pub(super) fn multiply_lower_transposed(
     values: &[f64],
     x: &mut [f64],
 ) {
-    let size = column.size;
+    of_any_size!(column.size, n => transposed_column(n, pattern, column, values, x));
+}
+
+#[inline(always)]
+fn transposed_column(
+    size: usize,
+    pattern: &Pattern,
+    column: &Column,
+    values: &[f64],
+    x: &mut [f64],
+) {
     let (diagonal, mut rest) = values[column.at..].split_at(size * size);
     let end = column.start + size;
     let (x, later) = x.split_at_mut(end);

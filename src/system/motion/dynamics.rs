@@ -14,8 +14,8 @@ use crate::system::{State, System, Workspace};
 pub trait Dynamics {
     /// Acceleration `a(t, q, v)`.
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]);
-    /// Power that came in from outside and that was dissipated at the last acceleration, W.
-    fn power(&self) -> [f64; 2];
+    /// Computes the power that came in from outside and that was dissipated at the last acceleration, W.
+    fn power(&mut self) -> [f64; 2];
     /// How many steps of length `h` (s) add up in a time (s), at least 1, where functions of time drive the
     /// system; 1 elsewhere. Explicit methods see the error of integrating a function of time in one step, but
     /// hardly in its acceleration: faster than the rest of the scene, it takes many steps that err alike.
@@ -32,6 +32,10 @@ pub trait Dynamics {
     }
     /// Computes `K` and `R` at a state, for the calls below.
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]);
+    /// As [`Dynamics::linearize`] at the state of the last acceleration, if no other call has moved the system since.
+    fn linearize_last(&mut self, time: f64, q: &[f64], v: &[f64]) {
+        self.linearize(time, q, v);
+    }
     /// Factors `m I + r R + K` for real weights `[m, r]` of inertia (1/s^2) and damping (1/s); false when it is not
     /// positive definite.
     fn factor(&mut self, weights: [f64; 2]) -> bool;
@@ -231,9 +235,6 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         if !system.constraints.is_empty() && (is_read || !system.constrain_tree(self.work)) {
             system.constrain(self.work);
         }
-        if system.tracks_work {
-            self.work.forces.power = system.powers(time, self.work);
-        }
         &self.work.acceleration
     }
 
@@ -370,8 +371,12 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
         self.system.to_second(self.work, a);
     }
 
-    fn power(&self) -> [f64; 2] {
-        self.work.forces.power
+    fn power(&mut self) -> [f64; 2] {
+        if self.system.tracks_work {
+            self.system.powers(self.time, self.work)
+        } else {
+            [0.0; 2]
+        }
     }
 
     fn steps_in(&self, time: f64, h: f64) -> f64 {
@@ -392,14 +397,21 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.operations += LINEARIZE;
-        let system = self.system;
-        if !(system.constraints.is_empty() && system.bodies.has_no_frames()) {
-            // Multipliers stiffen, so do forces on bodies that turn, and solves need the Jacobian here.
+        if self.system.stiffens() {
             self.accelerate(time, q, v);
         } else {
             self.place(time, q, v);
         }
-        system.assemble(time, self.work);
+        self.system.assemble(time, self.work);
+    }
+
+    fn linearize_last(&mut self, time: f64, q: &[f64], v: &[f64]) {
+        if self.work.constraints.is_without_multipliers {
+            return self.linearize(time, q, v);
+        }
+        // The count compares methods, so it does not depend on what is at hand.
+        self.operations += LINEARIZE + f64::from(u8::from(self.system.stiffens()));
+        self.system.assemble(time, self.work);
     }
 
     fn factor(&mut self, weights: [f64; 2]) -> bool {

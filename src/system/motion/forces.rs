@@ -167,6 +167,12 @@ impl<const D: usize> System<D> {
         change(1.0, &mut forces.f);
     }
 
+    /// Whether the tangent needs an acceleration: multipliers and forces on bodies that rotate stiffen, and solves need the
+    /// Jacobian.
+    pub(in crate::system) fn stiffens(&self) -> bool {
+        !(self.constraints.is_empty() && self.bodies.has_no_frames())
+    }
+
     /// Tangent at the state in `work`, with the multipliers of its last acceleration.
     pub(in crate::system) fn assemble(&self, time: f64, work: &mut Workspace<D>) {
         let assembly = &self.elimination.assembly;
@@ -274,7 +280,7 @@ impl<const D: usize> System<D> {
     /// Power that comes in through loads and motions and that is dissipated, W, at the state, forces and
     /// accelerations in place.
     pub(in crate::system) fn powers(&self, time: f64, work: &mut Workspace<D>) -> [f64; 2] {
-        if !self.drives.is_empty() {
+        if !self.driven.is_empty() {
             self.linear_constraint_forces(work);
         }
         let multiplied = self

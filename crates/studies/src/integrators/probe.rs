@@ -94,7 +94,7 @@ impl Dynamics for Probe<'_> {
         }
     }
 
-    fn power(&self) -> [f64; 2] {
+    fn power(&mut self) -> [f64; 2] {
         self.model.power()
     }
 
