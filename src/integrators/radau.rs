@@ -17,7 +17,7 @@ use super::{
     Attempt, ErrorEstimate, OneStepMethod, StateView, StateViewMut, Tolerance, dense, size,
 };
 use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
-use crate::math::sums::{Term, add, sum};
+use crate::math::sums::{Start, Term, add, mix, sum};
 use crate::system::{DenseStep, Dynamics};
 
 /// Size of the error that Newton's method leaves, in units of the tolerance.
@@ -120,10 +120,8 @@ impl Radau {
 
     /// Velocity increments of the stages from the position increments: `A^-1 z_q / h = v + z_v`.
     fn velocities(&mut self, v: &[f64], h: f64) {
-        for (stage, row) in self.zv.iter_mut().zip(&A_INVERSE) {
-            let [a, b, c] = mixed(row, 1.0 / h, &self.zq);
-            sum(stage, &[a, b, c, (-1.0, v)]);
-        }
+        let (rows, zv) = (by_rate(1.0 / h), slices_mut(&mut self.zv));
+        mix(Start::Less(v), &rows, slices(&self.zq), zv);
     }
 
     /// State of a stage.
@@ -154,9 +152,8 @@ impl Radau {
                 self.powers[stage] = dynamics.power();
             }
         }
-        for (f, row) in self.f.iter_mut().zip(&A_INVERSE) {
-            add(f, &mixed(row, -1.0 / h, &self.zv));
-        }
+        let (rows, f) = (by_rate(-1.0 / h), slices_mut(&mut self.f));
+        mix(Start::Own, &rows, slices(&self.zv), f);
         let [forward, back] = [INVERSE.as_flattened(), T.as_flattened()];
         dynamics.solve_stages(forward, back, &mut self.f);
         for (z, x) in self.zq.iter_mut().zip(&self.f) {
@@ -165,10 +162,22 @@ impl Radau {
         self.velocities(v, h);
         self.iterations += 1;
         let (mut positions, mut velocities) = (0.0, 0.0);
-        for (x, row) in self.f.iter().zip(&A_INVERSE) {
+        let Self {
+            f,
+            stage_v: first,
+            error_q: second,
+            error_v: last,
+            ..
+        } = self;
+        mix(
+            Start::Zero,
+            &by_rate(1.0 / h),
+            slices(f),
+            [first, second, last],
+        );
+        for (x, rate) in f.iter().zip([first, second, last]) {
             positions += size(x).powi(2);
-            sum(&mut self.stage_v, &mixed(row, 1.0 / h, &self.f));
-            velocities += size(&self.stage_v).powi(2);
+            velocities += size(rate).powi(2);
         }
         let size = positions.sqrt() + velocities.sqrt() * tolerance.time;
         size / (tolerance.position * tolerance.relative)
@@ -475,6 +484,19 @@ impl OneStepMethod for Radau {
     fn newton_iterations(&self) -> u64 {
         self.iterations
     }
+}
+
+/// The inverse Runge-Kutta matrix times a factor.
+fn by_rate(factor: f64) -> [[f64; 3]; 3] {
+    A_INVERSE.map(|row| row.map(|weight| factor * weight))
+}
+
+fn slices(stages: &StageVectors) -> [&[f64]; 3] {
+    stages.each_ref().map(|stage| &stage[..])
+}
+
+fn slices_mut(stages: &mut StageVectors) -> [&mut [f64]; 3] {
+    stages.each_mut().map(|stage| &mut stage[..])
 }
 
 /// Vectors of the stages, with the weights of a row times a factor.

@@ -49,6 +49,62 @@ pub fn combine<'a>(out: &mut [f64], mut terms: impl Iterator<Item = Term<'a>>) {
     go_on(is_begun, out, &few[..count]);
 }
 
+/// Where the sums of [`mix`] begin.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// At zero.
+    Zero,
+    /// At what is in place.
+    Own,
+    /// At zero, and this vector is taken out at the end.
+    Less(&'a [f64]),
+}
+
+/// `out_i = sum_j rows_ij x_j` of three vectors of one length, all in one pass where they are short.
+pub fn mix(start: Start<'_>, rows: &[[f64; 3]; 3], x: [&[f64]; 3], out: [&mut [f64]; 3]) {
+    if out[0].len() < LONG {
+        return match start {
+            Start::Zero => mix_few(rows, x, out, |_, _, sum| sum[0] + sum[1] + sum[2]),
+            Start::Own => mix_few(rows, x, out, |_, own, sum| own + sum[0] + sum[1] + sum[2]),
+            Start::Less(v) => {
+                let v = &v[..x[0].len()];
+                mix_few(rows, x, out, |k, _, sum| sum[0] + sum[1] + sum[2] - v[k]);
+            }
+        };
+    }
+    for (out, row) in out.into_iter().zip(rows) {
+        let [a, b, c] = std::array::from_fn(|j| (row[j], x[j]));
+        match start {
+            Start::Zero => sum(out, &[a, b, c]),
+            Start::Own => add(out, &[a, b, c]),
+            Start::Less(v) => sum(out, &[a, b, c, (-1.0, v)]),
+        }
+    }
+}
+
+/// [`mix`] number by number; `of` takes the place, what is there, and the products of a row.
+#[inline(always)]
+fn mix_few(
+    rows: &[[f64; 3]; 3],
+    x: [&[f64]; 3],
+    out: [&mut [f64]; 3],
+    of: impl Fn(usize, f64, [f64; 3]) -> f64,
+) {
+    let n = x[0].len();
+    let x = x.map(|x| &x[..n]);
+    let out = out.map(|out| &mut out[..n]);
+    for k in 0..n {
+        let numbers = [x[0][k], x[1][k], x[2][k]];
+        for i in 0..3 {
+            out[i][k] = of(
+                k,
+                out[i][k],
+                std::array::from_fn(|j| rows[i][j] * numbers[j]),
+            );
+        }
+    }
+}
+
 /// [`add`] where a sum is begun, [`sum`] where not.
 fn go_on(is_begun: bool, out: &mut [f64], terms: &[Term<'_>]) {
     if is_begun {

@@ -1,8 +1,20 @@
 //! Sums over slices of equal length.
 
-/// Inner product.
+/// Inner product. The sum is one, in order; four terms a pass take half the instructions of one.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let n = a.len().min(b.len());
+    let (a, a_rest) = a[..n].as_chunks::<4>();
+    let (b, b_rest) = b[..n].as_chunks::<4>();
+    let mut sum = -0.0;
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..4 {
+            sum += a[k] * b[k];
+        }
+    }
+    for (a, b) in a_rest.iter().zip(b_rest) {
+        sum += a * b;
+    }
+    sum
 }
 
 /// Inner product of few numbers: without loops where they are as many as constraints have on one body or on two.

@@ -40,11 +40,13 @@ enum PieceKind {
 /// A run of nodes.
 #[derive(Clone, Debug)]
 struct NodeRun {
+    /// Vectors of the first node by the one of a pinned node before it, where its column belongs to the run.
+    head: Option<[f64; 2]>,
     /// Columns that a next node follows.
     links: Vec<NodeColumn>,
     /// `s` by `p` of the last node, where its column belongs to the run.
     last: Option<f64>,
-    /// The first of the variables.
+    /// The first variable of the first node.
     start: usize,
     /// Variables of a column.
     size: usize,
@@ -59,7 +61,7 @@ pub struct Reach {
     pub variables: Vec<Range<usize>>,
 }
 
-/// A column of L: two vectors of a node, `p` and `s`, and those of the next one.
+/// A column of L: two vectors of a node, `p` and `s`, and those of the next one. A pinned node has one.
 #[derive(Clone, Copy, Debug)]
 struct NodeColumn {
     /// `s` by `p`.
@@ -122,37 +124,57 @@ impl NodeRun {
                     B.is_multiple_of(2).then(|| links.collect::<Option<Vec<NodeColumn>>>()).flatten()
                 });
                 Some(Self {
+                    head: None,
                     links: links?,
                     last: None,
                     start: variables.start,
                     size: *size,
                 })
             }
-            Step::Column(j) => {
-                let column = &pattern.columns[*j];
-                let size = column.size;
-                if !(column.rows.is_empty() && CHAINS.contains(&size)) {
-                    return None;
-                }
+            Step::Column(j) => Self::of_column(pattern, *j, values),
+        }
+    }
+
+    /// The last node of a run, or the pinned node before one.
+    fn of_column(pattern: &Pattern, j: usize, values: &[f64]) -> Option<Self> {
+        let column = &pattern.columns[j];
+        let size = column.size;
+        let run = |head, last, start, size| Self {
+            head,
+            links: Vec::new(),
+            last,
+            start,
+            size,
+        };
+        match &pattern.rows[column.rows.clone()] {
+            [] if CHAINS.contains(&size) => {
                 let last = of_size!(size, B => {
                     let block = values[column.at..].as_chunks::<B>().0.as_chunks::<B>().0;
                     let is_node = B.is_multiple_of(2) && is_isotropic(&block[0], true);
                     is_node.then(|| block[0][B / 2][0])
                 });
-                Some(Self {
-                    links: Vec::new(),
-                    last: Some(last?),
-                    start: column.start,
-                    size,
-                })
+                Some(run(None, Some(last?), column.start, size))
             }
+            [row] if row.column == j + 1 && row.size == 2 * size && CHAINS.contains(&row.size) => {
+                let entry = |at: usize, r: usize, c: usize| values[at + r * size + c];
+                let head = [0, size].map(|r| entry(row.at, r, 0));
+                let mut places = (0..size).flat_map(|r| (0..size).map(move |c| (r, c)));
+                let is_isotropic = places.all(|(r, c)| {
+                    let below = [0, size].map(|first| entry(row.at, first + r, c));
+                    let of = if r == c { head } else { [0.0; 2] };
+                    below == of && (c >= r || entry(column.at, r, c) == 0.0)
+                });
+                is_isotropic.then(|| run(Some(head), None, column.start + size, row.size))
+            }
+            _ => None,
         }
     }
 
     /// Takes over the run that begins with the node that this one ends with. False where there is none.
     fn join(&mut self, next: &Self) -> bool {
         let end = self.start + self.links.len() * self.size;
-        let is_next = self.last.is_none() && (next.start, next.size) == (end, self.size);
+        let is_open = self.last.is_none() && next.head.is_none();
+        let is_next = is_open && (next.start, next.size) == (end, self.size);
         if is_next {
             self.links.extend(&next.links);
             self.last = next.last;
@@ -205,9 +227,7 @@ impl Cholesky {
         match &piece.kind {
             PieceKind::Identity => {}
             PieceKind::Nodes(run) => {
-                let x = &mut x[run.start + skipped * run.size..];
-                let links = &run.links[skipped..];
-                of_size!(run.size, B => forward_links::<{ B / 2 }>(links, run.last, x));
+                of_size!(run.size, B => forward_nodes::<{ B / 2 }>(run, skipped, x));
             }
             PieceKind::Step(step) => {
                 let values = &self.factors.values;
@@ -256,8 +276,7 @@ impl Cholesky {
             match &piece.kind {
                 PieceKind::Identity => {}
                 PieceKind::Nodes(run) => {
-                    let y = &mut y[run.start..];
-                    of_size!(run.size, B => backward_links::<{ B / 2 }>(&run.links, run.last, y));
+                    of_size!(run.size, B => backward_nodes::<{ B / 2 }>(run, y));
                 }
                 PieceKind::Step(step) => {
                     let step = std::slice::from_ref(step);
@@ -274,8 +293,7 @@ impl Cholesky {
             match &piece.kind {
                 PieceKind::Identity => {}
                 PieceKind::Nodes(run) => {
-                    let x = &mut x[run.start..];
-                    of_size!(run.size, B => multiply_links::<{ B / 2 }>(&run.links, run.last, x));
+                    of_size!(run.size, B => multiply_nodes::<{ B / 2 }>(run, x));
                 }
                 PieceKind::Step(_) => {
                     for column in pattern.columns[piece.columns.clone()].iter().rev() {
@@ -292,10 +310,7 @@ impl Cholesky {
             match &piece.kind {
                 PieceKind::Identity => {}
                 PieceKind::Nodes(run) => {
-                    let x = &mut x[run.start..];
-                    of_size!(run.size, B => {
-                        multiply_links_transposed::<{ B / 2 }>(&run.links, run.last, x);
-                    });
+                    of_size!(run.size, B => multiply_nodes_transposed::<{ B / 2 }>(run, x));
                 }
                 PieceKind::Step(_) => {
                     for column in &pattern.columns[piece.columns.clone()] {
@@ -373,14 +388,20 @@ fn less<const D: usize>(a: [f64; D], k: f64, b: [f64; D]) -> [f64; D] {
 // What a node hands to the next one stays in registers, vector by vector: written back and read again component by
 // component, a sweep takes nearly twice the instructions.
 
-/// `x <- L^-1 x` over a run; `x` starts with its variables.
-fn forward_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &mut [f64]) {
+/// `x <- L^-1 x` over a run, but for its first columns.
+fn forward_nodes<const D: usize>(run: &NodeRun, skipped: usize, x: &mut [f64]) {
+    let first = skipped.saturating_sub(usize::from(run.head.is_some()));
+    let (before, x) = x.split_at_mut(run.start + first * run.size);
     let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;
     };
     let [mut p, mut s] = *node;
-    for (link, next) in links.iter().zip(nodes) {
+    if let (0, Some([to_p, to_s]), Some(head)) = (skipped, run.head, before.last_chunk()) {
+        (p, s) = (less(p, to_p, *head), less(s, to_s, *head));
+        node[0] = p;
+    }
+    for (link, next) in run.links[first..].iter().zip(nodes) {
         let [[_, by_p], [_, by_s]] = link.below;
         node[1] = less(s, link.own, p);
         let of_p = less(less(next[0], by_p, s), link.direct[0], p);
@@ -389,22 +410,23 @@ fn forward_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &mu
         next[0] = p;
         node = next;
     }
-    node[1] = last.map_or(s, |own| less(s, own, p));
+    node[1] = run.last.map_or(s, |own| less(s, own, p));
 }
 
 /// `x <- L^-T x`.
-fn backward_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &mut [f64]) {
-    let nodes = &mut nodes::<D>(x)[..links.len() + 1];
+fn backward_nodes<const D: usize>(run: &NodeRun, x: &mut [f64]) {
+    let (before, x) = x.split_at_mut(run.start);
+    let nodes = &mut nodes::<D>(x)[..run.links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
     let Some(node) = nodes.next() else {
         return;
     };
     let [mut p, mut s] = *node;
-    if let Some(own) = last {
+    if let Some(own) = run.last {
         p = less(p, own, s);
         node[0] = p;
     }
-    for (link, node) in links.iter().rev().zip(nodes) {
+    for (link, node) in run.links.iter().rev().zip(nodes) {
         let [[_, by_p], [_, by_s]] = link.below;
         let own = less(node[0], link.own, node[1]);
         let of_p = less(less(own, link.direct[0], p), link.direct[1], s);
@@ -412,20 +434,24 @@ fn backward_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &m
         p = of_p;
         *node = [p, s];
     }
+    if let (Some([to_p, to_s]), Some(head)) = (run.head, before.last_chunk_mut()) {
+        *head = less(less(*head, to_p, p), to_s, s);
+    }
 }
 
 /// `x <- L x`.
-fn multiply_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &mut [f64]) {
-    let nodes = &mut nodes::<D>(x)[..links.len() + 1];
+fn multiply_nodes<const D: usize>(run: &NodeRun, x: &mut [f64]) {
+    let (before, x) = x.split_at_mut(run.start);
+    let nodes = &mut nodes::<D>(x)[..run.links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
     let Some(mut next) = nodes.next() else {
         return;
     };
     let [mut of_p, mut of_s] = *next;
-    if let Some(own) = last {
+    if let Some(own) = run.last {
         of_s = plus(of_s, own, of_p);
     }
-    for (link, node) in links.iter().rev().zip(nodes) {
+    for (link, node) in run.links.iter().rev().zip(nodes) {
         let ([[pp, ps], [sp, ss]], [p, s]) = (link.below, *node);
         *next = [
             plus(plus(of_p, pp, p), ps, s),
@@ -434,21 +460,24 @@ fn multiply_links<const D: usize>(links: &[NodeColumn], last: Option<f64>, x: &m
         (of_p, of_s) = (p, plus(s, link.own, p));
         next = node;
     }
+    if let (Some([to_p, to_s]), Some(head)) = (run.head, before.last_chunk()) {
+        (of_p, of_s) = (plus(of_p, to_p, *head), plus(of_s, to_s, *head));
+    }
     *next = [of_p, of_s];
 }
 
 /// `x <- L^T x`.
-fn multiply_links_transposed<const D: usize>(
-    links: &[NodeColumn],
-    last: Option<f64>,
-    x: &mut [f64],
-) {
+fn multiply_nodes_transposed<const D: usize>(run: &NodeRun, x: &mut [f64]) {
+    let (before, x) = x.split_at_mut(run.start);
     let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;
     };
     let [mut p, mut s] = *node;
-    for (link, next) in links.iter().zip(nodes) {
+    if let (Some([to_p, to_s]), Some(head)) = (run.head, before.last_chunk_mut()) {
+        *head = plus(plus(*head, to_p, p), to_s, s);
+    }
+    for (link, next) in run.links.iter().zip(nodes) {
         let ([[pp, ps], [sp, ss]], [next_p, next_s]) = (link.below, *next);
         *node = [
             plus(plus(plus(p, link.own, s), pp, next_p), sp, next_s),
@@ -457,7 +486,7 @@ fn multiply_links_transposed<const D: usize>(
         (p, s) = (next_p, next_s);
         node = next;
     }
-    if let Some(own) = last {
+    if let Some(own) = run.last {
         node[0] = plus(p, own, s);
     }
 }

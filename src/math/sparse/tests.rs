@@ -180,50 +180,51 @@ fn counts_negative_pivots_and_refuses_zero_ones() {
     );
 }
 
+/// Checks all products and solves with the factor of a matrix.
+fn check_cholesky(pattern: &Pattern, (a, dense): (&Matrix<f64>, &DMatrix<f64>), seed: usize) {
+    let mut random = Random(seed as u64);
+    let w = Cholesky::new(pattern, a).expect("positive definite");
+    let lower = nalgebra::Cholesky::new(dense.clone())
+        .expect("positive definite")
+        .l();
+    let x = DVector::from_fn(pattern.len(), |_, _| random.number());
+    let mut y = x.as_slice().to_vec();
+    w.multiply_transposed(pattern, &mut y);
+    let transposed = lower.transpose() * &x;
+    assert!(error(&y, transposed.as_slice()) < 1e-12, "graph {seed}");
+    w.multiply(pattern, &mut y);
+    assert!(error(&y, (dense * &x).as_slice()) < 1e-12, "graph {seed}");
+    let order = pattern.order();
+    for (first, count) in (0..order.len()).flat_map(|first| [(first, 1), (first, 2)]) {
+        let vertices: Vec<usize> = (0..count)
+            .map(|k| order[(first + k) % order.len()])
+            .collect();
+        let mut part = vec![0.0; pattern.len()];
+        for v in &vertices {
+            part[pattern.range(*v)].fill_with(|| random.number());
+        }
+        let mut whole = part.clone();
+        w.forward(pattern, &mut whole);
+        w.forward_within(pattern, &w.reach(pattern, &vertices), &mut part);
+        assert!(
+            error(&part, &whole) < 1e-15,
+            "vertices {vertices:?}, graph {seed}"
+        );
+    }
+    w.forward(pattern, &mut y);
+    assert!(error(&y, transposed.as_slice()) < 1e-12, "graph {seed}");
+    let z = y.clone();
+    w.backward(pattern, &z, &mut y);
+    assert!(error(&y, x.as_slice()) < 1e-13, "graph {seed}");
+}
+
 #[test]
 fn cholesky_factors_multiply_and_solve() {
     for (g, graph) in graphs().iter().enumerate() {
         let pattern = Pattern::new(&graph.0, &graph.1);
         let mut random = Random(g as u64);
         let (a, dense) = matrix(graph, &pattern, &mut random, |re, _| re, 70.0);
-        let w = Cholesky::new(&pattern, &a).expect("positive definite");
-        let lower = nalgebra::Cholesky::new(dense.clone())
-            .expect("positive definite")
-            .l();
-        let x = DVector::from_fn(pattern.len(), |_, _| random.number());
-        let mut y = x.as_slice().to_vec();
-        w.multiply_transposed(&pattern, &mut y);
-        assert!(
-            error(&y, (lower.transpose() * &x).as_slice()) < 1e-12,
-            "graph {g}"
-        );
-        w.multiply(&pattern, &mut y);
-        assert!(error(&y, (&dense * &x).as_slice()) < 1e-12, "graph {g}");
-        let order = pattern.order();
-        for count in [1, 2].into_iter().filter(|_| !order.is_empty()) {
-            let vertices: Vec<usize> = (0..count)
-                .map(|k| order[(7 * g + k) % order.len()])
-                .collect();
-            let mut part = vec![0.0; pattern.len()];
-            for v in &vertices {
-                part[pattern.range(*v)].fill_with(|| random.number());
-            }
-            let mut whole = part.clone();
-            w.forward(&pattern, &mut whole);
-            w.forward_within(&pattern, &w.reach(&pattern, &vertices), &mut part);
-            assert!(
-                error(&part, &whole) < 1e-15,
-                "vertices {vertices:?}, graph {g}"
-            );
-        }
-        w.forward(&pattern, &mut y);
-        assert!(
-            error(&y, (lower.transpose() * &x).as_slice()) < 1e-12,
-            "graph {g}"
-        );
-        let z = y.clone();
-        w.backward(&pattern, &z, &mut y);
-        assert!(error(&y, x.as_slice()) < 1e-13, "graph {g}");
+        check_cholesky(&pattern, (&a, &dense), g);
     }
     let pattern = Pattern::new(&[2], &[]);
     assert!(
@@ -235,6 +236,50 @@ fn cholesky_factors_multiply_and_solve() {
         )
         .is_none()
     );
+}
+
+/// Matrices that are the same in all directions, as masses of cables are: nodes of two vectors, and of one where a node is
+/// pinned, in chains and apart.
+#[test]
+fn cholesky_factors_of_isotropic_matrices_multiply_and_solve() {
+    let chain = |n: usize| (1..n).map(|v| (v - 1, v)).collect::<Vec<_>>();
+    let graphs = [
+        (vec![2], vec![]),
+        (vec![1, 2], chain(2)),
+        (vec![1, 2, 2, 2], chain(4)),
+        (vec![2, 2, 2, 2, 1], chain(5)),
+        (vec![1, 2, 2, 3, 2, 2, 1], chain(7)),
+        (vec![1, 2, 2, 1, 2], [chain(3), vec![(3, 4)]].concat()),
+    ];
+    for (g, graph) in graphs.iter().enumerate() {
+        let mut random = Random(g as u64);
+        let single = Pattern::new(&graph.0, &graph.1);
+        let (_, numbers) = matrix(graph, &single, &mut random, |re, _| re, 70.0);
+        for axes in 1..4 {
+            let sizes: Vec<usize> = graph.0.iter().map(|size| axes * size).collect();
+            let pattern = Pattern::new(&sizes, &graph.1);
+            let n = pattern.len();
+            let dense = DMatrix::from_fn(n, n, |i, j| {
+                let is_along = i % axes == j % axes;
+                if is_along {
+                    numbers[(i / axes, j / axes)]
+                } else {
+                    0.0
+                }
+            });
+            let mut a = Matrix::zeros(&pattern);
+            let own = (0..sizes.len()).map(|v| (v, v));
+            for (v, w) in graph.1.iter().copied().chain(own) {
+                let slot = pattern.slot(v, w).expect("stored");
+                for (r, i) in pattern.range(v).enumerate() {
+                    for (c, j) in pattern.range(w).enumerate() {
+                        a.values[slot.entry(r, c)] = dense[(i, j)];
+                    }
+                }
+            }
+            check_cholesky(&pattern, (&a, &dense), g);
+        }
+    }
 }
 
 #[test]
