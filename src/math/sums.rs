@@ -64,12 +64,9 @@ pub enum Start<'a> {
 pub fn mix(start: Start<'_>, rows: &[[f64; 3]; 3], x: [&[f64]; 3], out: [&mut [f64]; 3]) {
     if out[0].len() < LONG {
         return match start {
-            Start::Zero => mix_few(rows, x, out, |_, _, sum| sum[0] + sum[1] + sum[2]),
-            Start::Own => mix_few(rows, x, out, |_, own, sum| own + sum[0] + sum[1] + sum[2]),
-            Start::Less(v) => {
-                let v = &v[..x[0].len()];
-                mix_few(rows, x, out, |k, _, sum| sum[0] + sum[1] + sum[2] - v[k]);
-            }
+            Start::Zero => mix_few(rows, x, x[0], out, |_, _, [a, b, c]| a + b + c),
+            Start::Own => mix_few(rows, x, x[0], out, |own, _, [a, b, c]| own + a + b + c),
+            Start::Less(v) => mix_few(rows, x, v, out, |_, v, [a, b, c]| a + b + c - v),
         };
     }
     for (out, row) in out.into_iter().zip(rows) {
@@ -82,25 +79,37 @@ pub fn mix(start: Start<'_>, rows: &[[f64; 3]; 3], x: [&[f64]; 3], out: [&mut [f
     }
 }
 
-/// [`mix`] number by number; `of` takes the place, what is there, and the products of a row.
+/// [`mix`], two numbers at a time. `of` takes what is in place, a number of `v`, and the products of a row.
 #[inline(always)]
 fn mix_few(
     rows: &[[f64; 3]; 3],
     x: [&[f64]; 3],
+    v: &[f64],
     out: [&mut [f64]; 3],
-    of: impl Fn(usize, f64, [f64; 3]) -> f64,
+    of: impl Fn(f64, f64, [f64; 3]) -> f64,
 ) {
     let n = x[0].len();
-    let x = x.map(|x| &x[..n]);
-    let out = out.map(|out| &mut out[..n]);
-    for k in 0..n {
-        let numbers = [x[0][k], x[1][k], x[2][k]];
+    let x = x.map(|x| x[..n].as_chunks::<2>());
+    let (v, v_last) = v[..n].as_chunks::<2>();
+    let out = out.map(|out| out[..n].as_chunks_mut::<2>());
+    let number = |row: &[f64; 3], own: f64, v: f64, x: [f64; 3]| {
+        of(own, v, std::array::from_fn(|j| row[j] * x[j]))
+    };
+    let pairs = x.map(|(x, _)| &x[..v.len()]);
+    let [(a, a_last), (b, b_last), (c, c_last)] = out;
+    let sums = [a, b, c].map(|out| &mut out[..v.len()]);
+    for k in 0..v.len() {
+        let x = pairs.map(|x| x[k]);
         for i in 0..3 {
-            out[i][k] = of(
-                k,
-                out[i][k],
-                std::array::from_fn(|j| rows[i][j] * numbers[j]),
-            );
+            let own = sums[i][k];
+            sums[i][k] =
+                std::array::from_fn(|l| number(&rows[i], own[l], v[k][l], x.map(|x| x[l])));
+        }
+    }
+    if let [v] = v_last {
+        let x = x.map(|(_, last)| last[0]);
+        for (row, out) in rows.iter().zip([a_last, b_last, c_last]) {
+            out[0] = number(row, out[0], *v, x);
         }
     }
 }
@@ -192,6 +201,30 @@ mod tests {
                     let expected: f64 = terms.iter().map(|(weight, x)| weight * x[i]).sum();
                     assert_eq!(*out, 2.0 * expected);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn stages_are_mixed_as_by_sums_of_rows() {
+        let rows = [[1.0, -2.0, 3.0], [0.5, 0.0, 7.0], [-1.0, 4.0, 0.25]];
+        for n in 0..2 * LONG as u32 {
+            let vector = |k: u32| (0..n).map(|i| f64::from(i + k * k)).collect::<Vec<f64>>();
+            let (x, v) = ([1, 5, 9].map(vector), vector(3));
+            let slices = x.each_ref().map(|x| &x[..]);
+            for start in [Start::Zero, Start::Own, Start::Less(&v)] {
+                let mut out = [2, 4, 6].map(vector);
+                let mut expected = out.clone();
+                mix(start, &rows, slices, out.each_mut().map(|out| &mut out[..]));
+                for (expected, row) in expected.iter_mut().zip(&rows) {
+                    let [a, b, c] = std::array::from_fn(|j| (row[j], slices[j]));
+                    match start {
+                        Start::Zero => sum(expected, &[a, b, c]),
+                        Start::Own => add(expected, &[a, b, c]),
+                        Start::Less(v) => sum(expected, &[a, b, c, (-1.0, v)]),
+                    }
+                }
+                assert_eq!(out, expected);
             }
         }
     }

@@ -406,7 +406,8 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     }
 
     fn linearize_last(&mut self, time: f64, q: &[f64], v: &[f64]) {
-        if self.work.constraints.is_without_multipliers {
+        // A search for a slide ends closer to it when it begins at what it found.
+        if self.work.constraints.is_without_multipliers || !self.system.slides.is_empty() {
             return self.linearize(time, q, v);
         }
         // The count compares methods, so it does not depend on what is at hand.
