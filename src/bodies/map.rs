@@ -16,7 +16,7 @@ use crate::math::rotation::Quaternion;
 pub struct Rotations {
     /// Rotations of rigid bodies of space and of reduced bodies, `[rigid bodies + reduced bodies]`.
     pub(super) rigid: Vec<RotationIncrement>,
-    /// What follows from the amplitudes of reduced bodies, `[reduced bodies]`.
+    /// Numbers that follow from the amplitudes of reduced bodies, `[reduced bodies]`.
     pub(super) reduced: Vec<ModalState>,
     /// States of section frames, `[section frames]`.
     pub(super) sections: Vec<SectionFrameState>,

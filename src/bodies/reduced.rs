@@ -38,7 +38,7 @@ pub struct ReducedBody {
     places: Vec<(usize, f64)>,
 }
 
-/// What follows from the amplitudes of a body.
+/// Numbers that follow from the amplitudes of a body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ModalState {
     scale: SpinScale,

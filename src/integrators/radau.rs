@@ -17,7 +17,7 @@ use super::{
     Attempt, ErrorEstimate, OneStepMethod, StateView, StateViewMut, Tolerance, dense, size,
 };
 use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
-use crate::math::sums::{Start, Term, add, mix, sum};
+use crate::math::sums::{SumStart, Term, add, mix, sum};
 use crate::system::{DenseStep, Dynamics};
 
 /// Size of the error that Newton's method leaves, in units of the tolerance.
@@ -121,7 +121,7 @@ impl Radau {
     /// Velocity increments of the stages from the position increments: `A^-1 z_q / h = v + z_v`.
     fn velocities(&mut self, v: &[f64], h: f64) {
         let (rows, zv) = (by_rate(1.0 / h), slices_mut(&mut self.zv));
-        mix(Start::Less(v), &rows, slices(&self.zq), zv);
+        mix(SumStart::Less(v), &rows, slices(&self.zq), zv);
     }
 
     /// State of a stage.
@@ -153,7 +153,7 @@ impl Radau {
             }
         }
         let (rows, f) = (by_rate(-1.0 / h), slices_mut(&mut self.f));
-        mix(Start::Own, &rows, slices(&self.zv), f);
+        mix(SumStart::Own, &rows, slices(&self.zv), f);
         let [forward, back] = [INVERSE.as_flattened(), T.as_flattened()];
         dynamics.solve_stages(forward, back, &mut self.f);
         for (z, x) in self.zq.iter_mut().zip(&self.f) {
@@ -170,7 +170,7 @@ impl Radau {
             ..
         } = self;
         mix(
-            Start::Zero,
+            SumStart::Zero,
             &by_rate(1.0 / h),
             slices(f),
             [first, second, last],

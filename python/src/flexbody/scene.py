@@ -103,7 +103,7 @@ DampingRatioNumber = TypeAliasType(
     Annotated[StrictFloat, Field(ge=0.0, title="DampingRatioNumber")],
 )
 """
-The same of all modes.
+One ratio of all modes.
 """
 
 
@@ -1487,8 +1487,8 @@ Profile = TypeAliasType(
     "Profile", Annotated[Rectangle | Ellipse | Circle | Tube, under_one_of("rectangle", "ellipse", "circle", "tube")]
 )
 """
-Shape of a massive cross section, its centre on the line of the body. Axes are those of the section of a rod; a cable in
-the plane has the first across the plane, so that its height lies in it.
+Shape of a cross section, from which its numbers follow. Its centre is on the line of the body. Axes are those of the section of a rod; a
+cable in the plane has the first across the plane, so that its height lies in it.
 """
 
 
@@ -2941,8 +2941,8 @@ class ForceLoad(Part):
 
 class MomentLoad(Part):
     """
-    Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow,
-    and its work then depends on the way that the body turns.
+    Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow. A moment in
+    space is not conservative: its work depends on the path of the rotation.
     """
 
     name: StrictStr
@@ -3008,7 +3008,7 @@ class DistributedForceLoad(Part):
 class DistributedMomentLoad(Part):
     """
     Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
-    global axes where it does not follow, and its work then depends on the way that sections turn.
+    global axes where it does not follow. In space it is not conservative: its work depends on the path of the rotations.
     """
 
     name: StrictStr
@@ -3095,7 +3095,7 @@ Load = TypeAliasType(
     ],
 )
 """
-A load that is known in the scene.
+A load as written in the scene, with its name.
 """
 
 

@@ -56,7 +56,7 @@ impl<N: Number> Tilt<N> {
 }
 
 impl ReducedBody {
-    /// What follows from amplitudes in `x` is written into `x` and into a state.
+    /// Writes the numbers that follow from the amplitudes in `x` into `x` and into a state.
     pub(super) fn place_derived<const D: usize>(&self, state: &mut ModalState, x: &mut [Node<D>]) {
         let (before, derived) = x.split_at_mut(self.derived());
         let eta = self.amplitudes(before);
@@ -71,7 +71,7 @@ impl ReducedBody {
         scale.copy_from_slice(&state.scale.0);
     }
 
-    /// Rates of what follows from amplitudes, whose rates stand in `v`.
+    /// Writes the rates of the numbers that follow from amplitudes, whose rates stand in `v`.
     pub(super) fn place_derived_rates<const D: usize, N: Number>(
         &self,
         x: &[Node<D, N>],

@@ -3,6 +3,9 @@
 //! With spin `w` along the axes and rates `eta'` the kinetic energy is `(w^T J w + 2 w^T h eta' + eta'^T eta') / 2`, with
 //! `J = J0 + sum J1_k eta_k + sum J2_kl eta_k eta_l` and `h_k = sum_l N_lk eta_l`. In the rates `nu = S w`, `zeta = eta' + h^T w` with
 //! `S^T J0 S = J - h h^T` it is `(nu^T J0 nu + zeta^T zeta) / 2`: constant.
+//!
+//! Source: R. Schwertassek, O. Wallrapp, Dynamik flexibler Mehrkörpersysteme (1999), chapter 6 (inertia in modes); J. Wittenburg, Dynamics
+//! of Multibody Systems, 2nd ed. (2008), section 2.2 (quasi-velocities).
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,5 +1,8 @@
 //! Strain energy of a reduced model: `1/2 sum lambda_m e_m^2`, `e_m = eta_m - 1/2 sum theta^m_kl eta_k eta_l`. A pair of amplitudes changes
 //! the strain of every mode that is at least as stiff, so that every triple of modes counts once.
+//!
+//! Source: S. R. Idelsohn, A. Cardona, A reduction method for nonlinear structural dynamic analysis, Comput. Methods Appl. Mech. Eng. 49
+//! (1985) 253-279 (derivatives of modes).
 
 use super::{PAIRED, ReducedModel};
 use crate::math::jet::Number;
@@ -14,7 +17,7 @@ pub struct ModalStrain {
 }
 
 impl ModalStrain {
-    /// That of a model.
+    /// Strain energy of a model.
     pub fn new(model: &ReducedModel) -> Self {
         let paired = model.paired;
         let weight = |at: usize| {

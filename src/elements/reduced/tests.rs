@@ -1,4 +1,6 @@
 //! Reduced models against all their points, and their derivatives against differences.
+//!
+//! Source: Newton's law for every point, written here anew.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 

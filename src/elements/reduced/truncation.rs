@@ -1,11 +1,14 @@
 //! Reduced models of fewer modes.
+//!
+//! Source: R. R. Craig, M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA Journal 6 (1968) 1313-1319 (modes and static
+//! shapes).
 
 use nalgebra::Vector3;
 
 use super::{Interface, ReducedModel};
 
 impl ReducedModel {
-    /// The same model with its first modes alone. What second-order displacements leave to a mode that is cut off, as energy, they take back:
+    /// Returns the model with its first modes alone. What second-order displacements leave to a mode that is cut off, as energy, they take back:
     /// `u_kl -= 2 psi_m T_mkl / lambda_m`, `J2_kl -= T_mkl J1_m / lambda_m`.
     #[must_use]
     pub fn truncated(&self, modes: usize) -> Self {
