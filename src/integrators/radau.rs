@@ -17,7 +17,7 @@ use super::{
     Attempt, ErrorEstimate, OneStepMethod, StateView, StateViewMut, Tolerance, dense, size,
 };
 use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
-use crate::math::sums::{SumStart, Term, add, mix, sum};
+use crate::math::sums::{MixStart, Term, add, mix, sum};
 use crate::system::{DenseStep, Dynamics};
 
 /// Size of the error that Newton's method leaves, in units of the tolerance.
@@ -121,7 +121,7 @@ impl Radau {
     /// Velocity increments of the stages from the position increments: `A^-1 z_q / h = v + z_v`.
     fn velocities(&mut self, v: &[f64], h: f64) {
         let (rows, zv) = (by_rate(1.0 / h), slices_mut(&mut self.zv));
-        mix(SumStart::Less(v), &rows, slices(&self.zq), zv);
+        mix(MixStart::Less(v), &rows, slices(&self.zq), zv);
     }
 
     /// State of a stage.
@@ -148,12 +148,12 @@ impl Radau {
             let at = time + C[stage] * h;
             dynamics.acceleration(at, &self.stage_q, &self.stage_v, &mut self.f[stage]);
             dynamics.set_stage(stage);
-            if stage != END && !dynamics.dissipates() {
+            if stage != END {
                 self.powers[stage] = dynamics.power();
             }
         }
         let (rows, f) = (by_rate(-1.0 / h), slices_mut(&mut self.f));
-        mix(SumStart::Own, &rows, slices(&self.zv), f);
+        mix(MixStart::Own, &rows, slices(&self.zv), f);
         let [forward, back] = [INVERSE.as_flattened(), T.as_flattened()];
         dynamics.solve_stages(forward, back, &mut self.f);
         for (z, x) in self.zq.iter_mut().zip(&self.f) {
@@ -170,7 +170,7 @@ impl Radau {
             ..
         } = self;
         mix(
-            SumStart::Zero,
+            MixStart::Zero,
             &by_rate(1.0 / h),
             slices(f),
             [first, second, last],
@@ -438,6 +438,8 @@ impl OneStepMethod for Radau {
             self.tangent = false;
             return fail(self, factor);
         }
+        // The last acceleration was that of the last stage.
+        self.powers[END] = dynamics.power();
         self.place(END, q, v);
         if dynamics.largest_rotation(q, &self.stage_q) > LARGEST_ROTATION {
             return fail(self, 0.5);

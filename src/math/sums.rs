@@ -51,7 +51,7 @@ pub fn combine<'a>(out: &mut [f64], mut terms: impl Iterator<Item = Term<'a>>) {
 
 /// Where the sums of [`mix`] begin.
 #[derive(Clone, Copy, Debug)]
-pub enum SumStart<'a> {
+pub enum MixStart<'a> {
     /// At zero.
     Zero,
     /// At what is in place.
@@ -61,20 +61,20 @@ pub enum SumStart<'a> {
 }
 
 /// `out_i = sum_j rows_ij x_j` of three vectors of one length, all in one pass where they are short.
-pub fn mix(start: SumStart<'_>, rows: &[[f64; 3]; 3], x: [&[f64]; 3], out: [&mut [f64]; 3]) {
+pub fn mix(start: MixStart<'_>, rows: &[[f64; 3]; 3], x: [&[f64]; 3], out: [&mut [f64]; 3]) {
     if out[0].len() < LONG {
         return match start {
-            SumStart::Zero => mix_few(rows, x, x[0], out, |_, _, [a, b, c]| a + b + c),
-            SumStart::Own => mix_few(rows, x, x[0], out, |own, _, [a, b, c]| own + a + b + c),
-            SumStart::Less(v) => mix_few(rows, x, v, out, |_, v, [a, b, c]| a + b + c - v),
+            MixStart::Zero => mix_few(rows, x, x[0], out, |_, _, [a, b, c]| a + b + c),
+            MixStart::Own => mix_few(rows, x, x[0], out, |own, _, [a, b, c]| own + a + b + c),
+            MixStart::Less(v) => mix_few(rows, x, v, out, |_, v, [a, b, c]| a + b + c - v),
         };
     }
     for (out, row) in out.into_iter().zip(rows) {
         let [a, b, c] = std::array::from_fn(|j| (row[j], x[j]));
         match start {
-            SumStart::Zero => sum(out, &[a, b, c]),
-            SumStart::Own => add(out, &[a, b, c]),
-            SumStart::Less(v) => sum(out, &[a, b, c, (-1.0, v)]),
+            MixStart::Zero => sum(out, &[a, b, c]),
+            MixStart::Own => add(out, &[a, b, c]),
+            MixStart::Less(v) => sum(out, &[a, b, c, (-1.0, v)]),
         }
     }
 }
@@ -212,16 +212,16 @@ mod tests {
             let vector = |k: u32| (0..n).map(|i| f64::from(i + k * k)).collect::<Vec<f64>>();
             let (x, v) = ([1, 5, 9].map(vector), vector(3));
             let slices = x.each_ref().map(|x| &x[..]);
-            for start in [SumStart::Zero, SumStart::Own, SumStart::Less(&v)] {
+            for start in [MixStart::Zero, MixStart::Own, MixStart::Less(&v)] {
                 let mut out = [2, 4, 6].map(vector);
                 let mut expected = out.clone();
                 mix(start, &rows, slices, out.each_mut().map(|out| &mut out[..]));
                 for (expected, row) in expected.iter_mut().zip(&rows) {
                     let [a, b, c] = std::array::from_fn(|j| (row[j], slices[j]));
                     match start {
-                        SumStart::Zero => sum(expected, &[a, b, c]),
-                        SumStart::Own => add(expected, &[a, b, c]),
-                        SumStart::Less(v) => sum(expected, &[a, b, c, (-1.0, v)]),
+                        MixStart::Zero => sum(expected, &[a, b, c]),
+                        MixStart::Own => add(expected, &[a, b, c]),
+                        MixStart::Less(v) => sum(expected, &[a, b, c, (-1.0, v)]),
                     }
                 }
                 assert_eq!(out, expected);
