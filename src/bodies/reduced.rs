@@ -122,6 +122,21 @@ impl ReducedBody {
         self.frame.node + 2 + 2 * index
     }
 
+    /// Largest displacement of an interface against the axes, relative to the size of the body, and largest rotation of one, rad.
+    pub fn deformation<const D: usize>(&self, x: &[Node<D>]) -> [f64; 2] {
+        let (eta, interfaces) = (self.amplitudes(x), &self.model.interfaces);
+        let reach = interfaces.iter().map(|of| of.position.norm());
+        let size = 2.0 * reach.fold(self.frame.gyration(), f64::max);
+        let moved = interfaces
+            .iter()
+            .map(|of| (of.place(eta, self.model.paired) - of.position).norm());
+        let rotated = interfaces.iter().map(|of| of.turn(eta).norm());
+        [
+            moved.fold(0.0, f64::max) / size,
+            rotated.fold(0.0, f64::max),
+        ]
+    }
+
     /// First nodes of its frames.
     pub(super) fn sites(&self) -> impl Iterator<Item = (usize, Site)> {
         let interfaces = 0..self.model.interfaces.len();

@@ -4,8 +4,8 @@ use super::engine::{Engine, InitialWarnings, OperatingPoint};
 use super::inputs::Inputs;
 use super::watch::Doubtful;
 use super::{
-    Error, NoPropeller, Pose, Quantity, RedundantNames, Report, Singular, Spectra, StepFailure,
-    Unresolved, Variable,
+    Error, NoPropeller, OverDeformed, Pose, Quantity, RedundantNames, Report, Singular, Spectra,
+    StepFailure, Unresolved, Variable,
 };
 use crate::scene::{Error as SceneError, LoadId, Resolved, Scene};
 use crate::system::{Mode, State};
@@ -54,6 +54,7 @@ handed_on! {
     fn next_singular([&mut] self) -> Option<Singular>;
     fn next_unresolved([&mut] self) -> Option<Unresolved<'_>>;
     fn next_without_propeller([&mut] self) -> Option<NoPropeller<'_>>;
+    fn next_over_deformed([&mut] self) -> Option<OverDeformed<'_>>;
     fn fits([&] self, state: &State) -> bool;
     fn forget([&mut] self);
     fn inputs_changed([&mut] self, inputs: &Inputs);

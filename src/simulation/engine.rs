@@ -1,5 +1,6 @@
 //! A system with its scratch, integrator and evaluated outputs.
 
+use super::deformed::DeformationWatch;
 use super::inputs::Inputs;
 use super::mesh::MeshWatch;
 use super::modes::in_words;
@@ -58,6 +59,8 @@ pub(super) struct Engine<const D: usize> {
     pub(super) watch: Watch,
     pub(super) mesh: MeshWatch,
     pub(super) propeller: PropellerWatch,
+    /// Reduced bodies and how far they deform.
+    pub(super) deformation: DeformationWatch,
     /// Numbers of natural frequencies and of eigenvalues wanted.
     wanted: [usize; 2],
     /// Whether inputs that jump do work on springs.
@@ -131,6 +134,7 @@ impl<const D: usize> Engine<D> {
             watch,
             mesh: MeshWatch::default(),
             propeller: PropellerWatch::new(resolved),
+            deformation: DeformationWatch::new(resolved),
             derivatives: None,
             derived: Derived::Nothing,
             wanted: Spectra::wanted(variables),
@@ -298,6 +302,7 @@ impl<const D: usize> Engine<D> {
         self.forget();
         self.watch_mesh(state, inputs);
         self.watch_propeller(state, inputs);
+        self.watch_deformation(state, inputs);
         let report = Report {
             method: self.methods.name(&state.pace),
             steps: counts.steps,

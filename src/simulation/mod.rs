@@ -2,6 +2,7 @@
 //! communication point. What an FMU does, without FMI.
 
 mod curves;
+mod deformed;
 mod derivatives;
 mod dimension;
 mod engine;
@@ -27,6 +28,7 @@ mod variables;
 mod warnings;
 mod watch;
 
+pub use deformed::OverDeformed;
 pub use dimension::check;
 pub use fast::TooFast;
 pub use mesh::Unresolved;

@@ -1,7 +1,8 @@
 //! What there is to tell of a simulation beside its values: of its start, of its constraints and of its steps.
 
 use super::{
-    AnyEngine, Doubtful, NoPropeller, RedundantNames, Simulation, Singular, TooFast, Unresolved,
+    AnyEngine, Doubtful, NoPropeller, OverDeformed, RedundantNames, Simulation, Singular, TooFast,
+    Unresolved,
 };
 
 impl Simulation {
@@ -64,6 +65,12 @@ impl Simulation {
         engine.and_then(AnyEngine::next_without_propeller)
     }
 
+    /// The next reduced body whose deformation has left the range of its model; each is told once.
+    pub fn next_over_deformed(&mut self) -> Option<OverDeformed<'_>> {
+        let engine = self.engine.as_mut();
+        engine.and_then(AnyEngine::next_over_deformed)
+    }
+
     /// Tells all that the steps so far give reason to warn of and that was not told of before, in words: outputs that the tolerance does not
     /// reach, functions of time that are too fast, prescribed motions whose rates were never set, singular positions, a mesh that is too coarse.
     pub fn tell_warnings(&mut self, mut tell: impl FnMut(std::fmt::Arguments<'_>)) {
@@ -74,6 +81,9 @@ impl Simulation {
             tell(format_args!("{found}"));
         }
         while let Some(found) = self.next_without_propeller() {
+            tell(format_args!("{found}"));
+        }
+        while let Some(found) = self.next_over_deformed() {
             tell(format_args!("{found}"));
         }
         while let Some(message) = self.unset_rates.next() {

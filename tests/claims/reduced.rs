@@ -216,3 +216,29 @@ fn a_strip_is_read_from_its_file() -> Result<(), String> {
     );
     Ok(())
 }
+
+/// A strip that bends beyond a tenth of its length is told of once, by its name; one that bends less is not.
+#[test]
+fn a_strip_that_bends_too_far_is_told_of() -> Result<(), String> {
+    for (force, is_told) in [(0.1, false), (60.0, true)] {
+        let mut scene = strip(&json!({"damping_ratio": 0.5}));
+        scene["joints"] =
+            json!([{"name": "clamp", "kind": "weld", "markers": ["ground", "strip.root"]}]);
+        scene["loads"] = json!([{"name": "pull", "kind": "force", "marker": "strip.tip", "value": [0, 0, force]}]);
+        let mut run = Run::new(&scene)?;
+        let mut told = Vec::new();
+        for step in 1..=20 {
+            let stepped = run.0.step(0.01 * f64::from(step));
+            stepped.map_err(|failure| failure.to_string())?;
+            while let Some(found) = run.0.next_over_deformed() {
+                told.push(found.to_string());
+            }
+        }
+        assert_eq!(told.len(), usize::from(is_told), "{force} N: {told:?}");
+        assert!(
+            told.iter()
+                .all(|told| told.starts_with("strip: its deformation leaves"))
+        );
+    }
+    Ok(())
+}

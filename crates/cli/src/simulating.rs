@@ -320,6 +320,9 @@ impl Run {
             while let Some(found) = simulation.next_without_propeller() {
                 self.cost.told.push(found.to_string());
             }
+            while let Some(found) = simulation.next_over_deformed() {
+                self.cost.told.push(found.to_string());
+            }
             self.cost.singular.extend(simulation.next_singular());
             if let Some(unresolved) = simulation.next_unresolved() {
                 self.cost.unresolved = Some(unresolved.to_string());

@@ -2050,12 +2050,11 @@ class Screw(Part):
     kind: Literal["screw"] = "screw"
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    Markers that the joint connects: `ground` or the `body.marker` that carries the line, then the `body.marker` on the line.
+    Markers that the joint connects: `ground` or the `body.marker` of a rigid body that carries the axis, then the `body.marker` on it.
     """
     direction: Vector
     """
-    Axis of the screw. It is given in the axes of the first marker's body at the start: of `ground` the global axes, of a rod
-    or beam the tangent and both axes of its section.
+    Axis of the screw. It is given in the axes of the first marker's body at the start: of `ground` the global axes.
     """
     pitch: StrictFloat
     """

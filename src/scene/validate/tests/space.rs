@@ -498,3 +498,19 @@ fn thin_rods_are_not_turned_about_their_axes() {
     "#,
     );
 }
+
+/// The thread of a screw relates a displacement along its axis, which a rod has none of: it was left out without a word.
+#[test]
+fn the_axis_of_a_screw_belongs_to_no_rod() {
+    let mut scene = scene();
+    scene["bodies"][0]["element"] = json!("rod");
+    scene["bodies"][0]["section"] =
+        json!({"area": 1.8e-3, "second_moments": [1e-9, 2e-9], "torsion_constant": 1e-9});
+    scene["bodies"][0]["material"]["shear_modulus"] = json!(3e5);
+    scene["bodies"][2]["inertia"] = json!([1, 1, 1]);
+    scene["joints"][2] = json!({"name": "rail", "kind": "screw", "markers": ["rod.tip", "load.eye"],
+        "direction": [1, 0, 0], "pitch": 0.1});
+    let error = Scene::from_json(&scene.to_string()).expect_err("no such axis");
+    let told = "joints[2].markers[0]: expected the ground or a marker of a rigid body, which carries the axis, found \"rod.tip\"";
+    assert_eq!(error.to_string(), told);
+}
