@@ -18,14 +18,13 @@ const NEAR: f64 = 2e-5;
 fn scenes() -> Vec<PathBuf> {
     let mut found = crate::ready_scenes();
     let others = [
+        "docs/book/examples/bodies/reduced.json",
         "src/scene/example.json",
         "tests/cases/coupled_mass/driven.json",
         "tests/cases/coupled_mass/scene.json",
         "tests/cases/driven_orientation/scene.json",
         "tests/cases/falling_rod/scene.json",
         "tests/cases/planar_beam_statics/swing.json",
-        "tests/cases/reduced_blade/scene.json",
-        "tests/cases/reduced_bracket/scene.json",
         "tests/fmpy/mechanism.json",
         "tests/fmpy/swing.json",
         "tests/masters/scenes/inner.json",
