@@ -153,17 +153,6 @@ impl<'a> Resolved<'a> {
                 format!("{:?}", scene.rotation.full()),
             ));
         }
-        let reduced = scene
-            .bodies
-            .iter()
-            .find(|body| matches!(body, Body::Reduced(_)));
-        if let (InitialState::Steady, Some(body)) = (state, reduced) {
-            let wanted = format!(
-                "no steady motion beside a reduced body ({})",
-                quoted(body.name())
-            );
-            return Err(expected("initial.state", &wanted, "steady"));
-        }
         self.resolve_initial_loads()
     }
 

@@ -272,11 +272,6 @@ fn damping_and_places_of_reduced_bodies_are_checked() {
             "bodies[0].motion.deformation: expected none of a reduced body",
         ),
         (
-            "/initial",
-            json!({"state": "steady"}),
-            "initial.state: expected no steady motion beside a reduced body (\"bracket\"), found steady",
-        ),
-        (
             "/bodies/0/markers/tip",
             json!("A11"),
             "bodies[0].markers.tip: expected the name of an interface in \"parts/bracket.safetensors\" (A1, B), found \"A11\"; did you mean `A1`",
