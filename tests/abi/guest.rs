@@ -184,7 +184,7 @@ fn any_floating_point_environment_gives_the_same_bits_and_is_left_as_it_was() {
 }
 
 /// Threads of embedded masters have as little as this.
-const STACK: usize = 64 << 10;
+const STACK: usize = 96 << 10;
 
 fn suffices(stack: usize, scene: &str) {
     let unit = Unit::of(scene);
