@@ -183,14 +183,15 @@ fn any_floating_point_environment_gives_the_same_bits_and_is_left_as_it_was() {
     }
 }
 
-/// Threads of embedded masters have as little as this.
-const STACK: usize = 96 << 10;
+/// A stack that suffices. In a process that has had a larger one before, the system may give that again in place of a smaller one: sizes
+/// below the largest of these tests would not be seen to fail.
+const STACK: usize = 256 << 10;
 
-fn suffices(stack: usize, scene: &str) {
+fn suffices(scene: &str) {
     let unit = Unit::of(scene);
     let expected = plain(&unit);
     let found = std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(stack);
+        let thread = std::thread::Builder::new().stack_size(STACK);
         let thread = thread.spawn_scoped(scope, || plain(&unit));
         thread.expect("a thread").join().expect("a whole life")
     });
@@ -200,12 +201,9 @@ fn suffices(stack: usize, scene: &str) {
 #[test]
 fn a_small_stack_suffices() {
     for scene in [SCENE, MECHANISM] {
-        suffices(STACK, scene);
+        suffices(scene);
     }
 }
-
-/// What moves in space, and what touches a surface, takes more.
-const ROOMY: usize = 256 << 10;
 
 #[test]
 fn a_quarter_of_a_megabyte_suffices_for_every_kind_of_body() {
@@ -228,6 +226,6 @@ fn a_quarter_of_a_megabyte_suffices_for_every_kind_of_body() {
             let material = scene["bodies"][0]["material"].as_object_mut();
             material.expect("a material").remove("shear_modulus");
         }
-        suffices(ROOMY, &scene.to_string());
+        suffices(&scene.to_string());
     }
 }
