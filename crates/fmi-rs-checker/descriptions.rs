@@ -8,7 +8,7 @@ use fmi_rs::model_description::fmi2::ModelDescription;
 use serde_json::Value;
 
 use flexbody::fmi2::model_description;
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, beside};
 
 const GOOD: &str = include_str!("../../tests/checkers/good.xml");
 /// Each a text of the good description with what stands there instead, and who must notice;
@@ -66,7 +66,8 @@ fn nothing_is_wrong_with_any_scene() {
     );
     for path in paths {
         let text = fs::read_to_string(&path).expect("a readable scene");
-        let scene = Scene::from_json(&text).expect("a valid scene");
+        let files = beside(path.parent().expect("a folder"));
+        let scene = Scene::from_json_with(&text, &files).expect("a valid scene");
         let found = problems(&model_description(&scene));
         assert!(found.is_empty(), "{}: {found:?}", path.display());
     }
