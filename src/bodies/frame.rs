@@ -28,12 +28,14 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::connectivity::Node;
 use crate::math::jet::Number;
-use crate::math::space::{components, vector};
+use crate::math::space::{Vector, components, vector};
 
 pub(super) use body::unplaced;
 pub use derivatives::{AngularAccelerations, AxisMotion};
 pub use increment::RotationIncrement;
+pub(super) use increment::{spin_of, turned_back};
 pub use section_frame::{Derivative, SectionFrame, SectionFrameState};
+pub(super) use tangent::geometric;
 pub use tangent::rotation_block;
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
@@ -61,6 +63,13 @@ pub struct RigidBodyFrame {
 /// The vector with these components along axes.
 pub fn combined<N: Number>(axes: &Axes<N>, components: &Vector3<N>) -> Vector3<N> {
     axes[0] * components[0] + axes[1] * components[1] + axes[2] * components[2]
+}
+
+/// Components of a vector along axes.
+#[inline(always)]
+pub(super) fn along<const D: usize, N: Number>(axes: &Axes<N>, v: &Vector<D, N>) -> Vector3<N> {
+    let v = Vector3::from(components(v));
+    Vector3::from_fn(|k, _| axes[k].dot(&v))
 }
 
 /// Rates of axes that turn at a spin along themselves.

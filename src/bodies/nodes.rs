@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, add_node, no_node};
-use super::frame::axes_at;
+use super::frame::{along, axes_at};
 use super::marker::Marker;
 use super::reduced::Site;
 use super::{Bodies, Elimination, RodChain};
@@ -144,14 +144,10 @@ impl<const D: usize> Bodies<D> {
         }
         let node = marker.nodes[0];
         let axes = axes_at(node, x);
-        let along = |force: &Vector<D, N>| {
-            let force = Vector3::from(components(force));
-            Vector3::from_fn(|k, _| axes[k].dot(&force))
-        };
         let [arm, own] = marker.components();
-        let mut moment = arm.cross(&along(position));
+        let mut moment = arm.cross(&along(&axes, position));
         if !is_nothing(direction) {
-            moment += own.cross(&along(direction));
+            moment += own.cross(&along(&axes, direction));
         }
         let force = (*position).into();
         match self.owner(node) {

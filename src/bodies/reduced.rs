@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 
 use super::Elimination;
 use super::connectivity::Node;
-use super::frame::{Axes, RigidBodyFrame};
+use super::frame::{Axes, RigidBodyFrame, combined};
 use crate::elements::reduced::{ModalStrain, ReducedModel, SPIN_SCALE, SpinScale};
 use crate::math::jet::Number;
 use crate::math::space::vector;
@@ -50,7 +50,7 @@ impl ModalState {
     /// Without deformation.
     pub fn of(body: &ReducedBody) -> Self {
         Self {
-            scale: SpinScale([1.0, 0.0, 0.0, 1.0, 0.0, 1.0]),
+            scale: SpinScale::ONE,
             coupling: vec![Vector3::zeros(); body.model.modes()],
         }
     }
@@ -101,19 +101,16 @@ impl ReducedBody {
     /// Coordinates of all its nodes without deformation, for a centre of mass (m) and axes.
     pub fn reference<const D: usize>(&self, center: [f64; 3], axes: &Axes) -> Vec<Node<D>> {
         let [a, b, c] = axes.map(|axis| vector::<D, f64>(axis.into()).into());
-        let center = vector::<D, f64>(center).into();
-        let mut nodes = vec![[center, a], [b, c]];
-        for interface in &self.model.interfaces {
-            let arm = super::combined(axes, &interface.position);
-            let at = vector::<D, f64>((Vector3::from(components3(&center)) + arm).into()).into();
-            nodes.extend([[at, a], [b, c]]);
+        let origin = Vector3::zeros();
+        let places = self.model.interfaces.iter().map(|of| &of.position);
+        let mut nodes = Vec::new();
+        for place in std::iter::once(&origin).chain(places) {
+            let at = Vector3::from(center) + combined(axes, place);
+            nodes.extend([[vector::<D, f64>(at.into()).into(), a], [b, c]]);
         }
         nodes.resize(nodes.len() + self.inner_nodes(), [[0.0; D]; 2]);
         let derived = self.derived() - self.frame.node;
-        let scale = numbers_mut(&mut nodes[derived..]);
-        for place in [0, 3, 5] {
-            scale[place] = 1.0;
-        }
+        numbers_mut(&mut nodes[derived..])[..SPIN_SCALE].copy_from_slice(&SpinScale::ONE.0);
         nodes
     }
 
@@ -228,11 +225,6 @@ impl ReducedBody {
     fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         self.frame.axes(x)
     }
-}
-
-/// Three components of a vector of space.
-fn components3<const D: usize>(v: &[f64; D]) -> [f64; 3] {
-    crate::math::space::components(&(*v).into())
 }
 
 /// Coupling of a mode.

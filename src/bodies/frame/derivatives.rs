@@ -35,7 +35,7 @@ impl AngularAccelerations {
         Self {
             rigid: vec![Vector3::from_element(zero); bodies.rigid.len()],
             sections: vec![[zero; 3]; bodies.moments()],
-            reduced: (bodies.reduced.iter().map(|body| vec![zero; body.counted()])).collect(),
+            reduced: (bodies.reduced.iter().map(|body| vec![zero; body.count()])).collect(),
         }
     }
 }
@@ -59,12 +59,9 @@ impl<const D: usize> Bodies<D> {
             }
         }
         for (body, rates) in self.reduced.iter().zip(&mut to.reduced) {
-            let mut places = rates.iter_mut();
-            body.for_each_counted(found, |value| {
-                if let Some(rate) = places.next() {
-                    rate.re = value;
-                }
-            });
+            for (rate, value) in rates.iter_mut().zip(body.counted(found)) {
+                rate.re = *value;
+            }
         }
         for (frame, rate) in self.section_frames().zip(&mut to.sections) {
             for (rate, value) in rate.iter_mut().zip(&found[frame.node][1]) {
@@ -95,12 +92,9 @@ impl<const D: usize> Bodies<D> {
             frame.set_axes(&sum, acceleration);
         }
         for (body, rates) in self.reduced.iter().zip(&mut angular.reduced) {
-            let mut places = rates.iter_mut();
-            body.for_each_counted(found, |value| {
-                if let Some(rate) = places.next() {
-                    set_part(rate, k, value);
-                }
-            });
+            for (rate, value) in rates.iter_mut().zip(body.counted(found)) {
+                set_part(rate, k, *value);
+            }
             body.differentiate(k, rates, (x, bias), acceleration);
         }
         for (frame, spin_rate) in self.section_frames().zip(&mut angular.sections) {

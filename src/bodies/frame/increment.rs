@@ -18,8 +18,15 @@ pub struct RotationIncrement {
     pub spin: Vector3<f64>,
 }
 
+/// The rotation by `p`: `v` in components along the turned axes.
+pub(in crate::bodies) fn turned_back<N: Number>(p: &Vector3<N>, v: &Vector3<N>) -> Vector3<N> {
+    let across = p.cross(v);
+    let scale = N::of(1.0) / (N::of(1.0) + N::of(0.25) * p.norm_squared());
+    v - (across - p.cross(&across) * N::of(0.5)) * scale
+}
+
 /// Angular velocity along the turned axes at a rate of a rotation `p`.
-pub(super) fn spin_of<N: Number>(p: &Vector3<N>, rate: &Vector3<N>) -> Vector3<N> {
+pub(in crate::bodies) fn spin_of<N: Number>(p: &Vector3<N>, rate: &Vector3<N>) -> Vector3<N> {
     (rate - p.cross(rate) * N::of(0.5)) / (N::of(1.0) + N::of(0.25) * p.norm_squared())
 }
 

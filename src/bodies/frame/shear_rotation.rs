@@ -24,7 +24,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::increment::spin_of;
+use super::increment::{spin_of, turned_back};
 use crate::math::jet::{Jet, Number, part};
 use crate::math::lanes::Real;
 use crate::math::rotation::{Quaternion, axes, product};
@@ -40,13 +40,6 @@ pub(super) struct ShearRotation {
     rotation: Vector3<f64>,
     rate: Vector3<f64>,
     pub spin: Vector3<f64>,
-}
-
-/// The rotation by `x`: `v` in components along the turned axes.
-fn turned_back<N: Number>(x: &Vector3<N>, v: &Vector3<N>) -> Vector3<N> {
-    let across = x.cross(v);
-    let scale = N::of(1.0) / (N::of(1.0) + N::of(0.25) * x.norm_squared());
-    v - (across - x.cross(&across) * N::of(0.5)) * scale
 }
 
 /// `s` of (1), and its rate.

@@ -62,7 +62,7 @@ fn add_transposed<const D: usize>(block: &mut NodeBlock<D>) {
 
 /// Stiffness that forces on axes add where these rotate, along them: `sum (E_i.F_i) I - F_i E_i^T`, symmetric where the forces have no
 /// moment.
-fn geometric(axes: &Axes, forces: &Axes) -> Matrix3<f64> {
+pub(in crate::bodies) fn geometric(axes: &Axes, forces: &Axes) -> Matrix3<f64> {
     let along = Matrix3::from_fn(|i, j| forces[j].dot(&axes[i]));
     Matrix3::from_diagonal_element(along.trace()) - along
 }

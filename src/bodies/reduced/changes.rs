@@ -5,54 +5,23 @@ use nalgebra::Vector3;
 use super::{ModalState, ReducedBody, coupling_at, numbers_mut};
 use crate::bodies::body::BodyPart;
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{Axes, axes_at, axis_rates, combined, set_axes_at};
+use crate::bodies::frame::{
+    Axes, along, axes_at, axis_rates, combined, set_axes_at, spin_of, turned_back,
+};
 use crate::elements::reduced::SPIN_SCALE;
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::math::space::{components, vector};
 
-/// The small rotation of an interface against the axes of its body, a vector of Rodrigues `p` with rate: its axes are the columns of
-/// `I + ([p] + [p]^2 / 2) / (1 + p.p / 4)`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tilt<N> {
-    p: Vector3<N>,
-    /// `1 / (1 + p.p / 4)`.
-    scale: N,
+/// The force on a rotation `p` of a moment along the turned axes: the transpose of [`spin_of`].
+pub(super) fn force_of<N: Number>(p: &Vector3<N>, moment: &Vector3<N>) -> Vector3<N> {
+    (moment + p.cross(moment) * N::of(0.5)) / (N::of(1.0) + N::of(0.25) * p.norm_squared())
 }
 
-impl<N: Number> Tilt<N> {
-    pub fn new(p: Vector3<N>) -> Self {
-        let scale = N::of(1.0) / (N::of(1.0) + p.norm_squared() * N::of(0.25));
-        Self { p, scale }
-    }
-
-    /// A vector along the tilted axes, in the axes of the body.
-    pub fn forth(&self, v: &Vector3<N>) -> Vector3<N> {
-        let once = self.p.cross(v);
-        v + (once + self.p.cross(&once) * N::of(0.5)) * self.scale
-    }
-
-    /// A vector in the axes of the body, along the tilted axes.
-    pub fn back(&self, v: &Vector3<N>) -> Vector3<N> {
-        let once = self.p.cross(v);
-        v + (self.p.cross(&once) * N::of(0.5) - once) * self.scale
-    }
-
-    /// Spin along the tilted axes of a rate of `p`.
-    pub fn spin(&self, rate: &Vector3<N>) -> Vector3<N> {
-        (rate - self.p.cross(rate) * N::of(0.5)) * self.scale
-    }
-
-    /// The force on `p` of a moment along the tilted axes.
-    pub fn pull(&self, moment: &Vector3<N>) -> Vector3<N> {
-        (moment + self.p.cross(moment) * N::of(0.5)) * self.scale
-    }
-
-    /// Rate of the spin along the tilted axes without `p''` and without the angular acceleration of the body.
-    fn spin_bias(&self, rate: &Vector3<N>, of_body: &Vector3<N>) -> Vector3<N> {
-        let own = self.spin(rate);
-        let shrink = self.p.dot(rate) * N::of(0.5) * self.scale;
-        -own.cross(&self.back(of_body)) - own * shrink
-    }
+/// Rate of the spin along axes that are turned by `p` against a body, without `p''` and without the angular acceleration of the body.
+fn spin_bias<N: Number>(p: &Vector3<N>, rate: &Vector3<N>, of_body: &Vector3<N>) -> Vector3<N> {
+    let own = spin_of(p, rate);
+    let shrink = N::of(0.5) * p.dot(rate) / (N::of(1.0) + N::of(0.25) * p.norm_squared());
+    -own.cross(&turned_back(p, of_body)) - own * shrink
 }
 
 impl ReducedBody {
@@ -100,9 +69,10 @@ impl ReducedBody {
         for (index, interface) in self.model.interfaces.iter().enumerate() {
             let node = self.interface(index);
             let at = center + combined(&axes, &interface.place(eta, self.model.paired));
-            let tilt = Tilt::new(interface.turn(eta));
-            let along = |k: usize| combined(&axes, &tilt.forth(&Vector3::ith(k, 1.0)));
-            set_axes_at(node, &[along(0), along(1), along(2)], outer);
+            let back = -interface.turn(eta);
+            let own =
+                [0, 1, 2].map(|k| combined(&axes, &turned_back(&back, &Vector3::ith(k, 1.0))));
+            set_axes_at(node, &own, outer);
             outer[node][0] = vector::<D, f64>(at.into()).into();
         }
     }
@@ -123,8 +93,8 @@ impl ReducedBody {
             let arm = self.arm(node, &axes, x);
             let moved =
                 velocity + combined(&axes, &(spin.cross(&arm) + self.moved(index, x, rates)));
-            let tilt = Tilt::new(interface.turn(self.amplitudes(x)));
-            let own = tilt.back(spin) + tilt.spin(&interface.turn(rates));
+            let turn = interface.turn(self.amplitudes(x));
+            let own = turned_back(&turn, spin) + spin_of(&turn, &interface.turn(rates));
             set_axes_at(node, &axis_rates(&axes_at(node, x), &own), outer);
             outer[node][0] = vector::<D, N>(moved.into()).into();
         }
@@ -148,11 +118,11 @@ impl ReducedBody {
             let bias = combined(&axes, &along);
             let bias = vector::<D, N>(bias.into());
             a[node][0].iter_mut().zip(&bias).for_each(|(a, b)| *a += *b);
-            let tilt = Tilt::new(interface.turn(self.amplitudes(x)));
-            let turn = interface.turn(rates);
-            let own = tilt.back(&spin) + tilt.spin(&turn);
+            let turn = interface.turn(self.amplitudes(x));
+            let rate = interface.turn(rates);
+            let own = turned_back(&turn, &spin) + spin_of(&turn, &rate);
             let by_rates = axis_rates(&axes_at(node, v), &own);
-            let by_bias = axis_rates(&axes_at(node, x), &tilt.spin_bias(&turn, &spin));
+            let by_bias = axis_rates(&axes_at(node, x), &spin_bias(&turn, &rate, &spin));
             let sum: Axes<N> = axes_at(node, a);
             let sum = std::array::from_fn(|k| sum[k] + by_rates[k] + by_bias[k]);
             set_axes_at(node, &sum, a);
@@ -168,8 +138,7 @@ impl ReducedBody {
     ) -> Vector3<N> {
         let [at, center] =
             [node, self.frame.node].map(|node| Vector3::from(components(&x[node][0].into())));
-        let way = at - center;
-        Vector3::from_fn(|k, _| axes[k].dot(&way))
+        along(axes, &(at - center))
     }
 
     /// Velocity of an interface against the axes at these rates of the amplitudes, m/s.
@@ -203,20 +172,18 @@ impl ReducedBody {
     }
 
     /// Number of what is counted besides the centre of mass: spins and rates of amplitudes.
-    pub(in crate::bodies) fn counted(&self) -> usize {
+    pub(in crate::bodies) fn count(&self) -> usize {
         3 + self.model.modes()
     }
 
-    /// Calls with what is counted besides the centre of mass, which stands in the places of rotations and amplitudes.
-    pub(in crate::bodies) fn for_each_counted<const D: usize>(
+    /// What is counted besides the centre of mass, which stands in the places of rotations and amplitudes.
+    pub(in crate::bodies) fn counted<'a, const D: usize>(
         &self,
-        found: &[Node<D>],
-        mut call: impl FnMut(f64),
-    ) {
-        let rotations = found[self.frame.node][1].iter();
-        rotations
+        found: &'a [Node<D>],
+    ) -> impl Iterator<Item = &'a f64> {
+        found[self.frame.node][1]
+            .iter()
             .chain(self.amplitudes(found))
-            .for_each(|value| call(*value));
     }
 
     /// Derivative `k` of accelerations of its nodes, from those of what is counted, spins first. The centre of mass has its own already.

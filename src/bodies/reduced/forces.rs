@@ -2,39 +2,14 @@
 
 use nalgebra::Vector3;
 
-use super::changes::Tilt;
+use super::changes::force_of;
 use super::{ReducedBody, Site, coupling_at, numbers_mut};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{Axes, RigidBodyFrame, axes_at};
+use crate::bodies::frame::{RigidBodyFrame, along, axes_at, turned_back};
 use crate::math::jet::Number;
-use crate::math::space::{components, is_nothing, vector};
-
-/// A force along the axes of a body and a moment along the axes of a place of it.
-#[derive(Clone, Copy, Debug)]
-struct LocalForce<N> {
-    force: Vector3<N>,
-    moment: Vector3<N>,
-}
+use crate::math::space::{is_nothing, vector};
 
 impl ReducedBody {
-    /// Force on a mode of forces at an interface.
-    #[inline(always)]
-    fn modal_force<N: Number>(
-        &self,
-        (index, k): (usize, usize),
-        eta: &[N],
-        on: &LocalForce<N>,
-        pulled: &Vector3<N>,
-    ) -> N {
-        let interface = &self.model.interfaces[index];
-        let shape = interface.shape(k, eta, self.model.paired);
-        let mut sum = shape.dot(&on.force);
-        if let Some(rotation) = &interface.rotation {
-            sum += rotation[k].map(N::of).dot(pulled);
-        }
-        sum
-    }
-
     /// Takes a force in global components and a moment along the axes of a place of the body to what is integrated: passed to `term`, node
     /// by node.
     pub(in crate::bodies) fn pull_marker<const D: usize, N: Number>(
@@ -50,23 +25,25 @@ impl ReducedBody {
             let moment = scale.transposed_times(moment);
             return term(node, &[*force, vector::<D, N>(moment.into()).into()]);
         };
-        let axes = self.axes(x);
-        let eta = self.amplitudes(x);
-        let on = LocalForce {
-            force: along(&axes, force),
-            moment: *moment,
+        let (axes, eta) = (self.axes(x), self.amplitudes(x));
+        let interface = &self.model.interfaces[index];
+        let (turn, local) = (interface.turn(eta), along(&axes, &(*force).into()));
+        let on_turn = force_of(&turn, moment);
+        let on_mode = |k: usize| {
+            let rotated = interface.rotation.as_ref().map(|rotation| &rotation[k]);
+            let shape = interface.shape(k, eta, self.model.paired);
+            let by_moment = rotated.map(|mode| mode.map(N::of).dot(&on_turn));
+            shape.dot(&local) + by_moment.unwrap_or(N::of(0.0))
         };
-        let tilt = Tilt::new(self.model.interfaces[index].turn(eta));
-        let pulled = tilt.pull(&on.moment);
         let arm = self.arm(self.interface(index), &axes, x);
-        let mut turning = arm.cross(&on.force) + tilt.forth(&on.moment);
+        let mut turning = arm.cross(&local) + turned_back(&-turn, moment);
         let size = 2 * D;
         for (at, modal) in self.modal().enumerate() {
             let mut part = [[N::of(0.0); D]; 2];
             let numbers = part.as_flattened_mut().iter_mut().enumerate();
             for (k, number) in numbers.map(|(place, number)| (size * at + place, number)) {
                 if k < self.model.modes() {
-                    *number = self.modal_force((index, k), eta, &on, &pulled);
+                    *number = on_mode(k);
                     turning -= coupling_at(coupling, k) * *number;
                 }
             }
@@ -76,48 +53,14 @@ impl ReducedBody {
         term(node, &[*force, vector::<D, N>(moment.into()).into()]);
     }
 
-    /// Adds forces on interfaces to those on the centre and on modes. Returns their moment along the axes.
-    fn gather<const D: usize, N: Number>(
-        &self,
-        x: &[Node<D, N>],
-        f: &mut [Node<D, N>],
-    ) -> Vector3<N> {
-        let axes = self.axes(x);
-        let eta = self.amplitudes(x);
-        let mut sum = Vector3::from_element(N::of(0.0));
-        for index in 0..self.model.interfaces.len() {
-            let node = self.interface(index);
-            let force = f[node][0];
-            let moment = RigidBodyFrame::moment(&axes_at(node, x), &axes_at(node, f));
-            f[node..][..2].fill([[N::of(0.0); D]; 2]);
-            let is_free = is_nothing::<D, N>(&force.into());
-            if is_free && moment.iter().all(|m| m.largest() == 0.0) {
-                continue;
-            }
-            let on = LocalForce {
-                force: along(&axes, &force),
-                moment,
-            };
-            let tilt = Tilt::new(self.model.interfaces[index].turn(eta));
-            let pulled = tilt.pull(&moment);
-            sum += self.arm(node, &axes, x).cross(&on.force) + tilt.forth(&moment);
-            let center = f[self.frame.node][0].iter_mut().zip(&force);
-            center.for_each(|(sum, force)| *sum += *force);
-            for (k, on_mode) in self.amplitudes_mut(f).iter_mut().enumerate() {
-                *on_mode += self.modal_force((index, k), eta, &on, &pulled);
-            }
-        }
-        sum
-    }
-
     /// Takes forces over the nodes to what is integrated, with the forces of inertia that rates ask for.
     pub(super) fn pull_back_all<const D: usize, N: Number>(
         &self,
         (x, v): (&[Node<D, N>], Option<&[Node<D, N>]>),
         f: &mut [Node<D, N>],
     ) {
+        let node = self.frame.node;
         let mut turning = RigidBodyFrame::moment(&self.axes(x), &self.axes(f));
-        turning += self.gather(x, f);
         if let Some(v) = v {
             let spin = self.frame.spin(x, v);
             let motion = (self.amplitudes(x), self.amplitudes(v));
@@ -126,13 +69,25 @@ impl ReducedBody {
                 .add_inertial(motion, &spin, self.amplitudes_mut(f));
         }
         let (scale, coupling) = self.derived_of(x);
-        for (k, force) in self.amplitudes_mut(f).iter().enumerate() {
+        for (k, force) in self.amplitudes(f).iter().enumerate() {
             turning -= coupling_at(coupling, k) * *force;
         }
         let moment = scale.transposed_times(&turning);
-        let node = self.frame.node;
         f[node][1] = vector::<D, N>(moment.into()).into();
         f[node + 1] = [[N::of(0.0); D]; 2];
+        for (node, site) in self.sites().skip(1) {
+            let force = f[node][0];
+            let moment = RigidBodyFrame::moment(&axes_at(node, x), &axes_at(node, f));
+            f[node..][..2].fill([[N::of(0.0); D]; 2]);
+            if is_nothing::<D, N>(&force.into()) && moment.iter().all(|m| m.largest() == 0.0) {
+                continue;
+            }
+            self.pull_marker(site, (&force, &moment), x, &mut |node, term| {
+                let sums = f[node].as_flattened_mut().iter_mut();
+                sums.zip(term.as_flattened())
+                    .for_each(|(sum, part)| *sum += *part);
+            });
+        }
     }
 
     /// Adds elastic and damping forces on modes. Returns the power that damping dissipates, W.
@@ -172,11 +127,4 @@ impl ReducedBody {
             of_modes[k] += rate + coupling_at(coupling, k).dot(&spin);
         }
     }
-}
-
-/// Components of a vector along axes.
-#[inline(always)]
-fn along<const D: usize, N: Number>(axes: &Axes<N>, v: &[N; D]) -> Vector3<N> {
-    let v = Vector3::from(components(&(*v).into()));
-    Vector3::from_fn(|k, _| axes[k].dot(&v))
 }

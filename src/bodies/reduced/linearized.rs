@@ -5,20 +5,19 @@ use nalgebra::{Matrix3, Vector3};
 use super::{ReducedBody, Site, coupling_at};
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{RigidBodyFrame, axes_at, rotation_block};
-use crate::elements::reduced::ModalStiffness;
-use crate::math::space::components;
+use crate::bodies::frame::{RigidBodyFrame, along, axes_at, geometric, rotation_block};
+use crate::elements::reduced::{Interface, ModalStiffness, SpinScale};
+use crate::math::space::{Vector, components};
 
 /// Nodes with amplitudes whose derivatives are computed together.
 const TOGETHER: usize = 8;
 
-/// A symmetric matrix over small rotations along the axes and amplitudes of the modes.
+/// A symmetric matrix over small rotations along the axes and amplitudes of the modes; nothing over rotations alone.
 trait Stiffness {
-    /// Over rotations.
-    fn rotations(&self) -> Matrix3<f64>;
-
     /// Over rotations and the amplitude of a mode.
-    fn mixed(&self, k: usize) -> Vector3<f64>;
+    fn mixed(&self, _k: usize) -> Vector3<f64> {
+        Vector3::zeros()
+    }
 
     /// Over the amplitudes of two modes.
     fn modal(&self, k: usize, l: usize) -> f64;
@@ -33,14 +32,6 @@ trait Stiffness {
 struct Diagonal<'a>(&'a [f64]);
 
 impl Stiffness for Diagonal<'_> {
-    fn rotations(&self) -> Matrix3<f64> {
-        Matrix3::zeros()
-    }
-
-    fn mixed(&self, _k: usize) -> Vector3<f64> {
-        Vector3::zeros()
-    }
-
     fn modal(&self, k: usize, l: usize) -> f64 {
         if k == l { self.0[k] } else { 0.0 }
     }
@@ -51,84 +42,31 @@ impl Stiffness for Diagonal<'_> {
 }
 
 impl Stiffness for ModalStiffness<'_> {
-    fn rotations(&self) -> Matrix3<f64> {
-        Matrix3::zeros()
-    }
-
-    fn mixed(&self, _k: usize) -> Vector3<f64> {
-        Vector3::zeros()
-    }
-
     fn modal(&self, k: usize, l: usize) -> f64 {
         self.at(k, l)
     }
 }
 
-/// What forces at interfaces add where the frame rotates and modes change their shape.
-struct Geometric<'a, const D: usize> {
-    body: &'a ReducedBody,
-    forces: &'a [Node<D>],
-    x: &'a [Node<D>],
+/// What a force at an interface adds where modes change its place, and where the body rotates with them.
+struct AtInterface<'a> {
+    interface: &'a Interface,
+    /// Along the axes of the body, N.
+    force: Vector3<f64>,
+    eta: &'a [f64],
+    paired: usize,
 }
 
-impl<const D: usize> Geometric<'_, D> {
-    /// Force at an interface along the axes of the body, N.
-    fn force(&self, index: usize) -> Vector3<f64> {
-        let axes = self.body.axes(self.x);
-        let force = &self.forces[self.body.interface(index)][0];
-        let force = Vector3::from(components(&(*force).into()));
-        Vector3::from_fn(|k, _| axes[k].dot(&force))
-    }
-
-    /// Forces that are not zero, with the indices of their interfaces.
-    fn all(&self) -> impl Iterator<Item = (usize, Vector3<f64>)> {
-        let all = 0..self.body.model.interfaces.len();
-        let forces = all.map(|index| (index, self.force(index)));
-        forces.filter(|(_, force)| *force != Vector3::zeros())
-    }
-}
-
-impl<const D: usize> Stiffness for Geometric<'_, D> {
-    /// `sum (e.f) I - f e^T` of forces on the axes, to which a force at an arm `y` adds `y_k f`, symmetric.
-    fn rotations(&self) -> Matrix3<f64> {
-        let axes = self.body.axes(self.x);
-        let mut sum = self.body.frame.geometric(self.forces, self.x);
-        for (index, force) in self.all() {
-            let arm = self.body.arm(self.body.interface(index), &axes, self.x);
-            sum += Matrix3::from_diagonal_element(arm.dot(&force)) - arm * force.transpose();
-        }
-        for index in 0..self.body.model.interfaces.len() {
-            let node = self.body.interface(index);
-            let (own, on) = (axes_at(node, self.x), axes_at(node, self.forces));
-            for (axis, force) in own.iter().zip(&on) {
-                let along = |v: &Vector3<f64>| Vector3::from_fn(|k, _| axes[k].dot(v));
-                let (axis, force) = (along(axis), along(force));
-                sum += Matrix3::from_diagonal_element(axis.dot(&force)) - axis * force.transpose();
-            }
-        }
-        (sum + sum.transpose()) * 0.5
-    }
-
+impl Stiffness for AtInterface<'_> {
     fn mixed(&self, k: usize) -> Vector3<f64> {
-        let eta = self.body.amplitudes(self.x);
-        self.all().fold(Vector3::zeros(), |sum, (index, force)| {
-            let interface = &self.body.model.interfaces[index];
-            sum - interface
-                .shape(k, eta, self.body.model.paired)
-                .cross(&force)
-        })
+        let shape = self.interface.shape(k, self.eta, self.paired);
+        self.force.cross(&shape)
     }
 
     fn modal(&self, k: usize, l: usize) -> f64 {
-        let paired = self.body.model.paired;
-        if k >= paired || l >= paired {
-            return 0.0;
-        }
-        self.all().fold(0.0, |sum, (index, force)| {
-            let second = &self.body.model.interfaces[index].second;
-            let bend = second.get(paired * k + l);
-            sum - bend.map_or(0.0, |bend| bend.dot(&force))
-        })
+        let has_pair = k < self.paired && l < self.paired;
+        let second = self.interface.second.get(self.paired * k + l);
+        let second = second.filter(|_| has_pair);
+        -second.map_or(0.0, |second| second.dot(&self.force))
     }
 }
 
@@ -142,7 +80,7 @@ impl ReducedBody {
     ) {
         let (scale, coupling) = self.derived_of(x);
         let (n, node, size) = (self.model.modes(), self.frame.node, 2 * D);
-        let mut rotations = of.rotations();
+        let mut rotations = Matrix3::zeros();
         for (a, first) in self.modal().enumerate() {
             let mut mixed = no_block::<D>();
             for k in (size * a..n).take(size) {
@@ -175,12 +113,7 @@ impl ReducedBody {
                 add(first, second, &block);
             }
         }
-        let scale = scale.matrix();
-        add(
-            node,
-            node,
-            &rotation_block(&(scale.transpose() * rotations * scale)),
-        );
+        add(node, node, &counted_block(&scale, &rotations));
     }
 
     /// Calls with the second derivatives of the strain energy.
@@ -209,8 +142,37 @@ impl ReducedBody {
         x: &[Node<D>],
         add: &mut impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
-        let body = self;
-        self.blocks(&Geometric { body, forces, x }, x, add);
+        let (node, axes) = (self.frame.node, self.axes(x));
+        // A force at an arm does as one on each axis, times the component of the arm.
+        let mut on_axes = self.axes(forces);
+        for (interface, (node, _)) in self.model.interfaces.iter().zip(self.sites().skip(1)) {
+            let force = Vector::from(forces[node][0]);
+            let global = Vector3::from(components(&force));
+            let arm = self.arm(node, &axes, x);
+            let (own, on_own) = (axes_at(node, x), axes_at(node, forces));
+            for k in 0..3 {
+                on_axes[k] += global * arm[k];
+                for (axis, on_axis) in own.iter().zip(&on_own) {
+                    on_axes[k] += on_axis * axis.dot(&axes[k]);
+                }
+            }
+            if force != Vector::<D>::zeros() {
+                let at = AtInterface {
+                    interface,
+                    force: along(&axes, &force),
+                    eta: self.amplitudes(x),
+                    paired: self.model.paired,
+                };
+                self.blocks(&at, x, &mut *add);
+            }
+        }
+        let turned = geometric(&axes, &on_axes);
+        let (scale, _) = self.derived_of(x);
+        add(
+            node,
+            node,
+            &counted_block(&scale, &((turned + turned.transpose()) * 0.5)),
+        );
     }
 
     /// Calls with the derivatives of the vectors of a node of the frame or an interface by what is integrated, node by node.
@@ -259,4 +221,10 @@ impl ReducedBody {
             Site::Interface(index) => self.interface(index),
         }
     }
+}
+
+/// A block over small rotations of the frame, counted as spins are.
+fn counted_block<const D: usize>(scale: &SpinScale, rotations: &Matrix3<f64>) -> NodeBlock<D> {
+    let scale = scale.matrix();
+    rotation_block(&(scale.transpose() * rotations * scale))
 }

@@ -37,6 +37,11 @@ fn add<N: Number>(sum: &mut Symmetric<N>, factor: N, matrix: &Symmetric<N>) {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpinScale<N = f64>(pub [N; SPIN_SCALE]);
 
+impl SpinScale {
+    /// Without deformation.
+    pub const ONE: Self = Self([1.0, 0.0, 0.0, 1.0, 0.0, 1.0]);
+}
+
 impl<N: Number> SpinScale<N> {
     /// Reads it.
     pub fn of(numbers: &[N]) -> Self {
