@@ -1,6 +1,8 @@
 //! Tables of inputs and values that are set, as options of the program: what is planned is what will be run.
 
 mod place;
+#[path = "place/printed.rs"]
+mod printed;
 
 use place::Place;
 
@@ -16,16 +18,6 @@ fn place(name: &str) -> Place {
     Place::new(&format!("inputs-{name}"), &files)
 }
 
-impl Place {
-    /// Whether a command succeeds, and all that it printed.
-    fn run(&self, options: &[&str]) -> (bool, String) {
-        let run = self.command(options).output().expect("the program runs");
-        let printed = [run.stdout, run.stderr].concat();
-        let printed = String::from_utf8(printed).expect("UTF-8");
-        (run.status.success(), printed)
-    }
-}
-
 /// The force that a table moves is not among those that are held; without the table both components are.
 #[test]
 fn a_plan_is_made_for_the_table_that_is_run() {
@@ -34,9 +26,9 @@ fn a_plan_is_made_for_the_table_that_is_run() {
     let one = format!("{HELD}rod.middle.force[1]");
     let table = ["--input", "table.csv"];
     for command in ["plan", "simulate"] {
-        let (done, printed) = place.run(&[command, "scene.json"]);
+        let (done, printed) = place.printed(&[command, "scene.json"]);
         assert!(done && printed.contains(&both), "{printed}");
-        let (done, printed) = place.run(&[&[command, "scene.json"][..], &table].concat());
+        let (done, printed) = place.printed(&[&[command, "scene.json"][..], &table].concat());
         assert!(
             done && printed.contains(&one) && !printed.contains(&both),
             "{printed}"
@@ -44,7 +36,7 @@ fn a_plan_is_made_for_the_table_that_is_run() {
     }
     let view = ["view", "scene.json", "--output", "page.html", "--no-open"];
     let spline = ["--interpolation", "spline"];
-    let (done, printed) = place.run(&[&view[..], &table, &spline].concat());
+    let (done, printed) = place.printed(&[&view[..], &table, &spline].concat());
     assert!(
         done && printed.contains(&one) && !printed.contains(&both),
         "{printed}"
@@ -62,7 +54,7 @@ fn what_cannot_be_planned_for_is_refused_by_name() {
         ),
         ("rod.density", "expected NAME=VALUE"),
     ] {
-        let (done, printed) = place.run(&["plan", "scene.json", "--set", option]);
+        let (done, printed) = place.printed(&["plan", "scene.json", "--set", option]);
         assert!(!done && printed.contains(expected), "{printed}");
     }
     std::fs::write(
@@ -70,7 +62,7 @@ fn what_cannot_be_planned_for_is_refused_by_name() {
         "time,rod.midle.force[2]\n0,0\n1,0\n",
     )
     .expect("a table");
-    let (done, printed) = place.run(&["plan", "scene.json", "--input", "table.csv"]);
+    let (done, printed) = place.printed(&["plan", "scene.json", "--input", "table.csv"]);
     assert!(
         !done && printed.contains("did you mean `rod.middle.force[2]`"),
         "{printed}"
@@ -85,8 +77,8 @@ fn a_run_without_a_table_tells_that_profiles_are_for_planning() {
     let scene = SCENE.replace(r#""accuracy": {"error": 1e-3}"#, accuracy);
     std::fs::write(place.0.join("scene.json"), scene).expect("a writable temporary directory");
     let told = "inputs stay at their start values";
-    let (done, printed) = place.run(&["simulate", "scene.json"]);
+    let (done, printed) = place.printed(&["simulate", "scene.json"]);
     assert!(done && printed.contains(told), "{printed}");
-    let (done, printed) = place.run(&["simulate", "scene.json", "--input", "table.csv"]);
+    let (done, printed) = place.printed(&["simulate", "scene.json", "--input", "table.csv"]);
     assert!(done && !printed.contains(told), "{printed}");
 }

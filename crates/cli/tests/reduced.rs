@@ -1,6 +1,8 @@
 //! Scenes that name files: they are read beside the scene and from FMUs, and go into what is packaged.
 
 mod place;
+#[path = "place/printed.rs"]
+mod printed;
 
 use place::Place;
 
@@ -17,20 +19,10 @@ fn place(name: &str) -> Place {
     place
 }
 
-impl Place {
-    /// Whether a command succeeds, and all that it printed.
-    fn run(&self, options: &[&str]) -> (bool, String) {
-        let run = self.command(options).output().expect("the program runs");
-        let printed = [run.stdout, run.stderr].concat();
-        let printed = String::from_utf8(printed).expect("UTF-8");
-        (run.status.success(), printed)
-    }
-}
-
 #[test]
 fn a_file_of_a_reduced_model_is_described() {
     let place = place("describe");
-    let (done, printed) = place.run(&["describe", "scene/strip.safetensors"]);
+    let (done, printed) = place.printed(&["describe", "scene/strip.safetensors"]);
     assert!(done, "{printed}");
     for line in [
         "source: Ritz polynomials of a slender strip",
@@ -57,18 +49,18 @@ fn a_file_of_a_reduced_model_is_described() {
     );
     let output = ["--output", "folder"];
     let model = ["describe", "scene/strip.safetensors"];
-    let (done, printed) = place.run(&[&model[..], &output].concat());
+    let (done, printed) = place.printed(&[&model[..], &output].concat());
     assert!(
         !done && printed.contains("--output: expected a scene beside it"),
         "{printed}"
     );
-    let (done, printed) = place.run(&["describe", "scene/scene.json"]);
+    let (done, printed) = place.printed(&["describe", "scene/scene.json"]);
     assert!(
         !done && printed.contains("--output: expected a directory"),
         "{printed}"
     );
     std::fs::write(place.0.join("cut.safetensors"), &MODEL[..2000]).expect("a writable file");
-    let (done, printed) = place.run(&["describe", "cut.safetensors"]);
+    let (done, printed) = place.printed(&["describe", "cut.safetensors"]);
     assert!(
         !done && printed.contains("cut.safetensors: inertia_1: expected data_offsets"),
         "{printed}"
@@ -85,7 +77,7 @@ fn what_an_fmu_holds_has_the_file_and_its_digest() {
         "fmu",
         "--no-animation",
     ];
-    let (done, printed) = place.run(&describe);
+    let (done, printed) = place.printed(&describe);
     assert!(done, "{printed}");
     let resources = place.0.join("fmu/resources");
     let file = std::fs::read(resources.join("strip.safetensors")).expect("the file");
@@ -94,19 +86,19 @@ fn what_an_fmu_holds_has_the_file_and_its_digest() {
     assert!(scene.contains("\"sha256\": \""), "{scene}");
     // The scene of the unit is read beside its file, and not beside another one.
     let plan = ["plan", "fmu/resources/scene.json"];
-    let (done, printed) = place.run(&plan);
+    let (done, printed) = place.printed(&plan);
     assert!(done, "{printed}");
     let mut other = MODEL.to_vec();
     let word = other.windows(4).position(|bytes| bytes == b"Ritz");
     other[word.expect("its source")] = b'r';
     std::fs::write(resources.join("strip.safetensors"), &other).expect("a writable file");
-    let (done, printed) = place.run(&plan);
+    let (done, printed) = place.printed(&plan);
     assert!(
         !done && printed.contains("bodies[0].sha256: expected the digest"),
         "{printed}"
     );
     std::fs::remove_file(resources.join("strip.safetensors")).expect("a file");
-    let (done, printed) = place.run(&plan);
+    let (done, printed) = place.printed(&plan);
     assert!(
         !done && printed.contains("bodies[0].file: \"strip.safetensors\": "),
         "{printed}"
@@ -124,7 +116,7 @@ fn a_scene_with_a_file_is_shown() {
         "--no-open",
     ];
     let also = ["--vtk", "vtk", "--gltf", "motion.glb"];
-    let (done, printed) = place.run(&[&view[..], &also].concat());
+    let (done, printed) = place.printed(&[&view[..], &also].concat());
     assert!(done, "{printed}");
     for file in ["page.html", "motion.glb", "vtk/motion.pvd"] {
         assert!(place.0.join(file).is_file(), "{file}");

@@ -59,12 +59,11 @@ struct ArrayEntry {
     data_offsets: [usize; 2],
 }
 
-/// Arrays of a file, which are taken one after the other.
+/// Arrays of a file that have not been taken yet.
 pub(super) struct Arrays<'a> {
     data: &'a [u8],
     entries: BTreeMap<String, ArrayEntry>,
     metadata: BTreeMap<String, String>,
-    taken: Vec<String>,
 }
 
 impl<'a> Arrays<'a> {
@@ -92,7 +91,6 @@ impl<'a> Arrays<'a> {
             data,
             entries: entries.collect::<Result<_, String>>()?,
             metadata,
-            taken: Vec::new(),
         };
         arrays.check_places()?;
         Ok(arrays)
@@ -103,7 +101,7 @@ impl<'a> Arrays<'a> {
         &self.metadata
     }
 
-    /// Iterates over the names of all arrays.
+    /// Iterates over the names of these arrays.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.entries.keys().map(String::as_str)
     }
@@ -160,10 +158,7 @@ impl<'a> Arrays<'a> {
     /// # Errors
     /// An array that no reduced model has.
     pub fn finish(&self) -> Result<(), String> {
-        let Some(name) = self
-            .names()
-            .find(|name| !self.taken.iter().any(|of| of == name))
-        else {
+        let Some(name) = self.names().next() else {
             return Ok(());
         };
         let interface = name.split_once('.').map_or("NAME", |(first, _)| first);
@@ -201,7 +196,7 @@ impl<'a> Arrays<'a> {
             let wanted = format!("{BYTES} bytes for each number of the shape {shape:?}");
             return Err(wrong(name, &wanted, format!("{} in all", end - begin)));
         }
-        self.taken.push(name.to_owned());
+        self.entries.remove(name);
         let (chunks, _) = self.data[begin..end].as_chunks::<BYTES>();
         Ok(chunks.iter().map(|chunk| read(*chunk)).collect())
     }
