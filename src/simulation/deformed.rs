@@ -7,6 +7,7 @@ use std::fmt;
 
 use super::engine::Engine;
 use super::inputs::Inputs;
+use super::once::Once;
 use crate::scene::{BodyReference, Resolved};
 use crate::system::State;
 
@@ -25,8 +26,7 @@ struct Watched {
     /// Index of the body in the scene.
     body: usize,
     /// Displacement and rotation when they were first too large.
-    found: Option<[f64; 2]>,
-    is_told: bool,
+    found: Once<[f64; 2]>,
 }
 
 /// A reduced body whose deformation has left the range of its model.
@@ -60,8 +60,7 @@ impl DeformationWatch {
             bodies: reduced
                 .map(|(body, _)| Watched {
                     body,
-                    found: None,
-                    is_told: false,
+                    found: Once::default(),
                 })
                 .collect(),
         }
@@ -73,14 +72,15 @@ impl<const D: usize> Engine<D> {
     pub(super) fn watch_deformation(&mut self, state: &State, inputs: &Inputs) {
         let mut watch = std::mem::take(&mut self.deformation);
         for (index, watched) in watch.bodies.iter_mut().enumerate() {
-            if watched.found.is_some() {
+            if !watched.found.is_open() {
                 continue;
             }
             let (assembled, values) = self.placed(state, inputs);
             let body = &assembled.system.bodies().reduced()[index];
             let found = body.deformation(&values.x);
             let [displacement, rotation] = found;
-            watched.found = (displacement > DISPLACEMENT || rotation > ROTATION).then_some(found);
+            let is_beyond = displacement > DISPLACEMENT || rotation > ROTATION;
+            watched.found.find(is_beyond.then_some(found));
         }
         self.deformation = watch;
     }
@@ -88,11 +88,10 @@ impl<const D: usize> Engine<D> {
     /// A reduced body that has deformed too far and that has not been told of.
     pub(super) fn next_over_deformed(&mut self) -> Option<OverDeformed<'_>> {
         let mut bodies = self.deformation.bodies.iter_mut();
-        let watched = bodies.find(|watched| watched.found.is_some() && !watched.is_told)?;
-        watched.is_told = true;
-        let [displacement, rotation] = watched.found?;
+        let next = bodies.find_map(|watched| Some((watched.body, watched.found.tell()?)));
+        let (body, [displacement, rotation]) = next?;
         Some(OverDeformed {
-            body: &self.bodies[watched.body],
+            body: &self.bodies[body],
             displacement,
             rotation,
         })

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::once::Once;
 use crate::scene::Timed;
 
 /// Periods in one communication step beyond which a function is told of. Each takes several sub-steps to follow.
@@ -20,8 +21,7 @@ struct Wave {
     /// Periods in the step that is asked for.
     periods: f64,
     /// Most periods in a step, and how long that was, s.
-    found: Option<[f64; 2]>,
-    is_told: bool,
+    found: Once<[f64; 2]>,
 }
 
 /// A function of time that steps do not follow.
@@ -55,8 +55,7 @@ impl FastFunctions {
         let waves = waves.map(|timed| Wave {
             timed,
             periods: 0.0,
-            found: None,
-            is_told: false,
+            found: Once::default(),
         });
         Self {
             waves: waves.collect(),
@@ -81,20 +80,20 @@ impl FastFunctions {
 
     /// The step of this length (s) that was not refused begins.
     pub(super) fn begin_step(&mut self, step: f64) {
-        for wave in self.waves.iter_mut().filter(|wave| wave.found.is_none()) {
-            wave.found = (wave.periods > PERIODS).then_some([wave.periods, step]);
+        for wave in self.waves.iter_mut().filter(|wave| wave.found.is_open()) {
+            wave.found
+                .find((wave.periods > PERIODS).then_some([wave.periods, step]));
         }
     }
 
     /// The next one to tell of; each once.
     pub(super) fn next(&mut self) -> Option<TooFast<'_>> {
         let mut waves = self.waves.iter_mut();
-        let wave = waves.find(|wave| wave.found.is_some() && !wave.is_told)?;
-        wave.is_told = true;
-        let [periods, step] = wave.found?;
+        let next = waves.find_map(|wave| Some((&wave.timed, wave.found.tell()?)));
+        let (timed, [periods, step]) = next?;
         Some(TooFast {
-            name: wave.timed.name(),
-            path: wave.timed.path(),
+            name: timed.name(),
+            path: timed.path(),
             periods,
             step,
         })

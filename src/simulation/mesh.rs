@@ -3,6 +3,7 @@
 use super::Quantity;
 use super::engine::Engine;
 use super::inputs::Inputs;
+use super::once::Once;
 use super::watch::is_sampled;
 use crate::bodies::LineChain;
 use crate::math::jet::Number;
@@ -47,8 +48,7 @@ pub(super) struct MeshWatch {
     /// Communication points so far.
     points: u64,
     /// The body, and the resolution when it first passed 1.
-    found: Option<(usize, f64)>,
-    is_told: bool,
+    found: Once<(usize, f64)>,
 }
 
 /// A mesh that is too coarse for the error wanted.
@@ -81,7 +81,7 @@ impl<const D: usize> Engine<D> {
     /// Looks at the meshes at communication points that are sampled until they are first too coarse.
     pub(super) fn watch_mesh(&mut self, state: &State, inputs: &Inputs) {
         self.mesh.points += 1;
-        if self.mesh.found.is_some() || !is_sampled(self.mesh.points) {
+        if !self.mesh.found.is_open() || !is_sampled(self.mesh.points) {
             return;
         }
         let resolution = self.output(Quantity::Resolution, state, inputs);
@@ -94,13 +94,12 @@ impl<const D: usize> Engine<D> {
         let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         let first = worst.map(|(chain, _)| system.bodies().lines()[chain].first_node());
         let body = first.and_then(|first| system.bodies().body_from(first));
-        self.mesh.found = body.map(|body| (body, resolution));
+        self.mesh.found.find(body.map(|body| (body, resolution)));
     }
 
     /// A mesh that has become too coarse for its shape and that has not been told of.
     pub(super) fn next_unresolved(&mut self) -> Option<Unresolved<'_>> {
-        let (body, resolution) = self.mesh.found.filter(|_| !self.mesh.is_told)?;
-        self.mesh.is_told = true;
+        let (body, resolution) = self.mesh.found.tell()?;
         Some(Unresolved {
             body: &self.bodies[body],
             resolution,

@@ -11,6 +11,7 @@ mod inputs;
 mod mesh;
 mod method;
 mod modes;
+mod once;
 mod plan;
 mod propeller;
 mod quantities;

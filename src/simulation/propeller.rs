@@ -11,6 +11,7 @@ use std::fmt;
 
 use super::engine::Engine;
 use super::inputs::Inputs;
+use super::once::Once;
 use crate::scene::{BodyReference, Resolved};
 use crate::system::State;
 
@@ -30,8 +31,7 @@ struct Rod {
     /// Share of the stiffness of torsion by the square of the rate, s^2.
     by_rate: f64,
     /// The share when it was first too large.
-    found: Option<f64>,
-    is_told: bool,
+    found: Once<f64>,
 }
 
 /// A rod that rotates too quickly to leave the propeller moment out.
@@ -76,8 +76,7 @@ impl PropellerWatch {
                 body: cable.id.body_index(),
                 chain,
                 by_rate: by_rate.filter(|by| by.is_finite()).fold(0.0, f64::max),
-                found: None,
-                is_told: false,
+                found: Once::default(),
             })
         });
         Self {
@@ -90,12 +89,12 @@ impl<const D: usize> Engine<D> {
     /// Looks at a communication point at how fast rods rotate across their lines.
     pub(super) fn watch_propeller(&mut self, state: &State, inputs: &Inputs) {
         let mut watch = std::mem::take(&mut self.propeller);
-        for rod in watch.rods.iter_mut().filter(|rod| rod.found.is_none()) {
+        for rod in watch.rods.iter_mut().filter(|rod| rod.found.is_open()) {
             let (assembled, values) = self.placed(state, inputs);
             let system = &assembled.system;
             let square = values.turning_across(system, &system.bodies().lines()[rod.chain]);
             let share = rod.by_rate * square;
-            rod.found = (share > SHARE).then_some(share);
+            rod.found.find((share > SHARE).then_some(share));
         }
         self.propeller = watch;
     }
@@ -103,9 +102,7 @@ impl<const D: usize> Engine<D> {
     /// A rod that rotates too quickly and that has not been told of.
     pub(super) fn next_without_propeller(&mut self) -> Option<NoPropeller<'_>> {
         let mut rods = self.propeller.rods.iter_mut();
-        let rod = rods.find(|rod| rod.found.is_some() && !rod.is_told)?;
-        rod.is_told = true;
-        let (body, share) = (rod.body, rod.found?);
+        let (body, share) = rods.find_map(|rod| Some((rod.body, rod.found.tell()?)))?;
         Some(NoPropeller {
             body: &self.bodies[body],
             share,

@@ -71,19 +71,25 @@ impl Simulation {
         engine.and_then(AnyEngine::next_over_deformed)
     }
 
+    /// The next thing, in words, that lies beyond what a model or sub-steps hold: a function of time that is too fast, a rod that rotates too
+    /// quickly, a reduced body that has deformed too far. Each is told once.
+    pub fn next_beyond(&mut self) -> Option<String> {
+        if let Some(found) = self.next_too_fast() {
+            return Some(found.to_string());
+        }
+        if let Some(found) = self.next_without_propeller() {
+            return Some(found.to_string());
+        }
+        self.next_over_deformed().map(|found| found.to_string())
+    }
+
     /// Tells all that the steps so far give reason to warn of and that was not told of before, in words: outputs that the tolerance does not
     /// reach, functions of time that are too fast, prescribed motions whose rates were never set, singular positions, a mesh that is too coarse.
     pub fn tell_warnings(&mut self, mut tell: impl FnMut(std::fmt::Arguments<'_>)) {
         while let Some(doubtful) = self.next_doubtful() {
             tell(format_args!("{doubtful}"));
         }
-        while let Some(found) = self.next_too_fast() {
-            tell(format_args!("{found}"));
-        }
-        while let Some(found) = self.next_without_propeller() {
-            tell(format_args!("{found}"));
-        }
-        while let Some(found) = self.next_over_deformed() {
+        while let Some(found) = self.next_beyond() {
             tell(format_args!("{found}"));
         }
         while let Some(message) = self.unset_rates.next() {

@@ -314,15 +314,8 @@ impl Run {
                 }
             })?;
             self.cost.add(simulation.report());
-            while let Some(found) = simulation.next_too_fast() {
-                self.cost.told.push(found.to_string());
-            }
-            while let Some(found) = simulation.next_without_propeller() {
-                self.cost.told.push(found.to_string());
-            }
-            while let Some(found) = simulation.next_over_deformed() {
-                self.cost.told.push(found.to_string());
-            }
+            let told = std::iter::from_fn(|| simulation.next_beyond());
+            self.cost.told.extend(told);
             self.cost.singular.extend(simulation.next_singular());
             if let Some(unresolved) = simulation.next_unresolved() {
                 self.cost.unresolved = Some(unresolved.to_string());
