@@ -1,6 +1,6 @@
 //! Findings of a run that are told once.
 
-/// What was found first, and whether it was told.
+/// The first finding, and whether it was told.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Once<T> {
     found: Option<T>,
@@ -27,7 +27,7 @@ impl<T: Copy> Once<T> {
         self.found = found;
     }
 
-    /// What was found, the first time that it is asked for.
+    /// Returns the finding, the first time that it is asked for.
     pub fn tell(&mut self) -> Option<T> {
         let found = self.found.filter(|_| !self.is_told)?;
         self.is_told = true;

@@ -176,7 +176,7 @@ impl ReducedBody {
         3 + self.model.modes()
     }
 
-    /// What is counted besides the centre of mass, which stands in the places of rotations and amplitudes.
+    /// Iterates over all that is counted besides the centre of mass, which stands in the places of rotations and amplitudes.
     pub(in crate::bodies) fn counted<'a, const D: usize>(
         &self,
         found: &'a [Node<D>],
