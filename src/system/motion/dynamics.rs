@@ -313,6 +313,27 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
             .inertia(elimination, weights)
     }
 
+    /// As [`Dynamics::solve`], where rotations are zero: small rotations are changes of coordinates there, but for reduced bodies.
+    pub fn solve_small(&mut self, x: &mut [f64]) {
+        let is_reduced = !self.system.bodies.reduced().is_empty();
+        if is_reduced {
+            self.system.to_tangent(0, self.work, x);
+        }
+        self.solve_tangent(x);
+        if is_reduced {
+            self.system.back_from_tangent(0, self.work, x);
+        }
+    }
+
+    /// Solves in place over what the tangent is made in.
+    fn solve_tangent(&mut self, x: &mut [f64]) {
+        self.operations += SOLVE;
+        self.work
+            .linearization
+            .tangent
+            .solve(&self.system.elimination, x);
+    }
+
     /// `K x`, in place, inside the tangent plane of the constraints.
     pub fn apply_stiffness(&mut self, x: &mut [f64]) {
         let (system, work) = (self.system, &mut *self.work);
@@ -405,9 +426,8 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        self.operations += SOLVE;
         self.system.to_tangent(0, self.work, x);
-        (self.work.linearization.tangent).solve(&self.system.elimination, x);
+        self.solve_tangent(x);
         self.system.back_from_tangent(0, self.work, x);
     }
 

@@ -424,7 +424,7 @@ fn first_step<const D: usize>(
     if !model.factor([least * least, least]) {
         return 1.0;
     }
-    model.solve(&mut x);
+    model.solve_small(&mut x);
     let part = 1e-3 * system.scale() / norm(&x);
     if !part.is_finite() {
         return 1.0;

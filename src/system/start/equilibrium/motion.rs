@@ -155,7 +155,7 @@ impl<const D: usize> Newton<'_, '_, D> {
                 if !self.model.factor([shift * shift, 0.0]) {
                     return None;
                 }
-                self.model.solve(&mut self.x);
+                self.model.solve_small(&mut self.x);
             } else if !unsymmetric::solve(self.model, shift, self.least, &mut self.x) {
                 return None;
             }

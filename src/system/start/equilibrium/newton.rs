@@ -226,7 +226,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         }
         for _ in 0..SHIFTS {
             if self.model.factor([*shift * *shift, *shift]) {
-                self.model.solve(&mut self.x);
+                self.model.solve_small(&mut self.x);
                 return true;
             }
             *shift = (3.0 * *shift).max(self.least);
@@ -329,7 +329,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         let largest = (self.least / EDGE).powi(2);
         let mut mode = seed(state.coordinates.len());
         for _ in 0..POWERS {
-            self.model.solve(&mut mode);
+            self.model.solve_small(&mut mode);
             let size = norm(&mode);
             if !(size.is_finite() && size > 0.0) {
                 return None;

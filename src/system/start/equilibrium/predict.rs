@@ -34,7 +34,7 @@ impl<const D: usize> Newton<'_, '_, D> {
         let mut shift = self.least;
         for _ in 0..SHIFTS {
             if self.model.factor([shift * shift, shift]) {
-                self.model.solve(&mut self.x);
+                self.model.solve_small(&mut self.x);
                 let ways = [Some(&self.x), least.as_ref()].into_iter().flatten();
                 for way in ways {
                     (state.coordinates.iter_mut().zip(way)).for_each(|(q, way)| *q += way);

@@ -123,7 +123,7 @@ fn preconditioned<const D: usize>(model: &mut DrivenSystem<'_, D>, f: &[f64]) ->
     model
         .system
         .project_on_tangent_plane(&mut model.work.constraints, &mut x);
-    model.solve(&mut x);
+    model.solve_small(&mut x);
     model
         .system
         .project_on_tangent_plane(&mut model.work.constraints, &mut x);
