@@ -164,6 +164,13 @@ impl<const D: usize> Bodies<D> {
         q.copy_from_slice(y);
     }
 
+    /// [`Self::convert`] of reduced bodies alone, whose spins are counted otherwise even where nothing has rotated.
+    pub fn convert_reduced(&self, order: Derivative, at: &Rotations, q: &mut [f64]) {
+        for body in &self.reduced {
+            BodyPart::<D>::convert(body, order, at, q);
+        }
+    }
+
     /// Takes over the rotations of a stage that differ from those where a tangent was made: of sections with a shear rotation, whose shear is
     /// stiffer than they are inert. Inertia of all others is linear in `q`.
     pub fn keep_stage(&self, now: &Rotations, stage: &mut Rotations) {

@@ -243,3 +243,31 @@ fn a_strip_that_bends_too_far_is_told_of() -> Result<(), String> {
     }
     Ok(())
 }
+
+/// A strip at the end of a beam hangs in equilibrium: the clamp carries both weights, and their moments about it to what deflections
+/// change.
+#[test]
+fn a_strip_on_a_beam_hangs_in_equilibrium() -> Result<(), String> {
+    let mut scene = strip(&json!({"position": [0.4, 0, 0]}));
+    scene["gravity"] = json!([0, 0, -9.81]);
+    let beam = json!({"name": "beam", "element": "beam", "elements": 4,
+        "material": {"youngs_modulus": 2e10, "shear_modulus": 8e9, "density": 7850},
+        "section": {"shape": {"rectangle": {"width": 0.03, "height": 0.006}}},
+        "shape": {"line": {"from": [0, 0, 0], "to": [0.4, 0, 0]}}, "markers": {"clamp": 0, "end": 1}});
+    let bodies = scene["bodies"].as_array_mut().ok_or("bodies")?;
+    bodies.push(beam);
+    scene["joints"] = json!([{"name": "wall", "kind": "weld", "markers": ["ground", "beam.clamp"]},
+        {"name": "seam", "kind": "weld", "markers": ["beam.end", "strip.root"]}]);
+    scene["outputs"] = json!([{"kind": "reaction", "joint": "wall"}, {"kind": "reaction_moment", "joint": "wall"}]);
+    scene["initial"] = json!({"state": "static_equilibrium"});
+    let mut run = Run::new(&scene)?;
+    let [beam, strip] = [7850.0 * 0.03 * 0.006 * 0.4, 0.35325].map(|mass| 9.81 * mass);
+    near(run.value("wall.reaction[3]")?.abs(), beam + strip, 1e-6);
+    let moment = beam * 0.2 + strip * (0.4 + 0.25);
+    near(
+        run.value("wall.reaction_moment[2]")?.abs(),
+        moment,
+        0.01 * moment,
+    );
+    Ok(())
+}

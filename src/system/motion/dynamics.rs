@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 
-use crate::bodies::{Node, RENEWED};
+use crate::bodies::{Derivative, Node, RENEWED};
 use crate::system::instant::Instant;
 use crate::system::loads::ForceElement as _;
 use crate::system::signal::{Trajectory, moved};
@@ -313,16 +313,17 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
             .inertia(elimination, weights)
     }
 
-    /// As [`Dynamics::solve`], where rotations are zero: small rotations are changes of coordinates there, but for reduced bodies.
+    /// As [`Dynamics::solve`], over small rotations in place of changes of coordinates: equilibria are found in these. Amplitudes of reduced
+    /// bodies are counted with them, and are converted.
     pub fn solve_small(&mut self, x: &mut [f64]) {
-        let is_reduced = !self.system.bodies.reduced().is_empty();
-        if is_reduced {
-            self.system.to_tangent(0, self.work, x);
-        }
+        self.convert_reduced(Derivative::Back, x);
         self.solve_tangent(x);
-        if is_reduced {
-            self.system.back_from_tangent(0, self.work, x);
-        }
+        self.convert_reduced(Derivative::First, x);
+    }
+
+    fn convert_reduced(&self, order: Derivative, x: &mut [f64]) {
+        let rotations = &self.work.linearization.stages[0];
+        self.system.bodies.convert_reduced(order, rotations, x);
     }
 
     /// Solves in place over what the tangent is made in.
