@@ -106,6 +106,65 @@ fn a_beam_is_wound_to_ten_turns_within_little_work() {
     );
 }
 
+/// A rigid body at the end of a beam has no stiffness of its own. It hangs where linear theory has it, up to what the deflection changes:
+/// `P L^3 / 3 E I + M L^2 / 2 E I + q L^4 / 8 E I` (S. P. Timoshenko, Strength of materials I, section 40), and for its own length the slope.
+#[test]
+fn a_body_at_the_end_of_a_beam_hangs() -> Result<(), String> {
+    let (length, arm, mass) = (0.4, 0.25, 0.353_f64);
+    for (width, height, modulus, elements) in [
+        (0.03, 0.006, 2e10, 1),
+        (0.03, 0.006, 2e10, 4),
+        (0.03, 0.006, 2e10, 16),
+        (0.006, 0.03, 2e10, 4),
+        (0.03, 0.02, 1e9, 4),
+    ] {
+        let line = 7850.0 * width * height * 9.81;
+        let weight = mass * 9.81;
+        let scene = json!({"name": "hung", "dimension": 3, "gravity": [0, 0, -9.81],
+            "bodies": [{"name": "beam", "element": "beam", "elements": elements,
+                        "material": {"youngs_modulus": modulus, "shear_modulus": 0.4 * modulus, "density": 7850},
+                        "section": {"shape": {"rectangle": {"width": width, "height": height}}},
+                        "shape": {"line": {"from": [0, 0, 0], "to": [length, 0, 0]}}, "markers": {"clamp": 0, "end": 1}},
+                       {"name": "body", "element": "rigid", "mass": mass, "inertia": [2.7e-5, 7.4e-3, 7.4e-3],
+                        "position": [length + arm, 0, 0], "markers": {"root": [-arm, 0, 0], "tip": [arm, 0, 0]}}],
+            "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "beam.clamp"]},
+                       {"name": "seam", "kind": "weld", "markers": ["beam.end", "body.root"]}],
+            "outputs": [{"kind": "position", "marker": "body.tip"}, {"kind": "reaction_moment", "joint": "wall"}],
+            "initial": "static_equilibrium", "accuracy": {"relative_tolerance": 1e-6}});
+        let scene = Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?;
+        let mut simulation = Simulation::new(scene);
+        simulation
+            .initialize(0.0)
+            .map_err(|error| error.to_string())?;
+        simulation.start().map_err(|error| error.to_string())?;
+        let mut value = |name: &str| {
+            let index = simulation.variables().iter().position(|v| v.name == name);
+            let index = index.ok_or_else(|| format!("{name}: no such variable"))?;
+            simulation.real(index).map_err(|error| error.to_string())
+        };
+        let case = format!("{width} x {height}, {elements}");
+        let moment = weight * (length + arm) + line * length * length / 2.0;
+        let found = value("wall.reaction_moment[2]")?.abs();
+        assert!(
+            (found / moment - 1.0).abs() < 0.01,
+            "{case}: {found} {moment}"
+        );
+        let stiffness = modulus * width * f64::powi(height, 3) / 12.0;
+        let at_end = weight * arm;
+        let fall = weight * length.powi(3) / 3.0
+            + at_end * length.powi(2) / 2.0
+            + line * length.powi(4) / 8.0;
+        let slope = weight * length.powi(2) / 2.0 + at_end * length + line * length.powi(3) / 6.0;
+        let expected = (fall + slope * 2.0 * arm) / stiffness;
+        let found = -value("body.tip.position[3]")?;
+        assert!(
+            (found / expected - 1.0).abs() < 0.02,
+            "{case}: {found} {expected}"
+        );
+    }
+    Ok(())
+}
+
 /// A mesh that is too fine to be started within the work limit does not end a plan: the best of those before is taken, and that it does not
 /// keep the error is told.
 #[test]

@@ -75,6 +75,12 @@ impl SparseRows {
         })
     }
 
+    /// Square of a row.
+    pub fn square(&self, row: usize) -> f64 {
+        let entries = self.pieces(row).flat_map(|(_, piece)| piece);
+        entries.map(|entry| entry * entry).sum()
+    }
+
     /// Product of a row with `q`.
     #[inline(always)]
     pub fn product(&self, row: usize, q: &[f64]) -> f64 {

@@ -326,6 +326,11 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         self.system.bodies.convert_reduced(order, rotations, x);
     }
 
+    /// Adds stiffness, 1/s^2, against motions that constraints do not allow to the tangent: see [`System::add_held`].
+    pub fn hold(&mut self, stiffness: f64) {
+        self.system.add_held(stiffness, self.work);
+    }
+
     /// Solves in place over what the tangent is made in.
     fn solve_tangent(&mut self, x: &mut [f64]) {
         self.operations += SOLVE;

@@ -216,6 +216,42 @@ impl<const D: usize> System<D> {
         self.add_multipliers(&view, &constraints.jacobian, &mut tangent.stiffness);
     }
 
+    /// Adds `s C^T C` to the stiffness, where `C` are the derivatives of the constraints that count and `s` gives each of them this stiffness,
+    /// 1/s^2, by itself. Motions that keep the constraints do not feel it. Bodies that constraints alone hold have pivots of that size in place
+    /// of none (M. Benzi, G. H. Golub, J. Liesen, Acta Numerica 14 (2005), section 8.1: augmented Lagrangian).
+    pub(in crate::system) fn add_held(&self, stiffness: f64, work: &mut Workspace<D>) {
+        let Workspace {
+            kinematics,
+            constraints,
+            linearization,
+            ..
+        } = work;
+        let (view, assembly) = (self.view(kinematics), &self.elimination.assembly);
+        let (jacobian, matrix) = (&constraints.jacobian, &mut linearization.tangent.stiffness);
+        let mut terms: Vec<(usize, Node<D>)> = Vec::new();
+        let rows = self.constraints.iter().enumerate();
+        for (row, constraint) in rows.filter(|(row, _)| jacobian.is_independent(*row)) {
+            let square = jacobian.rows().square(row);
+            if square == 0.0 {
+                continue;
+            }
+            terms.clear();
+            constraint.for_each_pulled(&view, |node, term| {
+                let term = self.bodies.pull_back_force(node, view.drives, term);
+                match terms.iter_mut().find(|(other, _)| *other == node) {
+                    Some((_, sum)) => add_node(sum, 1.0, &term),
+                    None => terms.push((node, term)),
+                }
+            });
+            for (place, (a, by_a)) in terms.iter().enumerate() {
+                for (b, by_b) in &terms[place..] {
+                    let block = map_node(by_a, |u| map_node(by_b, |w| stiffness / square * u * w));
+                    assembly.add(*a, *b, &block, matrix);
+                }
+            }
+        }
+    }
+
     /// Adds second derivatives by nodal coordinates to a matrix over the free ones.
     #[inline(always)]
     fn add_block(

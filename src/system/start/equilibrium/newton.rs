@@ -29,6 +29,8 @@ const EVEN: f64 = 1e-6;
 const HIDDEN: f64 = 1e-15;
 /// Smallest shift, relative to the root of the largest eigenvalue: its square is at the edge of roundoff.
 pub(super) const EDGE: f64 = 1e-8;
+/// Stiffness against what constraints do not allow, relative to the largest eigenvalue: roundoff of either does not reach the lowest ones.
+const HELD: f64 = 1e-6;
 /// Steps of the power iteration for the largest and of the inverse iteration for the lowest mode.
 const POWERS: usize = 20;
 /// Correction, relative to the size of the system, below which Newton converges quadratically.
@@ -57,6 +59,8 @@ pub(super) struct Newton<'a, 'b, const D: usize> {
     pub(super) model: &'a mut DrivenSystem<'b, D>,
     /// Smallest shift.
     pub(super) least: f64,
+    /// Stiffness against what constraints do not allow, 1/s^2.
+    held: f64,
     /// Shift that is kept to the end, where a direction in which nothing acts is free; else 0.
     kept: f64,
     pub(super) is_conservative: bool,
@@ -78,6 +82,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         Self {
             is_conservative: model.system.is_conservative(),
             least: least.max(kept),
+            held: HELD * (least / EDGE).powi(2),
             kept,
             force: rest.clone(),
             x: rest.clone(),
@@ -155,7 +160,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
                 }
                 strength = now;
             }
-            self.model.linearize(time, &state.coordinates, &self.rest);
+            self.linearize(state);
             if !self.correct(&mut shift) {
                 return Err(correction);
             }
@@ -202,6 +207,13 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             };
         }
         Err(correction)
+    }
+
+    /// Makes the tangent, with stiffness against what constraints do not allow. Bodies that constraints alone hold have none of their own: their
+    /// pivots would be shifts at the edge of roundoff, and corrections off by 1e-9 of the size.
+    fn linearize(&mut self, state: &State) {
+        (self.model).linearize(state.time, &state.coordinates, &self.rest);
+        self.model.hold(self.held);
     }
 
     fn most_iterations(&self, guard: AcceptanceTest) -> usize {
@@ -293,7 +305,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         if stiffest > 0.0 {
             self.least = before.min(EDGE * stiffest.sqrt());
         }
-        (self.model).linearize(state.time, &state.coordinates, &self.rest);
+        self.linearize(state);
         let leaves = self.lowest(state).is_some() && self.displace(state);
         self.least = before;
         leaves
