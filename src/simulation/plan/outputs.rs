@@ -209,9 +209,7 @@ fn nature(source: Source) -> Option<Nature> {
         | Acceleration(..)
         | SlidingAcceleration(_)
         | AngularAcceleration(..)
-        | JointAcceleration(_)
-        | GearForce(_)
-        | GearTorque(_) => (Measure::Elastic, false, true),
+        | JointAcceleration(_) => (Measure::Elastic, false, true),
         AxialForce(_)
         | BendingMoment(..)
         | Torque(_)
@@ -220,6 +218,8 @@ fn nature(source: Source) -> Option<Nature> {
         | ConnectivityForce(..)
         | Reaction(..)
         | ReactionMoment(..)
+        | GearForce(_)
+        | GearTorque(_)
         | MotionForce(..)
         | MotionMoment(..) => (Measure::Elastic, true, true),
         Momentum(_) | AngularMomentum(_) => (Measure::Sum, false, true),
