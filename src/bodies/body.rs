@@ -13,7 +13,7 @@
 //!   an angle, in rad, and begins at zero wherever the frame is renewed.
 //! - A *spin* is an angular velocity along these axes, of a section of a rod about its tangent, rad/s.
 
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::Vector3;
 
 use super::assembly::{Assembly, Links, NodeBlock};
 use super::connectivity::Node;
@@ -88,7 +88,7 @@ pub(super) use each;
 /// - Map, where axes follow from rotations: `place`, `place_rates`, `place_changes`, `add_centripetal`, `pull_back`, `for_each_geometric`.
 ///   Rotations that `q` alone tells need `convert`, `rotation_in` and `renew`. Those of sections need `convert_free`, `rotation_at` and
 ///   `renew_free`.
-/// - Mass: `add_mass`. Mass at nodes needs `mass`, `add_center`, `add_weight`, `add_inertia`, `add_mass_times` and `add_quadratic`. A mass
+/// - Mass: `add_mass`. Mass at nodes needs `mass`, `add_center`, `add_weight`, `add_inertia`, `add_centrifugal` and `add_quadratic`. A mass
 ///   that changes needs `add_inertia_now` and `kinetic_beside`. Inertia against spins of sections needs `add_spin_momentum`,
 ///   `add_gyroscopic`, `add_frame_spin`, `frame_spin_energy` and `kinetic_beside`.
 /// - Forces, of parts with stiffness: `add_force`, `add_force_of`, `add_tangent`. Moments on sections in space need `add_torques`.
@@ -206,11 +206,11 @@ pub(super) trait BodyPart<const D: usize> {
     /// Adds its mass over the free coordinates.
     fn add_mass(&self, assembly: &Assembly<D>, mass: &mut Matrix<f64>);
 
-    /// Adds its mass, with the matrix `axes` in place of the identity of space, to a matrix over the free coordinates. It gives the stiffness
-    /// of centrifugal forces, where `axes` is the squared matrix of the rotation of the scene's frame.
-    fn add_mass_times(
+    /// Adds the stiffness of centrifugal forces in a scene described in a frame rotating at `rotation` (rad/s) to a matrix over the free
+    /// coordinates: of masses at nodes the mass times the squared matrix of the rotation.
+    fn add_centrifugal(
         &self,
-        _axes: &SMatrix<f64, D, D>,
+        _rotation: [f64; 3],
         _x: &[Node<D>],
         _assembly: &Assembly<D>,
         _matrix: &mut Matrix<f64>,

@@ -12,7 +12,7 @@ use super::stages::RotatingNodes;
 use super::winch::PaidOut;
 use crate::elements::{Blocks, Element as _, Nodal};
 use crate::math::jet::{Jet, Number};
-use crate::math::space::Vector;
+use crate::math::space::{Vector, spin_matrix};
 use crate::math::sparse::{General, Matrix};
 
 impl<const D: usize> LineChain<D> {
@@ -59,14 +59,15 @@ impl<const D: usize> BodyPart<D> for LineChain<D> {
         LineChain::add_mass(self, &SMatrix::identity(), assembly, mass);
     }
 
-    fn add_mass_times(
+    fn add_centrifugal(
         &self,
-        axes: &SMatrix<f64, D, D>,
+        rotation: [f64; 3],
         _x: &[Node<D>],
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
-        LineChain::add_mass(self, axes, assembly, matrix);
+        let spin = spin_matrix::<D>(rotation);
+        LineChain::add_mass(self, &(spin * spin), assembly, matrix);
     }
 
     fn add_inertia<N: Number>(&self, s: f64, a: &[Node<D, N>], f: &mut [Node<D, N>]) {

@@ -11,7 +11,7 @@ use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, no_node};
 use super::probe::Probe;
 use super::setup::NodeNumber;
-use crate::math::space::{Vector, spin_matrix, spun};
+use crate::math::space::{Vector, spun};
 use crate::math::sparse::{General, Matrix};
 
 /// Where bodies are linearized.
@@ -146,7 +146,7 @@ impl<const D: usize> Bodies<D> {
         terms.settle(at.assembly);
     }
 
-    /// Adds the stiffness of the centrifugal force at a rotation of the frame of the scene, rad/s: the square of its matrix times the mass.
+    /// Adds the stiffness of the centrifugal force at a rotation of the frame of the scene, rad/s.
     pub fn add_centrifugal(
         &self,
         rotation: [f64; 3],
@@ -154,10 +154,8 @@ impl<const D: usize> Bodies<D> {
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
-        let spin = spin_matrix::<D>(rotation);
-        let axes = spin * spin;
-        each!(self, |body| BodyPart::add_mass_times(
-            body, &axes, x, assembly, matrix
+        each!(self, |body| BodyPart::add_centrifugal(
+            body, rotation, x, assembly, matrix
         ));
     }
 }

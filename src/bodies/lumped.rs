@@ -8,7 +8,7 @@ use super::body::{BodyPart, Momentum, NodalMotion};
 use super::connectivity::{Node, no_node};
 use super::linearized::{LinearTerms, LinearizationPoint};
 use crate::math::jet::Number;
-use crate::math::space::Vector;
+use crate::math::space::{Vector, spin_matrix};
 use crate::math::sparse::Matrix;
 
 /// Mass in a point of a body: a point mass, or a rigid body about its centre of mass.
@@ -60,14 +60,15 @@ impl<const D: usize> BodyPart<D> for LumpedMass {
         self.add_mass_along(&SMatrix::identity(), assembly, mass);
     }
 
-    fn add_mass_times(
+    fn add_centrifugal(
         &self,
-        axes: &SMatrix<f64, D, D>,
+        rotation: [f64; 3],
         _x: &[Node<D>],
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
-        self.add_mass_along(axes, assembly, matrix);
+        let spin = spin_matrix::<D>(rotation);
+        self.add_mass_along(&(spin * spin), assembly, matrix);
     }
 
     fn add_inertia<N: Number>(&self, s: f64, a: &[Node<D, N>], f: &mut [Node<D, N>]) {

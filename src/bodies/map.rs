@@ -100,6 +100,13 @@ impl<const D: usize> Bodies<D> {
         self.add_scaling_bias(motion, a);
     }
 
+    /// Adds to second derivatives of what follows from amplitudes of reduced bodies what follows from positions and rates alone. Accelerations
+    /// of places do not read it, derivatives of these do.
+    pub fn add_derived_bias<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
+        let bodies = self.reduced.iter();
+        bodies.for_each(|body| body.add_derived_bias(motion.pair(), a));
+    }
+
     /// Takes forces on nodes back to what is integrated: forces, moments along axes. Gyroscopic moments and the moments `torques` of sections
     /// are added.
     #[inline(always)]

@@ -9,6 +9,7 @@
 mod body;
 mod changes;
 mod forces;
+mod frame_spin;
 mod linearized;
 
 use nalgebra::Vector3;

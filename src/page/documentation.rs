@@ -6,7 +6,7 @@ use super::parts::parts;
 use super::plan::plan;
 use super::table::{code, row};
 use crate::picture::{filled, palette};
-use crate::scene::{Body, InitialState, Integrator, Model, Scene, Spin, Strain};
+use crate::scene::{Body, InitialState, Integrator, Model, Modes, Scene, Spin, Strain};
 use crate::scene::{number, rounded};
 use crate::simulation::{Causality, Planned, Variable, variables};
 
@@ -150,12 +150,30 @@ fn body_in_words(body: &Body) -> String {
         }
         Body::Reduced(reduced) => {
             let mass = rounded(reduced.contained().model.mass);
-            let modes = match reduced.mode_count() {
-                1 => "1 mode".into(),
-                count => format!("{count} modes"),
+            let modes = match (reduced.modes, reduced.first_modes()) {
+                (_, 0) => {
+                    return format!(
+                        "the rigid body <em>{name}</em> of {mass} kg, from a finite element model"
+                    );
+                }
+                (Modes::FixedInterface(modes), _) => {
+                    format!(
+                        "static shapes and {}",
+                        counted(modes.fixed_interface as usize)
+                    )
+                }
+                (_, count) => counted(count),
             };
             format!("the finite element model <em>{name}</em> of {mass} kg, reduced to {modes}")
         }
+    }
+}
+
+/// A number of modes in words.
+fn counted(modes: usize) -> String {
+    match modes {
+        1 => "1 mode".into(),
+        count => format!("{count} modes"),
     }
 }
 

@@ -70,8 +70,8 @@ fn numbers(plan: &Plan) -> String {
         plan.runs_cost
     );
     let rows = plan.bodies.iter().map(|body| {
-        let elements = body.elements.map(|n| n.to_string()).unwrap_or_default();
-        row(&[&code(&body.name), body.kind, &elements, &escape(&body.why)])
+        let count = body.count_in_words();
+        row(&[&code(&body.name), body.kind, &count, &escape(&body.why)])
     });
     let bodies = table(
         "Numbers that were planned",

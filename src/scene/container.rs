@@ -14,7 +14,7 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, Vector3};
 use sha2::{Digest, Sha256};
 
-use crate::elements::reduced::{Interface, PAIRED, ReducedModel, Symmetric};
+use crate::elements::reduced::{Interface, ReducedModel, Symmetric};
 use crate::scene::Inertia;
 use arrays::{Arrays, wrong};
 
@@ -273,11 +273,10 @@ impl ModelReader<'_> {
         let Ok(shape) = self.arrays.shape("cubic") else {
             return Ok(Vec::new());
         };
-        let most = PAIRED.min(n);
         let paired = match *shape {
-            [modes, a, b] if modes == n && a == b && (1..=most).contains(&a) => a,
+            [modes, a, b] if modes == n && a == b && (1..=n).contains(&a) => a,
             _ => {
-                let wanted = format!("the shape [{n}, m, m], m from 1 to {most}");
+                let wanted = format!("the shape [{n}, m, m], m from 1 to {n}");
                 return Err(wrong("cubic", &wanted, format!("{shape:?}")));
             }
         };

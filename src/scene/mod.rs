@@ -36,10 +36,10 @@ pub use assemble::{Assembled, assemble};
 pub use container::{Container, Details};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, FileBody,
-    Inertia, Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation,
-    LineBody, LineModel, Material, Method, Model, Modes, Orientation, OutputKind, Profile,
-    RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain,
-    Surface, Table, Value,
+    FixedInterfaceModes, Inertia, Initial, InitialMotion, InitialState, InputCourse, Integrator,
+    Interpolation, LineBody, LineModel, Material, Method, Model, Modes, Orientation, OutputKind,
+    Profile, RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station,
+    Strain, Surface, Table, Value,
 };
 pub use elements::Chosen;
 pub use files::{Files, beside, bounded};

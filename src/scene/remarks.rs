@@ -109,11 +109,11 @@ fn left_out(body: &Body) -> Option<String> {
     let Body::Reduced(reduced) = body else {
         return None;
     };
-    let (taken, all) = (reduced.mode_count(), reduced.contained().model.modes());
-    (taken < all).then(|| {
+    let (taken, all) = (reduced.first_modes(), reduced.contained().model.modes());
+    (0 < taken && taken < all).then(|| {
         format!(
-            ".modes: found {taken} of {all} modes, which leaves out the compliance of the others at interfaces: joints there are too stiff (reduce the finite \
-             element model to fewer modes instead, with its static shapes)"
+            ".modes: found {taken} of {all} modes, which leaves out the compliance of the others at interfaces: joints there are too stiff (`{{\"fixed_interface\": a number}}` keeps \
+             static shapes)"
         )
     })
 }

@@ -1,8 +1,8 @@
 //! Keys of reduced bodies, of which a specimen would have to bring a file: claims of their own, with the strip of the book. It has a
 //! length of 0.5 m and modes in closed form (`docs/book/examples/bodies/strip.py`).
 
-use flexbody::scene::{Scene, beside};
-use flexbody::simulation::Simulation;
+use flexbody::scene::{Modes, Scene, beside};
+use flexbody::simulation::{Budget, Simulation, plan};
 use nalgebra::{Rotation3, Vector3};
 use serde_json::{Value, json};
 
@@ -46,7 +46,15 @@ impl Run {
 
     /// With parameters set.
     fn set(scene: &Value, values: &[(&str, f64)]) -> Result<Self, String> {
-        let mut run = Self(Simulation::new(read(scene)?));
+        Self(Simulation::new(read(scene)?)).started(values)
+    }
+
+    fn of(scene: Scene) -> Result<Self, String> {
+        Self(Simulation::new(scene)).started(&[])
+    }
+
+    fn started(self, values: &[(&str, f64)]) -> Result<Self, String> {
+        let mut run = self;
         for (name, value) in values {
             let index = run.index(name)?;
             let set = run.0.set_real(index, *value);
@@ -156,6 +164,140 @@ fn a_strip_has_the_modes_that_are_taken() -> Result<(), String> {
     Ok(())
 }
 
+/// `modes`: with none the body is rigid: a pendulum of its mass and inertia.
+#[test]
+fn a_strip_without_modes_is_rigid() -> Result<(), String> {
+    let mut scene = strip(&json!({"modes": 0}));
+    scene["gravity"] = json!([0, 0, -9.81]);
+    scene["outputs"] = json!([{"kind": "acceleration", "marker": "strip.tip"}, {"kind": "energy"}]);
+    scene["joints"] = json!([{"name": "pivot", "kind": "revolute", "direction": [0, 1, 0],
+        "markers": ["ground", "strip.root"]}]);
+    let mut run = Run::new(&scene)?;
+    // m g L / 2 about an inertia of m L^2 / 3 + m t^2 / 12, about the edge of a plate.
+    let (length, thickness) = (LENGTH, 0.003f64);
+    let inertia = length.powi(2) / 3.0 + thickness.powi(2) / 12.0;
+    let expected = -9.81 * length / 2.0 / inertia * length;
+    near(run.value("strip.tip.acceleration[3]")?, expected, 1e-9);
+    assert_eq!(run.value("energy.strain")?, 0.0);
+    Ok(())
+}
+
+/// `modes`: with held interfaces; the clamped strip has the same natural frequencies as with all modes of the file, and deflects alike.
+#[test]
+fn a_strip_has_natural_modes_with_held_interfaces() -> Result<(), String> {
+    let clamped = |modes: &Value, count: usize| {
+        let mut scene = strip(&json!({"modes": modes}));
+        scene["joints"] =
+            json!([{"name": "wall", "kind": "weld", "markers": ["ground", "strip.root"]}]);
+        scene["outputs"] = json!([{"kind": "natural_frequency", "count": count}]);
+        Run::new(&scene)?.frequencies()
+    };
+    let all = clamped(&json!("all"), 3)?;
+    // Source: S. S. Rao, Vibration of continuous systems (2007), chapter 11: beta L = 1.875 of a cantilever.
+    let first = 3.51602 / std::f64::consts::TAU * (2.1e11 / 7850.0 / 12.0f64).sqrt() * 0.003
+        / LENGTH.powi(2);
+    near(all[0] / first, 1.0, 1e-3);
+    for count in 1..=3 {
+        let held = clamped(&json!({"fixed_interface": count}), count)?;
+        assert_eq!(held.len(), count);
+        (held.iter().zip(&all)).for_each(|(a, b)| near(*a, *b, 1e-7 * b));
+        // The first modes of the free strip are no substitute.
+        let free = clamped(&json!(count), count)?;
+        assert!(free[0] > 1.02 * all[0], "{free:?}");
+    }
+    Ok(())
+}
+
+/// `critically_damped`: with both ends held the strip has static shapes, which answer to loads without ringing where that is said.
+#[test]
+fn static_shapes_of_a_strip_answer() -> Result<(), String> {
+    let bent = |modes: &Value, is_damped: bool| {
+        let mut scene = strip(&json!({"modes": modes, "critically_damped": is_damped}));
+        scene["joints"] = json!([
+            {"name": "wall", "kind": "weld", "markers": ["ground", "strip.root"]},
+            {"name": "guide", "kind": "point_on_line", "direction": [1, 0, 0], "markers": ["ground", "strip.tip"]}]);
+        scene["initial"] = json!({"state": "static_equilibrium"});
+        scene["gravity"] = json!([0, 0, -9.81]);
+        scene["outputs"] =
+            json!([{"kind": "reaction_moment", "joint": "wall"}, {"kind": "energy"}]);
+        Run::new(&scene)?.value("wall.reaction_moment[2]")
+    };
+    let whole = bent(&json!("all"), true)?;
+    // A propped cantilever under its weight: w L^2 / 8 at the clamp (S. P. Timoshenko, Strength of materials I, section 44).
+    let weight = 7850.0 * 0.03 * 0.003 * 9.81;
+    near(
+        whole.abs(),
+        weight * LENGTH.powi(2) / 8.0,
+        0.05 * whole.abs(),
+    );
+    for is_damped in [true, false] {
+        let held = bent(&json!({"fixed_interface": 2}), is_damped)?;
+        near(held, whole, 0.02 * whole.abs());
+    }
+    Ok(())
+}
+
+/// `modes`: left to the planner, which takes as many as the error wanted needs, and none where the strip may be rigid.
+#[test]
+fn a_strip_has_as_many_modes_as_the_error_wanted_needs() -> Result<(), String> {
+    let scene = |modes: &Value, kind: &str, accuracy: Value| {
+        let mut scene = strip(&json!({"modes": modes, "damping_ratio": 0.05}));
+        scene["gravity"] = json!([0, 0, -9.81]);
+        scene["joints"] =
+            json!([{"name": "root", "kind": kind, "markers": ["ground", "strip.root"]}]);
+        if kind == "revolute" {
+            scene["joints"][0]["direction"] = json!([0, 1, 0]);
+        }
+        scene["outputs"] = json!([{"kind": "position", "marker": "strip.tip"}]);
+        scene["accuracy"] = accuracy;
+        scene["experiment"] = json!({"stop_time": 0.3, "step": 0.01});
+        scene
+    };
+    let planned = |kind: &str, error: f64| -> Result<(Modes, Vec<f64>), String> {
+        let open = read(&scene(&json!("auto"), kind, json!({"error": error})))?;
+        let (planned, _) = plan(&open, &Budget::default(), &mut |_, _, _| ())
+            .map_err(|error| error.to_string())?;
+        let body = planned.bodies[0].reduced().ok_or("a reduced body")?;
+        let modes = body.modes;
+        Ok((modes, path(Run::of(planned)?)?))
+    };
+    for (kind, error, is_rigid) in [("weld", 1e-2, false), ("revolute", 5e-2, true)] {
+        let exact = json!({"relative_tolerance": 1e-7});
+        let whole = path(Run::new(&scene(&json!("all"), kind, exact))?)?;
+        let (modes, found) = planned(kind, error)?;
+        match modes {
+            Modes::Count(0) => assert!(is_rigid, "{kind}"),
+            Modes::FixedInterface(of) => {
+                assert!(
+                    !is_rigid && (1..6).contains(&of.fixed_interface),
+                    "{kind}: {of:?}"
+                );
+            }
+            _ => return Err(format!("{kind}: {modes:?}")),
+        }
+        let fall = whole
+            .iter()
+            .map(|of| (of - whole[0]).abs())
+            .fold(0.0, f64::max);
+        // The account is an estimate, made at communication points.
+        for (found, whole) in found.iter().zip(&whole) {
+            near(*found, *whole, 2.0 * error * fall);
+        }
+    }
+    Ok(())
+}
+
+/// Heights of the tip for 0.3 s, m.
+fn path(mut run: Run) -> Result<Vec<f64>, String> {
+    let mut heights = vec![run.value("strip.tip.position[3]")?];
+    for step in 1..=30 {
+        let done = run.0.step(0.01 * f64::from(step));
+        done.map_err(|error| error.to_string())?;
+        heights.push(run.value("strip.tip.position[3]")?);
+    }
+    Ok(heights)
+}
+
 /// `damping_ratio`: a mode decays as `exp(-2 pi f d t)`; a number is a parameter, a table is linear between its rows.
 #[test]
 fn a_strip_is_damped_as_described() -> Result<(), String> {
@@ -241,6 +383,80 @@ fn a_strip_that_bends_too_far_is_told_of() -> Result<(), String> {
                 .all(|told| told.starts_with("strip: its deformation leaves"))
         );
     }
+    Ok(())
+}
+
+/// A strip that a drive spins about an inclined axis, with these keys of the scene more.
+fn spun(keys: &Value) -> Value {
+    let mut scene = strip(&json!({"orientation": {"rotation_vector": [0, -0.5, 0]}}));
+    scene["joints"] = json!([{"name": "pin", "kind": "revolute", "direction": [0, 0, 1],
+        "markers": ["ground", "strip.root"]}]);
+    scene["outputs"] = json!([{"kind": "position", "marker": "strip.tip"}, {"kind": "velocity", "marker": "strip.tip"},
+        {"kind": "acceleration", "marker": "strip.tip"}, {"kind": "energy"}]);
+    for (key, value) in keys.as_object().into_iter().flatten() {
+        scene[key] = value.clone();
+    }
+    scene
+}
+
+/// A steady start is in balance with centrifugal forces: the strip keeps its shape while it rotates. It bends towards the plane of rotation.
+#[test]
+fn a_strip_rotates_steadily() -> Result<(), String> {
+    let rate = 20.0;
+    let mut run = Run::new(&spun(&json!({"initial": "steady",
+        "motions": [{"name": "drive", "kind": "angle", "joint": "pin", "value": "20*t"}]})))?;
+    let straight = LENGTH * 0.5_f64.sin();
+    let start = run.vector("strip.tip.position")?;
+    assert!(start.z < 0.95 * straight, "{start}");
+    for step in 1..=20 {
+        let time = 0.01 * f64::from(step);
+        run.0.step(time).map_err(|error| error.to_string())?;
+        let turned = Rotation3::new(Vector3::z() * rate * time) * start;
+        let off = (run.vector("strip.tip.position")? - turned).norm();
+        assert!(off < 1e-6, "{time}: {off}");
+    }
+    Ok(())
+}
+
+/// A scene described in a frame that rotates: the strip moves as it does in space, seen from there.
+#[test]
+fn a_strip_moves_in_a_frame_that_rotates() -> Result<(), String> {
+    let rotation = Vector3::new(3.0, -5.0, 8.0);
+    let spin = Vector3::new(2.0, 9.0, -4.0);
+    let list = |v: Vector3<f64>| <[f64; 3]>::from(v);
+    // Joints at the origin stand in both.
+    let joint = json!([{"name": "ball", "kind": "spherical", "markers": ["ground", "strip.root"]}]);
+    // A force that follows the strip bends it.
+    let force = json!([{"name": "push", "kind": "force", "marker": "strip.tip", "follower": true, "value": [0.0, 0.3, 2.0]}]);
+    let of = |rotation: Vector3<f64>, spin: Vector3<f64>| {
+        let mut scene = spun(&json!({"joints": joint, "loads": force, "rotation": list(rotation)}));
+        scene["bodies"][0]["motion"] = json!({"spin": list(spin)});
+        Run::new(&scene)
+    };
+    let mut resting = of(Vector3::zeros(), spin)?;
+    let mut rotating = of(rotation, spin - rotation)?;
+    let (mut largest, mut strain): (f64, f64) = (0.0, 0.0);
+    for step in 0..=20 {
+        let time = 0.01 * f64::from(step);
+        if step > 0 {
+            for run in [&mut resting, &mut rotating] {
+                run.0.step(time).map_err(|error| error.to_string())?;
+            }
+        }
+        let turned = Rotation3::new(rotation * time).inverse();
+        let [place, velocity] = [
+            resting.vector("strip.tip.position")?,
+            resting.vector("strip.tip.velocity")?,
+        ]
+        .map(|of| turned * of);
+        let seen = velocity - rotation.cross(&place);
+        largest = largest.max((rotating.vector("strip.tip.position")? - place).norm());
+        let off = (rotating.vector("strip.tip.velocity")? - seen).norm();
+        largest = largest.max(off / 100.0);
+        strain = strain.max(resting.value("energy.strain")?);
+    }
+    assert!(largest < 1e-6, "{largest}");
+    assert!(strain > 1e-3, "{strain}");
     Ok(())
 }
 

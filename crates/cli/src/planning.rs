@@ -308,11 +308,10 @@ fn damping_in_words(damping: &[Damped]) -> String {
 fn in_words(plan: &Plan) -> String {
     let mut text = format!("error wanted {:e}\n\nmodel\n", plan.error);
     let rows = plan.bodies.iter().map(|body| {
-        let elements = body.elements.map(|n| n.to_string()).unwrap_or_default();
         [
             body.name.clone(),
             body.kind.to_owned(),
-            elements,
+            body.count_in_words(),
             body.why.clone(),
         ]
     });

@@ -40,14 +40,6 @@ class About(Part):
     """
 
 
-AllModes = TypeAliasType("AllModes", Literal["all"])
-"""
-The word for all modes.
-
-- `all`: All modes of the file.
-"""
-
-
 Along = TypeAliasType("Along", Literal["global", "body"])
 """
 Axes along which components of an output are.
@@ -149,6 +141,18 @@ class Experiment(Part):
     step: Annotated[StrictFloat, Field(gt=0.0)]
     """
     Communication step, s.
+    """
+
+
+class FixedInterfaceModes(Part):
+    """
+    Modes in the basis of Craig and Bampton within the modes of the file: static shapes of the interfaces that joints, motions, loads and ports
+    act on, and natural modes with these interfaces held.
+    """
+
+    fixed_interface: Annotated[StrictInt, Field(ge=0)]
+    """
+    Number of natural modes with held interfaces, beside the static shapes.
     """
 
 
@@ -664,7 +668,7 @@ along it. Elements, Young's modulus, second moment and damping have no effect an
 """
 
 
-ModesCount = TypeAliasType("ModesCount", Annotated[StrictInt, Field(ge=1, title="ModesCount")])
+ModesCount = TypeAliasType("ModesCount", Annotated[StrictInt, Field(ge=0, title="ModesCount")])
 """
 So many first ones.
 """
@@ -679,6 +683,15 @@ class ModesUpTo(Part):
     """
     Highest natural frequency of the free body, Hz.
     """
+
+
+ModesWord = TypeAliasType("ModesWord", Literal["all", "auto"])
+"""
+A word that says which modes are taken.
+
+- `all`: All modes of the file.
+- `auto`: As many natural modes with held interfaces as the error wanted needs, found by trial runs; none where the body may be rigid.
+"""
 
 
 class RotationVector(Part):
@@ -2347,7 +2360,7 @@ Values of a load: one of a moment, as many as dimensions of a force.
 """
 
 
-Modes = TypeAliasType("Modes", AllModes | ModesCount | ModesUpTo)
+Modes = TypeAliasType("Modes", ModesWord | ModesCount | ModesUpTo | FixedInterfaceModes)
 """
 Modes of a reduced model that are taken.
 """
@@ -2874,6 +2887,11 @@ class ReducedBody(Part):
     """
     Place of the origin of the file's axes at the start, m.
     """
+    critically_damped: StrictBool | None = None
+    """
+    Whether modes that static shapes add far above the others (more than five times their highest frequency) are critically damped, with
+    `"fixed_interface"` or `"auto"`: they answer and do not ring.
+    """
     damping_ratio: DampingRatio = 0.0
     """
     Damping ratio of the modes of the free body: a number, or pairs of a frequency (Hz) and the ratio there, linear between them and
@@ -2885,7 +2903,7 @@ class ReducedBody(Part):
     """
     modes: Annotated[Modes, Field(validate_default=True)] = "all"
     """
-    Modes that are taken, in the order of their frequencies.
+    Modes that are taken, in the order of their frequencies; with 0 the body is rigid.
     """
     motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
     """

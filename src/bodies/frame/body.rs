@@ -1,6 +1,6 @@
 //! Rigid bodies of space as bodies.
 
-use nalgebra::{DMatrix, SMatrix, Vector3};
+use nalgebra::{DMatrix, Vector3};
 
 use super::tangent::transformed;
 use super::{Derivative, RigidBodyFrame, axis_rates, rotation_block};
@@ -142,13 +142,15 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         assembly.add(self.node, self.node, &block, mass);
     }
 
-    fn add_mass_times(
+    fn add_centrifugal(
         &self,
-        axes: &SMatrix<f64, D, D>,
+        rotation: [f64; 3],
         x: &[Node<D>],
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
+        let spin = spin_matrix::<D>(rotation);
+        let axes = spin * spin;
         for (node, part, mass) in self.masses() {
             let mut block: NodeBlock<D> = no_block();
             for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {

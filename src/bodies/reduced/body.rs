@@ -13,7 +13,7 @@ use crate::bodies::setup::NodeNumber;
 use crate::bodies::stages::RotatingNodes;
 use crate::math::jet::Number;
 use crate::math::rotation::Quaternion;
-use crate::math::space::Vector;
+use crate::math::space::{Vector, spin_matrix};
 use crate::math::sparse::Matrix;
 
 impl<const D: usize> BodyPart<D> for ReducedBody {
@@ -91,7 +91,6 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
     fn add_centripetal<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {
         self.frame.add_centripetal(motion, a);
         self.add_interface_bias(motion.pair(), a);
-        self.add_derived_bias(motion.pair(), a);
     }
 
     fn pull_back<N: Number>(
@@ -155,6 +154,39 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
         for (f, a) in f[node][0].iter_mut().zip(&a[node][0]) {
             *f += N::of(s * self.model.mass) * *a;
         }
+    }
+
+    fn add_centrifugal(
+        &self,
+        rotation: [f64; 3],
+        x: &[Node<D>],
+        assembly: &Assembly<D>,
+        matrix: &mut Matrix<f64>,
+    ) {
+        let node = self.frame.node;
+        let spin = spin_matrix::<D>(rotation);
+        let axes = spin * spin * self.model.mass;
+        let mut block = no_block();
+        for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
+            block[0][r][0][c] = axes[(r, c)];
+        }
+        assembly.add(node, node, &block, matrix);
+        self.centrifugal_blocks(rotation, x, |a, b, block| {
+            assembly.add(a, b, block, matrix);
+        });
+    }
+
+    fn add_frame_spin<N: Number>(
+        &self,
+        motion: NodalMotion<'_, D, N>,
+        rotation: [f64; 3],
+        f: &mut [Node<D, N>],
+    ) {
+        self.add_frame_forces(motion.pair(), rotation, f);
+    }
+
+    fn frame_spin_energy<N: Number>(&self, x: &[Node<D, N>], rotation: [f64; 3]) -> N {
+        self.frame_energy(x, rotation)
     }
 
     fn add_spin_momentum(&self, motion: (&[Node<D>], &[Node<D>]), momentum: &mut [Node<D>]) {

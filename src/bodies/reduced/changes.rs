@@ -218,7 +218,7 @@ impl ReducedBody {
     }
 
     /// Adds to the second derivatives of what follows from amplitudes what rates alone ask for.
-    pub(super) fn add_derived_bias<const D: usize, N: Number>(
+    pub(in crate::bodies) fn add_derived_bias<const D: usize, N: Number>(
         &self,
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         a: &mut [Node<D, N>],

@@ -12,8 +12,13 @@ use crate::math::space::{Vector, components};
 /// Nodes with amplitudes whose derivatives are computed together.
 const TOGETHER: usize = 8;
 
-/// A symmetric matrix over small rotations along the axes and amplitudes of the modes; nothing over rotations alone.
-trait Stiffness {
+/// A symmetric matrix over small rotations along the axes and amplitudes of the modes.
+pub(super) trait Stiffness {
+    /// Over rotations alone.
+    fn rotations(&self) -> Matrix3<f64> {
+        Matrix3::zeros()
+    }
+
     /// Over rotations and the amplitude of a mode.
     fn mixed(&self, _k: usize) -> Vector3<f64> {
         Vector3::zeros()
@@ -72,7 +77,7 @@ impl Stiffness for AtInterface<'_> {
 
 impl ReducedBody {
     /// Calls with the blocks, for each pair of nodes once, of a matrix over rotations and amplitudes.
-    fn blocks<const D: usize>(
+    pub(super) fn blocks<const D: usize>(
         &self,
         of: &impl Stiffness,
         x: &[Node<D>],
@@ -80,7 +85,7 @@ impl ReducedBody {
     ) {
         let (scale, coupling) = self.derived_of(x);
         let (n, node, size) = (self.model.modes(), self.frame.node, 2 * D);
-        let mut rotations = Matrix3::zeros();
+        let mut rotations = of.rotations();
         for (a, first) in self.modal().enumerate() {
             let mut mixed = no_block::<D>();
             for k in (size * a..n).take(size) {

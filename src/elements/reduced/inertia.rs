@@ -17,7 +17,10 @@ pub const SPIN_SCALE: usize = 6;
 
 /// A symmetric matrix times a vector.
 #[inline(always)]
-fn times<N: Number>([xx, yy, zz, xy, xz, yz]: Symmetric<N>, v: &Vector3<N>) -> Vector3<N> {
+pub(super) fn times<N: Number>(
+    [xx, yy, zz, xy, xz, yz]: Symmetric<N>,
+    v: &Vector3<N>,
+) -> Vector3<N> {
     Vector3::new(
         xx * v[0] + xy * v[1] + xz * v[2],
         xy * v[0] + yy * v[1] + yz * v[2],
@@ -112,7 +115,7 @@ impl ReducedModel {
 
     /// `dJ / d eta_k = J1_k + 2 sum_l J2_kl eta_l`.
     #[inline(always)]
-    fn by_mode<N: Number>(&self, k: usize, eta: &[N]) -> Symmetric<N> {
+    pub fn inertia_by_mode<N: Number>(&self, k: usize, eta: &[N]) -> Symmetric<N> {
         let n = self.modes();
         let mut sum = [N::of(0.0); 6];
         for (of, eta) in self.inertia_2[n * k..n * (k + 1)].iter().zip(eta) {
@@ -127,7 +130,7 @@ impl ReducedModel {
     pub fn inertia<N: Number>(&self, eta: &[N]) -> Symmetric<N> {
         let mut sum = self.undeformed();
         for (k, amplitude) in eta.iter().enumerate() {
-            self.add_inertia_of(k, *amplitude, &self.by_mode(k, eta), &mut sum);
+            self.add_inertia_of(k, *amplitude, &self.inertia_by_mode(k, eta), &mut sum);
         }
         sum
     }
@@ -169,7 +172,7 @@ impl ReducedModel {
         let (mut inertia, mut rate) = (self.undeformed(), [zero; 6]);
         let mut of_modes = Vector3::from_element(zero);
         for k in 0..self.modes() {
-            let by_mode = self.by_mode(k, eta);
+            let by_mode = self.inertia_by_mode(k, eta);
             self.add_inertia_of(k, eta[k], &by_mode, &mut inertia);
             add(&mut rate, rates[k], &by_mode);
             of_modes += self.coupling_of(k, eta) * rates[k];
@@ -181,13 +184,18 @@ impl ReducedModel {
         -times(rate, spin) - spin.cross(&momentum)
     }
 
+    /// Angular momentum `J w` of a spin about the centre of mass along the axes, N m s.
+    pub fn momentum_of_spin<N: Number>(&self, eta: &[N], spin: &Vector3<N>) -> Vector3<N> {
+        times(self.inertia(eta), spin)
+    }
+
     /// Angular momentum `J w + h eta'` about the centre of mass along the axes, N m s.
     pub fn angular_momentum<N: Number>(
         &self,
         (eta, rates): (&[N], &[N]),
         spin: &Vector3<N>,
     ) -> Vector3<N> {
-        let momentum = times(self.inertia(eta), spin);
+        let momentum = self.momentum_of_spin(eta, spin);
         rates.iter().enumerate().fold(momentum, |sum, (k, rate)| {
             sum + self.coupling_of(k, eta) * *rate
         })
@@ -244,7 +252,7 @@ impl ReducedModel {
     ) -> Matrix3<N> {
         let mut change = [N::of(0.0); 6];
         for (k, d_eta) in d_eta.iter().enumerate() {
-            add(&mut change, *d_eta, &self.by_mode(k, eta));
+            add(&mut change, *d_eta, &self.inertia_by_mode(k, eta));
         }
         let mut change = full(change);
         for (h, d_h) in h.chunks_exact(3).zip(d_h.chunks_exact(3)) {
@@ -281,7 +289,7 @@ impl ReducedModel {
         let phi = upper_half(&(inverse.transpose() * change * inverse));
         let mut second = [N::of(0.0); 6];
         for (k, rate) in rates.iter().enumerate() {
-            add(&mut second, *rate, &self.by_mode(k, rates));
+            add(&mut second, *rate, &self.inertia_by_mode(k, rates));
             add(&mut second, -*rate, &self.inertia_1[k].map(N::of));
         }
         let mut second = full(second);

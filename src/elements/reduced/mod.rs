@@ -8,9 +8,10 @@
 //! A. Cardona, A reduction method for nonlinear structural dynamic analysis, Comput. Methods Appl. Mech. Eng. 49 (1985) 253-279
 //! (second-order displacements).
 
+mod basis;
+mod centrifugal;
 mod inertia;
 mod strain;
-mod truncation;
 
 #[cfg(test)]
 mod tests;
@@ -19,11 +20,13 @@ use nalgebra::Vector3;
 
 use crate::math::jet::Number;
 
+pub use basis::ModalBasis;
+pub use centrifugal::CentrifugalStiffness;
 pub use inertia::{SPIN_SCALE, SpinScale};
 pub use strain::{ModalStiffness, ModalStrain};
 
-/// Most modes whose pairs have second-order displacements.
-pub const PAIRED: usize = 16;
+/// Most modes whose pairs have second-order displacements in a body that moves: pairs of stiff modes diverge.
+pub const PAIRED: usize = 10;
 
 /// A symmetric matrix of space: `xx yy zz xy xz yz`.
 pub type Symmetric<N = f64> = [N; 6];

@@ -6,6 +6,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::{ModalStrain, PAIRED, ReducedModel, Symmetric};
 
+mod basis;
+
 /// Numbers that look random, between -1 and 1.
 struct Random(u64);
 
@@ -294,16 +296,4 @@ fn elastic_forces_and_stiffness_derive_from_the_energy() {
             );
         }
     }
-}
-
-#[test]
-fn fewer_modes_keep_the_arrays_of_those_that_stay() {
-    let mut model = Points::new().model();
-    let whole = model.truncated(MODES);
-    assert_eq!(whole, model);
-    model.cubic.fill(0.0);
-    let cut = model.truncated(3);
-    assert_eq!((cut.modes(), cut.paired, cut.cubic.len()), (3, 3, 27));
-    assert_eq!(cut.inertia_2[5], model.inertia_2[MODES + 2]);
-    assert_eq!(cut.coupling[7], model.coupling[2 * MODES + 1]);
 }

@@ -53,7 +53,7 @@ impl<const D: usize> Builder<'_, D> {
                 }
             }
             BodyReference::Reduced(of) => {
-                let body = self.reduced(of);
+                let body = self.reduced(of)?;
                 arm = of.body.contained().from_center();
                 axes.extend(body.axes_nodes());
                 still = Some(body.inner());
@@ -117,19 +117,22 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A reduced body: its principal axes in two nodes, frames of its interfaces and amplitudes of its modes.
-    fn reduced(&mut self, reduced: Reduced<'_>) -> bodies::ReducedBody {
+    ///
+    /// # Errors
+    /// A model whose modes with held interfaces cannot be computed.
+    fn reduced(&mut self, reduced: Reduced<'_>) -> Result<bodies::ReducedBody, Error> {
         let container = reduced.body.contained();
         let axes = reduced.body.axes() * container.axes;
         let axes = std::array::from_fn(|k| axes.column(k).into_owned());
         let node = self.parts.bodies.reference.len();
-        let model = container.model.truncated(reduced.body.mode_count());
+        let (model, ratios) = self.resolved.model_of(reduced)?;
         let count = model.interfaces.len();
-        let body = bodies::ReducedBody::new(node, model, &reduced.body.damping_ratios());
+        let body = bodies::ReducedBody::new(node, model, &ratios);
         let nodes = body.reference::<D>(reduced.body.center(), &axes);
         self.parts.bodies.reference.extend(nodes);
         let interfaces = (0..count).map(|index| body.interface(index)).collect();
         self.interfaces.insert(reduced.id.index(), interfaces);
-        body
+        Ok(body)
     }
 
     /// An interface of a reduced body, with the first of the file's axes as direction.

@@ -49,7 +49,7 @@ impl Resolved<'_> {
                 count.saturating_mul(each[place])
             }
             BodyReference::Reduced(reduced) => {
-                let modes = reduced.body.mode_count();
+                let modes = reduced.body.first_modes();
                 BYTES_OF_BODY[place] + modes * modes * BYTES_OF_MODES
             }
             _ => BYTES_OF_BODY[place],

@@ -7,6 +7,7 @@ mod coordinates;
 mod initial;
 mod memory;
 mod ports;
+mod reduced;
 mod solids;
 mod stress;
 

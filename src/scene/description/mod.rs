@@ -44,7 +44,7 @@ pub use kinds::{tell_apart, tell_by_tag};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;
-pub use reduced::{DampingRatio, FileBody, Modes, ModesUpTo};
+pub use reduced::{DampingRatio, FileBody, FixedInterfaceModes, Modes, ModesUpTo};
 pub use renamed::check_names;
 pub use rotation::{Inertia, Orientation};
 pub use section::{Profile, Section, SectionNumbers, Station};
@@ -170,7 +170,10 @@ impl Scene {
             ..
         } = &self.accuracy;
         let is_error_alone = error.is_some() && relative_tolerance.is_none();
-        is_error_alone || cables.any(|cable| cable.elements.is_none())
+        let mut reduced = self.bodies.iter().filter_map(Body::reduced);
+        is_error_alone
+            || cables.any(|cable| cable.elements.is_none())
+            || reduced.any(FileBody::is_open)
     }
 
     /// Whether bodies have damping ratios that have not become times.

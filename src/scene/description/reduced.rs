@@ -26,9 +26,13 @@ pub struct FileBody {
     /// SHA-256 of the file, hexadecimal in lower case. A file with another one is refused. Written out when a scene is read.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
-    /// Modes that are taken, in the order of their frequencies.
+    /// Modes that are taken, in the order of their frequencies; with 0 the body is rigid.
     #[serde(default)]
     pub modes: Modes,
+    /// Whether modes that static shapes add far above the others (more than five times their highest frequency) are critically damped, with
+    /// `"fixed_interface"` or `"auto"`: they answer and do not ring.
+    #[serde(default = "critically_damped", skip_serializing_if = "Clone::clone")]
+    pub critically_damped: bool,
     /// Damping ratio of the modes of the free body: a number, or pairs of a frequency (Hz) and the ratio there, linear between them and
     /// constant outside.
     #[serde(default)]
@@ -49,24 +53,42 @@ pub struct FileBody {
     pub container: Option<Arc<Container>>,
 }
 
+/// Static shapes are critically damped where nothing else is said.
+fn critically_damped() -> bool {
+    true
+}
+
 /// Modes of a reduced model that are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Modes {
-    /// All of the file.
-    All(AllModes),
+    /// All of the file, or as many as the error wanted needs.
+    Word(ModesWord),
     /// So many first ones.
-    Count(#[schemars(range(min = 1))] u32),
+    Count(u32),
     /// Modes up to a frequency.
     UpTo(ModesUpTo),
+    /// Static shapes and natural modes with held interfaces.
+    FixedInterface(FixedInterfaceModes),
 }
 
-/// The word for all modes.
+/// A word that says which modes are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum AllModes {
+pub enum ModesWord {
     /// All modes of the file.
     All,
+    /// As many natural modes with held interfaces as the error wanted needs, found by trial runs; none where the body may be rigid.
+    Auto,
+}
+
+/// Modes in the basis of Craig and Bampton within the modes of the file: static shapes of the interfaces that joints, motions, loads and ports
+/// act on, and natural modes with these interfaces held.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FixedInterfaceModes {
+    /// Number of natural modes with held interfaces, beside the static shapes.
+    pub fixed_interface: u32,
 }
 
 /// Modes up to a frequency.
@@ -80,7 +102,7 @@ pub struct ModesUpTo {
 
 impl Default for Modes {
     fn default() -> Self {
-        Self::All(AllModes::All)
+        Self::Word(ModesWord::All)
     }
 }
 
@@ -89,15 +111,13 @@ impl<'de> Deserialize<'de> for Modes {
         let value = Strict::deserialize(deserializer)?.0;
         match &value {
             Json::String(word) if word == "all" => Ok(Self::default()),
-            Json::String(word) => {
-                let unknown = match word.as_str() {
-                    "auto" => ", which is not available for modes",
-                    _ => "",
-                };
-                Err(D::Error::custom(format!(
-                    "expected a number of modes, {{\"up_to\": a frequency in Hz}} or \"all\", found {}{unknown}",
-                    found(&value)
-                )))
+            Json::String(word) if word == "auto" => Ok(Self::Word(ModesWord::Auto)),
+            Json::String(_) => Err(D::Error::custom(format!(
+                "expected a number of modes, {{\"up_to\": a frequency in Hz}}, {{\"fixed_interface\": a number of modes}}, \"all\" or \"auto\", found {}",
+                found(&value)
+            ))),
+            Json::Object(keys) if keys.contains_key("fixed_interface") => {
+                typed(value).map(Self::FixedInterface)
             }
             Json::Object(_) => typed(value).map(Self::UpTo),
             _ => typed(value).map(Self::Count),
@@ -161,21 +181,19 @@ impl FileBody {
         container.unwrap_or_else(|| unreachable!("a scene that was read has its files"))
     }
 
-    /// Number of modes that are taken.
-    pub fn mode_count(&self) -> usize {
+    /// Number of first modes of the file that are taken; all of them where the scene decides on a basis within them.
+    pub fn first_modes(&self) -> usize {
         let frequencies = self.contained().frequencies();
         match self.modes {
-            Modes::All(_) => frequencies.len(),
+            Modes::Word(_) | Modes::FixedInterface(_) => frequencies.len(),
             Modes::Count(count) => frequencies.len().min(count as usize),
             Modes::UpTo(ModesUpTo { up_to }) => frequencies.partition_point(|of| *of <= up_to),
         }
     }
 
-    /// Damping ratios of the modes that are taken.
-    pub fn damping_ratios(&self) -> Vec<f64> {
-        let frequencies = self.contained().frequencies();
-        let taken = frequencies.iter().take(self.mode_count());
-        taken.map(|of| self.damping_ratio.at(*of)).collect()
+    /// Whether the number of modes is left to the planner.
+    pub fn is_open(&self) -> bool {
+        self.modes == Modes::Word(ModesWord::Auto)
     }
 
     /// The file's axes at the start, in global components, as columns.

@@ -19,10 +19,10 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use super::resolved::{ConstraintOwner, ConstraintOwnerId, Resolved};
-use super::{Body, Error, InitialState, Scene};
+use super::{Error, InitialState, Scene};
 pub(super) use references::refuse_point;
 
-use checks::{expected, name, positive, quoted, scene_name, sentence, spin, vector};
+use checks::{expected, name, positive, scene_name, sentence, spin, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
 pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
@@ -119,16 +119,6 @@ impl Scene {
             body.validate(&path, self.dimension)?;
         }
         let elements: u64 = self.elements();
-        if let Some(body) = self.bodies.iter().find_map(Body::reduced)
-            && self.turns()
-        {
-            let wanted = format!(
-                "0 where a reduced body ({}) is described, which has no equations in a frame that turns",
-                quoted(&body.name)
-            );
-            let found = format!("{:?}", self.rotation.full());
-            return Err(expected("rotation", &wanted, found));
-        }
         if elements > ALL_ELEMENTS {
             let wanted = format!("at most {ALL_ELEMENTS} elements in all bodies together");
             return Err(expected("bodies", &wanted, elements));

@@ -1,7 +1,7 @@
 //! Checks of reduced bodies.
 
 use super::checks::{expected, finite, not_negative, positive, quoted, unknown, vector};
-use crate::scene::description::{DampingRatio, Modes, ModesUpTo};
+use crate::scene::description::{DampingRatio, FixedInterfaceModes, Modes, ModesUpTo};
 use crate::scene::{Container, Error, FileBody};
 
 impl FileBody {
@@ -44,9 +44,19 @@ impl FileBody {
         let frequencies = container.frequencies();
         let (count, first) = (frequencies.len(), frequencies[0]);
         match self.modes {
-            Modes::Count(found) if !(1..=count).contains(&(found as usize)) => {
-                let wanted = format!("a number of modes from 1 to {count}, which the file has");
+            Modes::Count(found) if found as usize > count => {
+                let wanted = format!("a number of modes from 0 to {count}, which the file has");
                 Err(expected(path, &wanted, found))
+            }
+            Modes::FixedInterface(FixedInterfaceModes { fixed_interface })
+                if fixed_interface as usize > count =>
+            {
+                let wanted = format!("a number of modes from 0 to {count}, which the file has");
+                Err(expected(
+                    &format!("{path}.fixed_interface"),
+                    &wanted,
+                    fixed_interface,
+                ))
             }
             Modes::UpTo(ModesUpTo { up_to }) => {
                 let path = format!("{path}.up_to");

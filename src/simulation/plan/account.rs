@@ -5,7 +5,7 @@ use super::ladder::Choice;
 use super::outputs::{Difference, RelativeTo};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 use super::response::FREQUENCIES;
-use super::search::Search;
+use super::search::{COMPARED_MODES, Search, counted};
 
 impl Search<'_, '_> {
     /// The plan of a choice, from what doubling and a tenth of the tolerance change.
@@ -126,32 +126,32 @@ impl Search<'_, '_> {
                 difference.largest
             )
         });
-        let mut counts = choice.elements.iter().enumerate();
-        let bodies = self.scene.bodies.iter().map(|body| {
-            let (cable, count) = match body.cable() {
-                Some(_) => counts
-                    .next()
-                    .map_or((None, 0), |(cable, count)| (Some(cable), *count)),
-                None => (None, 0),
-            };
-            let is_free = cable.is_some_and(|cable| self.is_free(cable));
+        let with_counts: Vec<usize> = counted(self.scene).collect();
+        let bodies = self.scene.bodies.iter().enumerate().map(|(index, body)| {
+            let place = with_counts.iter().position(|of| *of == index);
+            let count = place.map_or(0, |place| choice.elements[place]);
+            let is_free = place.is_some_and(|place| self.is_free(place));
             let why = match (is_free, &changes, count) {
                 (false, ..) => "as the scene says".into(),
                 (true, Some(changes), 0) => format!("to let it bend {changes}"),
+                (true, Some(changes), _) if body.reduced().is_some() => {
+                    format!("taking {COMPARED_MODES} modes or more {changes}")
+                }
                 (true, Some(changes), _) => format!("doubling all {changes}"),
                 (true, None, _) => "not more could be tried".into(),
             };
             let line = body.cable().map(|line| line.sections.element());
             let (kind, elements) = match (count, line) {
-                (_, None) if body.reduced().is_some() => ("reduced", None),
-                (0, _) | (_, None) => ("rigid", None),
+                (0, None) if place.is_none() && body.reduced().is_some() => ("reduced", None),
+                (0, _) => ("rigid", None),
+                (count, None) => ("reduced", Some(count)),
                 (count, Some(element)) => (element, Some(count)),
             };
             PlannedBody {
                 name: body.name().to_owned(),
                 kind,
                 elements,
-                fewest: cable.map(|cable| self.fewest[cable]),
+                fewest: place.map(|place| self.fewest[place]),
                 why,
             }
         });

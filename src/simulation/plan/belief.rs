@@ -4,6 +4,7 @@ use super::experiment::TrialRun;
 use super::outputs::{Measure, OutputGroup, RelativeTo, shown};
 use super::response;
 use super::search::{Search, TIGHTEST};
+use crate::scene::FileBody;
 
 /// Part of the error wanted that the tolerance is where inputs rest and nothing moves: motions of a thousandth of the size are
 /// resolved when they act.
@@ -58,11 +59,14 @@ impl Search<'_, '_> {
     }
 
     /// The part of what doubling changes that the next one changes at least, of all that is compared. Of a cable without bending stiffness
-    /// nothing is foreseen: its curvature jumps, so that its errors depend on where nodes are.
+    /// nothing is foreseen: its curvature jumps, so that its errors depend on where nodes are. Nor is anything of modes, which differ in what
+    /// they add.
     pub fn foreseen_at_least(&self) -> Vec<f64> {
         let is_limp = |body: &usize| {
-            let cable = self.scene.bodies[*body].cable();
-            cable.is_some_and(|cable| cable.bending_stiffness() == 0.0)
+            let body = &self.scene.bodies[*body];
+            let cable = body.cable();
+            body.reduced().is_some_and(FileBody::is_open)
+                || cable.is_some_and(|cable| cable.bending_stiffness() == 0.0)
         };
         let of_output = |group: &OutputGroup| match group.measure {
             _ if group.bodies.iter().any(is_limp) => f64::INFINITY,

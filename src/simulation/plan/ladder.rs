@@ -18,7 +18,7 @@ const QUIET: f64 = 0.5;
 /// Choices that a run is made with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Choice {
-    /// Elements of every cable, in the order of the bodies.
+    /// Elements of every line body, in the order of the bodies, then modes of every reduced body whose number of modes is open.
     pub elements: Vec<u32>,
     pub tolerance: f64,
     /// Whether steps are at most half as long as those between communication points, where these end them.

@@ -44,9 +44,9 @@ pub struct Plan {
 pub struct PlannedBody {
     /// Name of the body.
     pub name: String,
-    /// `cable`, `rod`, `beam` or `rigid`.
+    /// `cable`, `rod`, `beam`, `reduced` or `rigid`.
     pub kind: &'static str,
-    /// Number of elements, where it bends.
+    /// Number of elements, where it bends; of modes with held interfaces, where it is reduced and their number was open.
     pub elements: Option<u32>,
     /// The fewest that a cable can have, or is given.
     pub fewest: Option<u32>,
@@ -115,7 +115,7 @@ impl Plan {
     /// Summarizes the choice and its criterion in one line.
     pub fn in_a_line(&self) -> String {
         let body = |body: &PlannedBody| match body.elements {
-            Some(count) => format!("{} {} with {count} elements", body.name, body.kind),
+            Some(count) => format!("{} {} with {count} {}", body.name, body.kind, body.parts()),
             None => format!("{} {}", body.name, body.kind),
         };
         let bodies = self.bodies.iter().filter(|body| body.fewest.is_some());
@@ -219,6 +219,24 @@ impl Settled {
             forces.collect::<Vec<_>>().join("; "),
             self.price.milliseconds()
         )
+    }
+}
+
+impl PlannedBody {
+    /// What its number counts.
+    pub fn parts(&self) -> &'static str {
+        match self.kind {
+            "reduced" => "fixed-interface modes",
+            _ => "elements",
+        }
+    }
+
+    /// Its number in a column of elements; of modes, with that word.
+    pub fn count_in_words(&self) -> String {
+        let unit = if self.kind == "reduced" { " modes" } else { "" };
+        self.elements
+            .map(|count| format!("{count}{unit}"))
+            .unwrap_or_default()
     }
 }
 

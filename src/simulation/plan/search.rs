@@ -8,7 +8,10 @@ use super::report::Plan;
 use super::response::Responses;
 use super::shear::{Beam, Sheared};
 use super::{Budget, Progress};
-use crate::scene::{Accuracy, Axial, BodyReference, Error, LineBody, Model, Scene};
+use crate::scene::{
+    Accuracy, Axial, Body, BodyReference, Error, FileBody, FixedInterfaceModes, LineBody, Model,
+    Modes, Scene,
+};
 use crate::simulation::{check, variables};
 
 /// Part of the error wanted that doubling may change.
@@ -21,6 +24,8 @@ pub(super) const TIGHTEST: f64 = 1e-13;
 const OF_ONE: f64 = 0.25;
 /// Most elements of a cable, and runs; of a fuzzer few, so that it gets on.
 const MOST_ELEMENTS: u32 = if cfg!(fuzzing) { 8 } else { 1024 };
+/// Fewest modes of reduced bodies that fewer ones are compared with.
+pub(super) const COMPARED_MODES: u32 = 16;
 const MOST_RUNS: usize = if cfg!(fuzzing) { 4 } else { 40 };
 
 /// A search under way.
@@ -59,16 +64,52 @@ pub(super) fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &LineBody)> 
     bodies.filter_map(|(index, body)| Some((index, body.cable()?)))
 }
 
-/// The scene with a cable rigid, by its place among the bodies: not valid where it is curved or what is read of it, or
+/// Reduced bodies of a scene whose number of modes is left to the planner, with their places among the bodies.
+pub(super) fn open_reduced(scene: &Scene) -> impl Iterator<Item = (usize, &FileBody)> {
+    let bodies = scene.bodies.iter().enumerate();
+    let reduced = bodies.filter_map(|(index, body)| Some((index, body.reduced()?)));
+    reduced.filter(|(_, body)| body.is_open())
+}
+
+/// Places among the bodies of those that have numbers of elements or modes, in the order of [`Choice::elements`].
+pub(super) fn counted(scene: &Scene) -> impl Iterator<Item = usize> {
+    let lines = cables(scene).map(|(body, _)| body);
+    lines.chain(open_reduced(scene).map(|(body, _)| body))
+}
+
+/// The scene with a body rigid, by its place among the bodies: not valid where it is curved or what is read of it, or
 /// slides along it, takes one that bends.
 fn with_rigid(mut scene: Scene, body: usize) -> Scene {
-    if let Some(cable) = scene.bodies[body].cable_mut() {
-        cable.model = Model::Rigid;
+    match &mut scene.bodies[body] {
+        Body::Reduced(reduced) => reduced.modes = Modes::Count(0),
+        line => {
+            if let Some(line) = line.cable_mut() {
+                line.model = Model::Rigid;
+            }
+        }
     }
     scene
 }
 
-/// Returns the least number of elements of every line body, 0 for rigid ones (see [`Search::fewest`]).
+/// The scene with numbers of elements and modes, in the order of [`counted`]; with 0 a body is rigid.
+pub(super) fn with_counts(mut scene: Scene, counts: &[u32]) -> Scene {
+    let bodies: Vec<usize> = counted(&scene).collect();
+    for (body, count) in bodies.into_iter().zip(counts) {
+        if *count == 0 {
+            scene = with_rigid(scene, body);
+        } else if let Body::Reduced(reduced) = &mut scene.bodies[body] {
+            reduced.modes = Modes::FixedInterface(FixedInterfaceModes {
+                fixed_interface: *count,
+            });
+        } else if let Some(line) = scene.bodies[body].cable_mut() {
+            line.elements = Some(*count);
+        }
+    }
+    scene
+}
+
+/// Returns the least number of elements of every line body, 0 for rigid ones (see [`Search::fewest`]); one mode of reduced bodies whose number
+/// of modes is open.
 ///
 /// # Errors
 /// A scene that is not valid, or markers that are too close for nodes.
@@ -84,7 +125,7 @@ pub(super) fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
             (_, None) => resolved.fewest_elements(*cable),
         })
     });
-    counts.collect()
+    counts.chain(open_reduced(scene).map(|_| Ok(1))).collect()
 }
 
 impl<'a, 'p> Search<'a, 'p> {
@@ -177,13 +218,22 @@ impl<'a, 'p> Search<'a, 'p> {
                 *count
             }
         });
-        least.collect()
+        least.chain(open_reduced(self.scene).map(|_| 0)).collect()
     }
 
-    /// Whether the number of elements of a cable is left to the planner.
-    pub fn is_free(&self, cable: usize) -> bool {
-        let body = cables(self.scene).nth(cable);
-        body.is_some_and(|(_, body)| body.elements.is_none() && body.model != Model::Rigid)
+    /// Whether the number of elements or modes of a body is left to the planner, by its place among those that have one.
+    pub fn is_free(&self, counted_body: usize) -> bool {
+        match cables(self.scene).nth(counted_body) {
+            Some((_, line)) => line.elements.is_none() && line.model != Model::Rigid,
+            None => self.most_modes(counted_body).is_some(),
+        }
+    }
+
+    /// Number of modes of the file of a reduced body whose number of modes is open, by its place among the bodies that have a number.
+    fn most_modes(&self, counted_body: usize) -> Option<u32> {
+        let lines = cables(self.scene).count();
+        let (_, body) = open_reduced(self.scene).nth(counted_body.checked_sub(lines)?)?;
+        u32::try_from(body.first_modes()).ok()
     }
 
     /// Whether the number of elements of any cable is left to the planner.
@@ -196,17 +246,14 @@ impl<'a, 'p> Search<'a, 'p> {
         for beam in &choice.beams {
             self.beams[*beam].put_into(&mut scene);
         }
-        let bodies: Vec<usize> = cables(self.scene).map(|(body, _)| body).collect();
-        for (body, count) in bodies.into_iter().zip(&choice.elements) {
-            if *count == 0 {
-                scene = with_rigid(scene, body);
-            } else if let Some(cable) = scene.bodies[body].cable_mut() {
-                cable.elements = Some(*count);
-                if choice.is_settled {
-                    cable.axial = Axial::CriticallyDamped;
-                }
+        let rigid = cables(self.scene).zip(&choice.elements);
+        let bends = rigid.filter(|(_, count)| choice.is_settled && **count > 0);
+        for ((body, _), _) in bends {
+            if let Some(line) = scene.bodies[body].cable_mut() {
+                line.axial = Axial::CriticallyDamped;
             }
         }
+        scene = with_counts(scene, &choice.elements);
         scene.accuracy = Accuracy {
             error: Some(self.error),
             relative_tolerance: Some(choice.tolerance),
@@ -337,16 +384,32 @@ impl<'a, 'p> Search<'a, 'p> {
         vec![unknown; self.compared()]
     }
 
-    /// Doubles all numbers of elements that are free, and lets rigid bodies bend; false where there are none or too many.
+    /// Doubles all numbers of elements and modes that are free, and lets rigid bodies bend; false where there are none or too many.
     pub fn refine(&self, choice: &mut Choice) -> bool {
         let mut refined = false;
-        for (cable, count) in choice.elements.iter_mut().enumerate() {
-            if self.is_free(cable) && *count < MOST_ELEMENTS {
-                *count = (2 * *count).max(self.fewest[cable]);
+        for (body, count) in choice.elements.iter_mut().enumerate() {
+            let most = self.most_modes(body).unwrap_or(MOST_ELEMENTS);
+            if self.is_free(body) && *count < most {
+                *count = (2 * *count).max(self.fewest[body]);
+                if let Some(most) = self.most_modes(body) {
+                    *count = most.min(*count);
+                }
                 refined = true;
             }
         }
         refined
+    }
+
+    /// The choice with more modes of reduced bodies than doubling gives: single modes may change nothing while those above them do, so that
+    /// few modes are compared with many.
+    pub fn with_more_modes(&self, choice: &Choice) -> Choice {
+        let mut closer = choice.clone();
+        for (body, count) in closer.elements.iter_mut().enumerate() {
+            if let Some(most) = self.most_modes(body) {
+                *count = most.min((2 * *count).max(COMPARED_MODES));
+            }
+        }
+        closer
     }
 
     /// Returns limits that are the same part of the wanted error for every output.

@@ -25,8 +25,8 @@ impl Search<'_, '_> {
             ..choice.clone()
         };
         loop {
-            let mut closer = tried.clone();
-            if !self.refine(&mut closer) {
+            let mut next = tried.clone();
+            if !self.refine(&mut next) {
                 break;
             }
             if let Some(found) = ladder.foreseen() {
@@ -34,14 +34,14 @@ impl Search<'_, '_> {
                 break;
             }
             if tried.elements.contains(&0) {
-                self.resolve(&mut closer)
+                self.resolve(&mut next)
             } else {
-                self.tighten(&tried, &mut closer)
+                self.tighten(&tried, &mut next)
             }
-            match self.compare(&tried, &closer, self.error) {
+            match self.compare(&tried, &self.with_more_modes(&next), self.error) {
                 Ok(found) => ladder.add(&tried, found),
                 Err(Unfinished::TooMuchWork) => break,
-                Err(Unfinished::Failed(reason)) if !self.refine(&mut closer.clone()) => {
+                Err(Unfinished::Failed(reason)) if !self.refine(&mut next.clone()) => {
                     if ladder.rungs.is_empty() {
                         return Err(Error::new("experiment", reason));
                     }
@@ -54,9 +54,9 @@ impl Search<'_, '_> {
                 break;
             }
             if tried.elements.contains(&0) {
-                closer.tolerance = choice.tolerance;
+                next.tolerance = choice.tolerance;
             }
-            tried = closer;
+            tried = next;
         }
         let Some((best, found)) = ladder.best() else {
             return Ok(if self.is_any_free() {
@@ -73,6 +73,7 @@ impl Search<'_, '_> {
     fn economize(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
         let mut closer = choice.clone();
         self.refine(&mut closer);
+        closer = self.with_more_modes(&closer);
         // Where doubling was foreseen it has not been run.
         if self.known(&closer).is_none() {
             closer.clone_from(choice);
@@ -155,7 +156,8 @@ impl Search<'_, '_> {
             if half.elements == choice.elements {
                 return found;
             }
-            let Ok(now) = self.compare(&half, choice, self.error) else {
+            let closer = self.with_more_modes(choice);
+            let Ok(now) = self.compare(&half, &closer, self.error) else {
                 return found;
             };
             if !are_kept(&now, &found, &limits) {
@@ -174,6 +176,7 @@ impl Search<'_, '_> {
     ) -> Vec<Difference> {
         let mut closer = choice.clone();
         let (half, is_more) = (self.half(choice), self.refine(&mut closer));
+        closer = self.with_more_modes(&closer);
         if !is_more || self.known(&closer).is_some() || half.elements == choice.elements {
             return foreseen;
         }
@@ -209,12 +212,14 @@ impl Search<'_, '_> {
         if !self.refine(&mut closer) {
             return None;
         }
-        let found = self.compare(choice, &closer, self.error).ok()?;
+        let more = self.with_more_modes(&closer);
+        let found = self.compare(choice, &more, self.error).ok()?;
         if are_kept(&found, before, &limits) {
             return None;
         }
         choice.clone_from(&closer);
         let is_more = self.refine(&mut closer);
+        let closer = self.with_more_modes(&closer);
         let next = is_more.then(|| self.compare(choice, &closer, self.error));
         // What the doubling before changed is more than the next one would.
         Some(next.and_then(Result::ok).unwrap_or(found))

@@ -1,7 +1,7 @@
 //! The start of a scene, tried with coarse meshes before anything is planned: what no mesh mends is told at once.
 
 use super::given::TrialConditions;
-use super::search::{cables, fewest};
+use super::search::{cables, fewest, open_reduced, with_counts};
 use crate::scene::{Accuracy, Error, Model, Scene};
 use crate::simulation::{Error as Reason, InputTable, Simulation};
 
@@ -21,6 +21,7 @@ pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), 
     let coarsest = fewest(scene)?;
     let is_free: Vec<bool> = cables(scene)
         .map(|(_, cable)| cable.elements.is_none() && cable.model != Model::Rigid)
+        .chain(open_reduced(scene).map(|_| false))
         .collect();
     let most = ELEMENTS.max(FINER * coarsest.iter().sum::<u32>());
     let moved = given.moved(scene)?;
@@ -54,14 +55,7 @@ fn tried(
     moved: Option<&InputTable>,
 ) -> Result<(), Reason> {
     // Spectra are outputs, and ask for finer meshes.
-    let mut scene = scene.clone().without_outputs();
-    let bodies: Vec<usize> = cables(&scene).map(|(body, _)| body).collect();
-    for (body, count) in bodies.into_iter().zip(elements) {
-        let cable = scene.bodies[body].cable_mut();
-        if let Some(cable) = cable.filter(|_| *count > 0) {
-            cable.elements = Some(*count);
-        }
-    }
+    let mut scene = with_counts(scene.clone().without_outputs(), elements);
     scene.accuracy = Accuracy {
         relative_tolerance: Some(TOLERANCE),
         ..Accuracy::default()

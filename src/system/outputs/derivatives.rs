@@ -235,7 +235,9 @@ impl<const D: usize> Derivatives<D> {
                 (driven.zip(c.as_flattened())).for_each(|(d, c)| *d += second * Jet::of(*c));
             }
         }
-        (system.bodies).add_bias(self.values.motion(), &mut self.driven);
+        let motion = self.values.motion();
+        system.bodies.add_bias(motion, &mut self.driven);
+        system.bodies.add_derived_bias(motion, &mut self.driven);
         if !system.constraints.is_empty() {
             self.differentiate_constraints(system, k, work);
         }

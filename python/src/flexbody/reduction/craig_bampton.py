@@ -10,9 +10,9 @@ from flexbody.reduction.interface import Interface, InterfaceRows
 from flexbody.reduction.invariants import components, invariants, rigid_body_mass
 from flexbody.reduction.model import scaled_model
 from flexbody.reduction.second_order import (
+    MOST_MODES,
     QuadraticForces,
     cubic_coefficients,
-    second_order_count,
     second_order_displacements,
 )
 from flexbody.reduction.units import unit_system
@@ -55,8 +55,9 @@ def reduce(
     internal_force: function of displacements that returns the internal force; an alternative to `quadratic_force`.
     prestressed_stiffness: function of displacements that returns the tangent stiffness there; an alternative to both.
     amplitude: largest displacement over the size of the body at which these functions are evaluated; 1e-3 by default.
-    second_order_modes: how many modes take part in second-order terms; those below 30 times the first frequency, at
-        most ten, if it is not given.
+    second_order_modes: how many modes take part in second-order terms; all, at most 40, if it is not given. A scene
+        that takes fewer modes than the file has (`fixed_interface`, `auto`) combines those of the file and needs all
+        pairs. A body that moves takes pairs of modes below 30 times its first frequency, at most ten.
     triangles: surface as indices of nodes [triangles, 3], for pictures.
     stress: sparse or dense matrix [6, dofs] by name: stress xx yy zz xy xz yz at a point by displacements.
     source: where the model comes from.
@@ -153,7 +154,7 @@ def self_equilibrated(motions):
 
 def _second_order_count(wanted, eigenvalues):
     if wanted is None:
-        return second_order_count(eigenvalues)
+        return min(MOST_MODES, len(eigenvalues))
     if isinstance(wanted, bool) or not isinstance(wanted, (int, np.integer)) or not 0 < wanted <= len(eigenvalues):
         raise Error(f"second_order_modes: expected 1 to {len(eigenvalues)} modes, found {wanted!r}")
     return int(wanted)

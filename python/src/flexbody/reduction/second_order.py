@@ -10,9 +10,8 @@ import numpy as np
 
 from flexbody._errors import Error
 
-# Modes in second-order terms: those below this multiple of the first frequency, and at most so many.
-FREQUENCY_RATIO = 30.0
-MOST_MODES = 10
+# Most modes in second-order terms where nothing else is asked for.
+MOST_MODES = 40
 # Largest displacement over the size of the body at which internal forces are evaluated.
 AMPLITUDE = 1e-3
 # Largest asymmetry of the cubic coefficients, over the largest sum of their terms without signs.
@@ -100,11 +99,6 @@ class QuadraticForces:
             change = (stiffer @ moved - softer @ moved) / (4 * scale)
             forces[:, k] = factors[:, None] * change * self.model.units.energy
         return (forces + forces.transpose(0, 2, 1)) / 2
-
-
-def second_order_count(eigenvalues):
-    """How many modes take part in second-order terms: those below 30 times the first frequency, at most ten."""
-    return int(min(MOST_MODES, (eigenvalues < FREQUENCY_RATIO**2 * eigenvalues[0]).sum()))
 
 
 def cubic_coefficients(modes, forces):
