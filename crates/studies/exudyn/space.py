@@ -1,6 +1,6 @@
-"""A scene of rods, beams and rigid bodies in space in the product's format, as a system of Exudyn's geometrically exact beams:
-the same data, from the same file. What these beams have beside rods, compliance in shear and rotary inertia, can be divided
-(`stiffer`)."""
+"""A scene of rods, beams, rigid and reduced bodies in space in the product's format, as a system of Exudyn's geometrically
+exact beams and floating frames: the same data, from the same file. What these beams have beside rods, compliance in shear and
+rotary inertia, can be divided (`stiffer`)."""
 
 import numpy as np
 from exudyn import BeamSection
@@ -24,6 +24,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 
+import floating_frame
 from model import Model, esym, function_of_time
 
 # Shear coefficients of a section that says none.
@@ -39,7 +40,9 @@ class SpaceModel(Model):
         super().__init__(scene, options)
 
     def cable(self, body):
-        """Nodes, elements and weight of a rod."""
+        """Nodes, elements and weight of a rod; a reduced body."""
+        if body["element"] == "reduced":
+            return floating_frame.add(self, body)
         line = body["shape"]["line"]
         start, end = (np.array(line[key], dtype=float) for key in ("from", "to"))
         count, length = max(round(self.options["elements"] * body.get("share", 1)), 1), np.linalg.norm(end - start)

@@ -7,6 +7,7 @@ mod constraints;
 mod elimination;
 mod locking;
 mod ratios;
+mod reduced;
 mod rivals;
 mod rods;
 mod snap;
@@ -35,6 +36,7 @@ const ROWS: &[Measure] = &[
     ("locking", locking::locking),
     ("shear_locking", rivals::shear_locking),
     ("large_bending_by_modes", rivals::large_bending_by_modes),
+    ("linear_frame", reduced::linear_frame),
     ("softening", rivals::softening),
     ("increments", rivals::increments),
     ("own_twist", rods::own_twist),

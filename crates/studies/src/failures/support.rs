@@ -73,7 +73,11 @@ pub struct Product(pub Simulation);
 impl Product {
     /// After initialization.
     pub fn start(scene: &Value) -> Outcome<Self> {
-        let scene = Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?;
+        Self::of(Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?)
+    }
+
+    /// After initialization, of a scene that is read.
+    pub fn of(scene: Scene) -> Outcome<Self> {
         let mut product = Self(Simulation::new(scene));
         let started = product.0.initialize(0.0).and_then(|()| product.0.start());
         started.map_err(|error| error.to_string())?;
