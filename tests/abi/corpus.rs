@@ -2,6 +2,8 @@
 
 #[path = "../../crates/fuzz/inputs/calls.rs"]
 mod calls;
+#[path = "../../crates/fuzz/inputs/container.rs"]
+mod container;
 #[path = "../../crates/fuzz/inputs/scene.rs"]
 mod scene;
 #[path = "../../crates/fuzz/inputs/state.rs"]
@@ -23,6 +25,11 @@ fn replayed(kind: &str, put_through: fn(&[u8])) {
 #[test]
 fn stored_scenes_are_refused_or_simulated() {
     replayed("scene", scene::put_through);
+}
+
+#[test]
+fn stored_containers_are_refused_or_simulated() {
+    replayed("container", container::put_through);
 }
 
 #[test]

@@ -14,7 +14,7 @@ use crate::process;
 
 /// Fuzz targets, the program that only AddressSanitizer watches, and the one that writes what `state` starts from: saved
 /// states of another format than today's are refused before much is read of them.
-const TARGETS: [&str; 3] = ["scene", "state", "calls"];
+const TARGETS: [&str; 4] = ["scene", "container", "state", "calls"];
 const LIVES: &str = "lives";
 const SEEDS: &str = "seeds";
 /// Where those states are.
