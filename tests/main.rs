@@ -37,7 +37,10 @@ fn root() -> &'static Path {
 fn ready_scenes() -> Vec<PathBuf> {
     let listed = std::fs::read_dir(root().join("scenes")).expect("the ready scenes");
     let mut files: Vec<PathBuf> = listed.map(|entry| entry.expect("a file").path()).collect();
-    files.retain(|path| !path.to_string_lossy().ends_with(".schema.json"));
+    files.retain(|path| {
+        let name = path.to_string_lossy();
+        name.ends_with(".json") && !name.ends_with(".schema.json")
+    });
     files.sort();
     files
 }

@@ -1,6 +1,6 @@
 //! What a scene may not say, and how it is told: the place, what was expected, what was found.
 
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, beside};
 use flexbody::simulation::{RedundantNames, Simulation, courses};
 use serde_json::{Value, json};
 
@@ -275,8 +275,10 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
     let value: Value = serde_json::from_str(&text).expect("JSON");
     let proposed = |key: &str| value["experiment"][key].as_f64().expect("a proposal");
     let (stop, step) = (proposed("stop_time"), proposed("step"));
-    let courses = courses(&Scene::from_json(&text).expect("a scene")).expect("courses of inputs");
-    let mut simulation = Simulation::new(crate::planned(&text).expect("a scene"));
+    let folder = path.parent().expect("a folder");
+    let scene = Scene::from_json_with(&text, &beside(folder)).expect("a scene");
+    let courses = courses(&scene).expect("courses of inputs");
+    let mut simulation = Simulation::new(crate::planned_beside(&text, folder).expect("a scene"));
     let signals = courses.map(|table| table.signals(simulation.variables()));
     let signals = signals.transpose().expect("signals");
     if let Some(signals) = &signals {

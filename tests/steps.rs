@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, beside};
 use flexbody::simulation::{Simulation, Variable};
 
 /// Elements of the cables whose number is left to the planner.
@@ -26,7 +26,8 @@ type Row = Vec<Vec<f64>>;
 fn scenes(tolerance: f64) -> Vec<Scene> {
     let scenes = crate::ready_scenes().into_iter().map(|path| {
         let text = fs::read_to_string(&path).expect("a text");
-        let mut scene = Scene::from_json(&text).expect("a scene");
+        let files = beside(path.parent().expect("a folder"));
+        let mut scene = Scene::from_json_with(&text, &files).expect("a scene");
         let cables = scene.bodies.iter_mut().filter_map(|body| body.cable_mut());
         for cable in cables.filter(|cable| cable.elements.is_none()) {
             cable.elements = Some(ELEMENTS);

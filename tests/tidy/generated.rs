@@ -104,7 +104,9 @@ fn every_scene_survives_being_written_and_read() {
         let file = name(&path);
         if file.ends_with(".json") && !file.ends_with(".schema.json") {
             let scene = scene(&path).expect("a valid scene");
-            assert_eq!(Scene::from_json(&scene.to_json()), Ok(scene), "{file}");
+            let files = beside(path.parent().expect("a folder"));
+            let read = Scene::from_json_with(&scene.to_json(), &files);
+            assert_eq!(read, Ok(scene), "{file}");
         }
     }
 }

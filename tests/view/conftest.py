@@ -89,7 +89,9 @@ class Pages:
         if not path.exists():
             scene = json.loads((ROOT / "scenes" / f"{name}.json").read_text(encoding="utf-8"))
             for body in scene["bodies"]:
-                if body["element"] != "rigid":
+                if body["element"] == "reduced":
+                    shutil.copy(ROOT / "scenes" / body["file"], self.folder)
+                elif body["element"] != "rigid":
                     body.setdefault("elements", ELEMENTS)
             scene["accuracy"] = {"relative_tolerance": 1e-4} | {key: value for key, value in scene.get("accuracy", {}).items() if key == "input_profiles"}
             path.write_text(json.dumps(scene), encoding="utf-8")

@@ -164,7 +164,8 @@ fn compact_scenes(workspace: &Workspace) -> Result<()> {
         .with_context(|| format!("cannot read the folder {}", shown(&folder)))?;
     for scene in scenes {
         let from = scene?.path();
-        if from.to_string_lossy().ends_with(".schema.json") {
+        let file = from.to_string_lossy();
+        if !file.ends_with(".json") || file.ends_with(".schema.json") {
             continue;
         }
         let text = std::fs::read_to_string(&from)

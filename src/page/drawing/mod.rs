@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn names_of_ready_scenes_cover_no_others() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-        let files = std::fs::read_dir(folder).expect("ready scenes");
+        let files = std::fs::read_dir(&folder).expect("ready scenes");
         let mut drawings = vec![("example".to_owned(), drawing(&example()))];
         for file in files.map(|file| file.expect("a readable folder").path()) {
             let name = file
@@ -199,9 +199,10 @@ mod tests {
                 .unwrap_or_default()
                 .to_string_lossy()
                 .into_owned();
-            if !name.ends_with(".schema.json") {
+            if name.ends_with(".json") && !name.ends_with(".schema.json") {
                 let text = std::fs::read_to_string(&file).expect("a readable scene");
-                let scene = Scene::from_json(&text).expect("a valid scene");
+                let read = Scene::from_json_with(&text, &crate::scene::beside(&folder));
+                let scene = read.expect("a valid scene");
                 drawings.push((name, drawing(&scene)));
             }
         }

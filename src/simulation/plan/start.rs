@@ -143,13 +143,15 @@ mod tests {
     #[test]
     fn ready_scenes_have_a_start() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-        for entry in fs::read_dir(folder).expect("ready scenes") {
+        for entry in fs::read_dir(&folder).expect("ready scenes") {
             let path = entry.expect("a file").path();
-            if path.to_string_lossy().ends_with(".schema.json") {
+            let name = path.to_string_lossy();
+            if !name.ends_with(".json") || name.ends_with(".schema.json") {
                 continue;
             }
             let text = fs::read_to_string(&path).expect("a text");
-            let scene = Scene::from_json(&text).expect("a valid scene");
+            let read = Scene::from_json_with(&text, &crate::scene::beside(&folder));
+            let scene = read.expect("a valid scene");
             if scene.is_to_be_planned() {
                 assert_eq!(
                     check_start(&scene, &TrialConditions::default()),
