@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -42,6 +43,9 @@ class Systems:
     def write(self, name, scene):
         path = self.folder / f"{name}.json"
         path.write_text(json.dumps(scene), encoding="utf-8")
+        for body in scene["bodies"]:
+            if "file" in body:
+                shutil.copy(HERE / "scenes" / body["file"], self.folder)
         return path
 
     def fmu(self, system, name, unit):
