@@ -6,7 +6,7 @@
 use super::numbers::{list, quoted};
 use super::recording::Recording;
 use super::surface::{BodySurface, PointWithAxes, surfaces};
-use crate::math::rotation::{NO_ROTATION, Quaternion};
+use crate::math::rotation::quaternion;
 use crate::picture::palette::{BODIES, linear};
 
 /// Numbers of types of components and of targets in glTF.
@@ -154,7 +154,7 @@ impl File {
     /// A node that goes and turns as a place does.
     fn place(&mut self, frames: &[Vec<PointWithAxes>], place: usize, input: usize) {
         let (mut ways, mut turns): (Vec<f32>, Vec<f32>) = (Vec::new(), Vec::new());
-        let mut held: Quaternion = NO_ROTATION;
+        let mut held = quaternion(&frames[0][place].axes);
         for places in frames {
             let placed = &places[place];
             held = placed.quaternion(&held);

@@ -5,7 +5,7 @@ use super::numbers::{Numbers, list, quoted};
 use super::recording::Recording;
 use super::sections::{SectionStress, has_corners, sections};
 use super::symbols::SymbolTable;
-use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion_near};
+use crate::math::rotation::{Quaternion, quaternion, quaternion_near};
 use crate::picture::symbols::load;
 use crate::picture::{Mark, MarkLabel, marks, palette};
 use crate::scene::{
@@ -71,10 +71,14 @@ fn of_body(
     let first = &recording.poses[0][place];
     let (nodes, turns) = (first.nodes.len(), !first.axes.is_empty());
     let is_chain = matches!(body, BodyReference::Cable(_));
-    let mut held = vec![NO_ROTATION; first.axes.len()];
-    let dimension = recording.scene.dimension;
     // Quaternions of frames are to be near those that bodies are drawn with.
-    let drawn = row(&recording.drawn[place], dimension, is_chain, &mut held);
+    let drawn = &recording.drawn[place];
+    let stances = drawn.axes.iter();
+    let mut held: Vec<_> = stances
+        .map(|axes| quaternion(&axes.map(Into::into)))
+        .collect();
+    let dimension = recording.scene.dimension;
+    let drawn = row(drawn, dimension, is_chain, &mut held);
     let rows: Vec<Vec<f64>> = (recording.poses.iter())
         .map(|poses| row(&poses[place], dimension, is_chain, &mut held))
         .collect();

@@ -28,11 +28,18 @@ fn rotation(parts: &[f64]) -> UnitQuaternion<f64> {
 /// Bodies that tumble: where nodes of the file take points of their frames is where outputs say that markers are, with up along y.
 #[test]
 fn nodes_take_points_of_bodies_where_outputs_say() {
+    // Half a turn from the axes is as near to them as its opposite.
+    for stance in [[0.5, -0.3, 0.8], [0.0, 0.0, std::f64::consts::PI]] {
+        check_nodes(stance);
+    }
+}
+
+fn check_nodes(stance: [f64; 3]) {
     let local = [0.3, -0.2, 0.4];
     let text = format!(
         r#"{{ "name": "tumbles", "dimension": 3, "gravity": [0.0, 0.0, -9.81],
           "bodies": [ {{ "name": "top", "element": "rigid", "shape": {{ "box": {{ "size": [0.4, 0.6, 0.8] }} }}, "density": 300.0,
-            "position": [0.2, 0.1, 0.5], "orientation": {{ "rotation_vector": [0.5, -0.3, 0.8] }},
+            "position": [0.2, 0.1, 0.5], "orientation": {{ "rotation_vector": {stance:?} }},
             "motion": {{ "spin": [2.0, 3.0, -1.0], "velocity": [0.1, 0.4, 2.0] }},
             "markers": {{ "o": [0.0, 0.0, 0.0], "p": {local:?} }} }} ],
           "masses": [ {{ "marker": "top.p", "mass": 30.0 }} ],
