@@ -223,7 +223,7 @@ impl Settled {
 }
 
 impl PlannedBody {
-    /// What its number counts.
+    /// The parts that the number of the body counts.
     pub fn parts(&self) -> &'static str {
         match self.kind {
             "reduced" => "fixed-interface modes",
@@ -231,7 +231,7 @@ impl PlannedBody {
         }
     }
 
-    /// Its number in a column of elements; of modes, with that word.
+    /// The number of the body in a column of elements; of modes, with that word.
     pub fn count_in_words(&self) -> String {
         let unit = if self.kind == "reduced" { " modes" } else { "" };
         self.elements

@@ -1,4 +1,6 @@
-//! Models in bases of their modes.
+//! Models in bases of their modes: what a change of basis keeps.
+//!
+//! Source: R. R. Craig, M. C. C. Bampton, AIAA Journal 6 (1968) 1313-1319 (static shapes, modes with held interfaces).
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -127,7 +129,7 @@ fn combined_modes_are_the_same_body() {
             .interfaces
             .iter()
             .map(|of| of.place(eta.as_slice(), MODES));
-        places.flat_map(|place| <[f64; 3]>::from(place)).collect()
+        places.flat_map(<[f64; 3]>::from).collect()
     };
     assert!(difference(&places(&model, &eta), &places(&combined, &own)) < 1e-12);
     let energy = |model: &ReducedModel, eta: &DVector<f64>| -> f64 {
