@@ -19,6 +19,7 @@ fn scenes() -> Vec<PathBuf> {
     let mut found = crate::ready_scenes();
     let others = [
         "docs/book/examples/bodies/reduced.json",
+        "docs/book/examples/outputs/stress_tensor.json",
         "src/scene/example.json",
         "tests/cases/coupled_mass/driven.json",
         "tests/cases/coupled_mass/scene.json",

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use super::Elimination;
 use super::connectivity::Node;
 use super::frame::{Axes, RigidBodyFrame, combined};
-use crate::elements::reduced::{ModalStrain, ReducedModel, SPIN_SCALE, SpinScale};
+use crate::elements::reduced::{ModalStrain, ReducedModel, SPIN_SCALE, SpinScale, Symmetric};
 use crate::math::jet::Number;
 use crate::math::space::vector;
 
@@ -133,6 +133,22 @@ impl ReducedBody {
             moved.fold(0.0, f64::max) / size,
             rotated.fold(0.0, f64::max),
         ]
+    }
+
+    /// Stress at a point for the stresses there by modes, `[modes][6]`, Pa: their sum times the strains of the modes. Damping adds none.
+    pub fn stress<const D: usize, N: Number>(
+        &self,
+        by_modes: &[Symmetric],
+        x: &[Node<D, N>],
+    ) -> Symmetric<N> {
+        let eta = self.amplitudes(x);
+        let mut sum = [N::of(0.0); 6];
+        for (m, by_mode) in by_modes.iter().enumerate() {
+            let strain = self.strain.of_mode(m, eta);
+            let parts = sum.iter_mut().zip(by_mode);
+            parts.for_each(|(sum, part)| *sum += strain * N::of(*part));
+        }
+        sum
     }
 
     /// First nodes of its frames.

@@ -42,6 +42,7 @@ impl<'a> Resolved<'a> {
             holders: Vec::new(),
             angles: Vec::new(),
             points: Vec::new(),
+            gauges: Vec::new(),
             couplings: 0,
             numbers: 0,
             bodies_by_name: Default::default(),

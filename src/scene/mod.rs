@@ -52,9 +52,10 @@ pub use motions::{Driven, DrivenQuantity, ROTATION_ORDERS, ResolvedMotion};
 pub use remarks::remarks;
 pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
-    DirectionSource, Ends, First, Incoming, Input, InputKind, JointCoordinate, LineId, LoadId,
-    MarkerId, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Reduced, ReducedId,
-    Resolved, ResolvedMarker, ResolvedMass, ResolvedPort, Rigid, RigidId, SlideId, Slider,
+    DirectionSource, Ends, First, GaugeId, Incoming, Input, InputKind, JointCoordinate, LineId,
+    LoadId, MarkerId, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Reduced,
+    ReducedId, Resolved, ResolvedMarker, ResolvedMass, ResolvedPort, Rigid, RigidId, SlideId,
+    Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use unit::Unit;

@@ -9,7 +9,7 @@ use super::description::{FileBody, LineBody, Port as GivenPort, RigidBody, Scene
 use super::joints::{ResolvedGear, ResolvedJoint};
 use super::loads::{Action, ResolvedLoad};
 use super::motions::{Driven, ResolvedMotion};
-pub use outputs::{Output, OutputTarget, Reaction, SectionPoint};
+pub use outputs::{Output, OutputTarget, Reaction, ResolvedGauge, SectionPoint};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
 macro_rules! numbers {
@@ -38,6 +38,8 @@ numbers! {
     AngleId;
     /// A point of a section whose stress is read.
     PointId;
+    /// A gauge whose stress is read.
+    GaugeId;
     /// A load.
     LoadId;
     /// A spring and damper of a port.
@@ -359,6 +361,8 @@ pub struct Resolved<'a> {
     pub angles: Vec<DirectionSource<'a>>,
     /// Points of sections whose stress is read, by [`PointId`].
     pub points: Vec<SectionPoint<'a>>,
+    /// Gauges whose stress is read, by [`GaugeId`].
+    pub gauges: Vec<ResolvedGauge<'a>>,
     /// Number of couplings.
     pub couplings: usize,
     /// How many numbers the master sets: those of inputs, then those of motions, then those of ports. The

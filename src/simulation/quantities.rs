@@ -11,9 +11,10 @@ use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{axis, components};
 use crate::scene::{
-    Along, AngleId, Assembled, ConstraintOwnerId, CouplingId, LoadId, MarkerId, PointId, SlideId,
+    Along, AngleId, Assembled, ConstraintOwnerId, CouplingId, GaugeId, LoadId, MarkerId, PointId,
+    SlideId,
 };
-use crate::system::{Attachment, Evaluation, System};
+use crate::system::{Attachment, Evaluation, System, von_mises};
 
 /// Outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +59,10 @@ pub enum Quantity {
     Stress(PointId),
     /// Shear stress by torsion at a point of a section.
     TorsionStress(PointId),
+    /// Component of the stress at a gauge, `xx yy zz xy xz yz`.
+    StressTensor(GaugeId, usize),
+    /// Equivalent stress of von Mises at a gauge.
+    VonMisesStress(GaugeId),
     /// Component of the force that the part of a cable before a marker exerts on the part after it.
     ConnectivityForce(MarkerId, usize),
     /// Where a slide is on its cable.
@@ -165,6 +170,8 @@ pub(super) fn value<const D: usize, N: Number>(
         Torque(id) => values.torque(system, at(id)),
         Stress(id) => values.stress(system, assembled.point(id)),
         TorsionStress(id) => values.torsion_stress(system, assembled.point(id)),
+        StressTensor(id, k) => values.stress_tensor(system, assembled.gauge(id))[k],
+        VonMisesStress(id) => von_mises(values.stress_tensor(system, assembled.gauge(id))),
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, ..) | ReactionMoment(joint, ..) => {
@@ -371,6 +378,9 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
             (Dynamics, |by| Some(by.force * by.size))
         }
         Stress(_) | TorsionStress(_) => (Dynamics, |by| Some(by.force / (by.size * by.size))),
+        StressTensor(..) | VonMisesStress(_) => {
+            (Kinematics, |by| Some(by.force / (by.size * by.size)))
+        }
         CouplingForce(..) | LoadForce(..) => (Kinematics, |by| Some(by.force)),
         CouplingMoment(..) | LoadMoment(..) | KineticEnergy | StrainEnergy | GravityEnergy
         | SpringEnergy => (Kinematics, |by| Some(by.force * by.size)),

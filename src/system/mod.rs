@@ -30,6 +30,7 @@ pub use motion::multipliers::ConstraintRow;
 pub use motion::rank::{HoldingParts, Redundant};
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
+pub use outputs::gauge::{Gauge, von_mises};
 pub use outputs::stress::StressPoint;
 pub use signal::{Drive, InputSignal, Signal, Trajectory, moved};
 pub use spectra::fastest::fastest;

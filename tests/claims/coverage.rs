@@ -47,7 +47,7 @@ const TOGETHER: [&str; 7] = [
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
 /// whose element is chosen says is what the element says that it becomes (`elements.rs`). What needs a file has its claims in `reduced.rs`.
-const OWN: [&str; 12] = [
+const OWN: [&str; 13] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
@@ -60,6 +60,7 @@ const OWN: [&str; 12] = [
     "bodies{beam}.model",
     "bodies{auto}",
     "bodies{reduced}",
+    "outputs{stress_tensor}",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];

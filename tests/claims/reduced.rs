@@ -32,8 +32,21 @@ fn strip(keys: &Value) -> Value {
 }
 
 fn read(scene: &Value) -> Result<Scene, String> {
+    read_with(scene, |_| Ok(()))
+}
+
+/// Reads a scene with the file of the strip changed.
+fn read_with(
+    scene: &Value,
+    change: impl Fn(&mut [u8]) -> Result<(), String>,
+) -> Result<Scene, String> {
     let folder = crate::root().join("docs/book/examples/bodies");
-    let scene = Scene::from_json_with(&scene.to_string(), &beside(&folder));
+    let files = |name: &str| {
+        let mut bytes = beside(&folder)(name)?;
+        change(&mut bytes)?;
+        Ok(bytes)
+    };
+    let scene = Scene::from_json_with(&scene.to_string(), &files);
     scene.map_err(|error| error.to_string())
 }
 
@@ -46,15 +59,12 @@ impl Run {
 
     /// With parameters set.
     fn set(scene: &Value, values: &[(&str, f64)]) -> Result<Self, String> {
-        Self(Simulation::new(read(scene)?)).started(values)
+        Self::of(read(scene)?, values)
     }
 
-    fn of(scene: Scene) -> Result<Self, String> {
-        Self(Simulation::new(scene)).started(&[])
-    }
-
-    fn started(self, values: &[(&str, f64)]) -> Result<Self, String> {
-        let mut run = self;
+    /// Of a scene that was read, with parameters set.
+    fn of(scene: Scene, values: &[(&str, f64)]) -> Result<Self, String> {
+        let mut run = Self(Simulation::new(scene));
         for (name, value) in values {
             let index = run.index(name)?;
             let set = run.0.set_real(index, *value);
@@ -259,7 +269,7 @@ fn a_strip_has_as_many_modes_as_the_error_wanted_needs() -> Result<(), String> {
             .map_err(|error| error.to_string())?;
         let body = planned.bodies[0].reduced().ok_or("a reduced body")?;
         let modes = body.modes;
-        Ok((modes, path(Run::of(planned)?)?))
+        Ok((modes, path(Run::of(planned, &[])?)?))
     };
     for (kind, error, is_rigid) in [("weld", 1e-2, false), ("revolute", 5e-2, true)] {
         let exact = json!({"relative_tolerance": 1e-7});
@@ -485,5 +495,127 @@ fn a_strip_on_a_beam_hangs_in_equilibrium() -> Result<(), String> {
         moment,
         0.01 * moment,
     );
+    Ok(())
+}
+
+/// Modes of the strip.
+const MODES: usize = 6;
+/// Section of the strip, m: width along y, thickness along z.
+const SECTION: [f64; 2] = [0.03, 0.003];
+/// Factors of the components of a stress that is no stress of a strip.
+const FACTORS: [f64; 6] = [1.0, 0.5, -0.25, 2.0, 3.0, -1.5];
+
+/// The strip with its axes turned, clamped at its root, in equilibrium under a force along these axes at its tip.
+fn bent_strip(force: [f64; 3], turn: [f64; 3]) -> Value {
+    let force: [f64; 3] = (Rotation3::new(turn.into()) * Vector3::from(force)).into();
+    let turned = json!({"rotation_vector": turn});
+    let mut scene = strip(&json!({"gauges": {"foot": "root"}, "orientation": turned}));
+    scene["joints"] =
+        json!([{"name": "clamp", "kind": "weld", "markers": ["ground", "strip.root"]}]);
+    scene["loads"] =
+        json!([{"name": "pull", "kind": "force", "marker": "strip.tip", "value": force}]);
+    scene["outputs"] = json!([{"kind": "stress_tensor", "gauge": "strip.foot"}]);
+    scene["initial"] = json!({"state": "static_equilibrium"});
+    scene
+}
+
+/// `gauges`: bending stress `6 F L / (b h^2)` where the strip is clamped, by forces along both axes of its section, wherever its axes stand.
+#[test]
+fn a_strip_has_the_stress_of_a_clamped_beam() -> Result<(), String> {
+    let [width, height] = SECTION;
+    let [along_y, along_z] = [0.5, -0.02];
+    let expected = -6.0 * LENGTH / (width * height) * (along_y / width + along_z / height);
+    for turn in [[0.0; 3], [0.4, -0.3, 0.6]] {
+        let mut run = Run::new(&bent_strip([0.0, along_y, along_z], turn))?;
+        let within = 1e-5 * expected.abs();
+        near(run.value("strip.foot.stress_tensor[1]")?, expected, within);
+        near(
+            run.value("strip.foot.von_mises_stress")?,
+            expected.abs(),
+            within,
+        );
+        for k in 2..=6 {
+            near(
+                run.value(&format!("strip.foot.stress_tensor[{k}]"))?,
+                0.0,
+                1e-9,
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of an array of a file, to be read and changed.
+fn array<'a>(bytes: &'a mut [u8], name: &str) -> Result<&'a mut [[u8; 8]], String> {
+    let (length, rest) = bytes.split_at_mut(8);
+    let length = u64::from_le_bytes(length.try_into().map_err(|_| "a length")?);
+    let (header, data) = rest.split_at_mut(length as usize);
+    let header: Value = serde_json::from_slice(header).map_err(|error| error.to_string())?;
+    let place = |end: usize| {
+        let place = header[name]["data_offsets"][end].as_u64();
+        place.ok_or_else(|| format!("no array {name}"))
+    };
+    let (numbers, _) = data[place(0)? as usize..place(1)? as usize].as_chunks_mut();
+    Ok(numbers)
+}
+
+/// Components stand in the order of the file, and make the equivalent stress.
+#[test]
+fn a_gauge_has_the_components_of_its_file() -> Result<(), String> {
+    let scene = bent_strip([0.0, 0.0, -0.02], [0.0; 3]);
+    let factored = read_with(&scene, |bytes| {
+        let rows = array(bytes, "stress.root")?;
+        for at in (0..rows.len()).rev() {
+            let first = f64::from_le_bytes(rows[at % MODES]);
+            rows[at] = (FACTORS[at / MODES] * first).to_le_bytes();
+        }
+        Ok(())
+    })?;
+    let mut run = Run::of(factored, &[])?;
+    let first = run.value("strip.foot.stress_tensor[1]")?;
+    for (k, factor) in FACTORS.iter().enumerate() {
+        let name = format!("strip.foot.stress_tensor[{}]", k + 1);
+        near(run.value(&name)?, factor * first, 1e-9 * first.abs());
+    }
+    let [xx, yy, zz, xy, xz, yz] = FACTORS;
+    let normal: f64 = [xx - yy, yy - zz, zz - xx]
+        .iter()
+        .map(|of| of * of / 2.0)
+        .sum();
+    let shear: f64 = [xy, xz, yz].iter().map(|of| 3.0 * of * of).sum();
+    let expected = (normal + shear).sqrt() * first.abs();
+    let found = run.value("strip.foot.von_mises_stress")?;
+    near(found, expected, 1e-9 * expected);
+    Ok(())
+}
+
+/// Stress follows the strains that the energy counts: where the components of a stress are the strains of the six modes, times the roots of
+/// their stiffness, their squares make the energy. Pairs of the first mode strain the last one here.
+#[test]
+fn a_gauge_follows_the_strain_of_the_energy() -> Result<(), String> {
+    let mut scene = bent_strip([0.0, 0.3, -0.5], [0.0; 3]);
+    scene["outputs"] =
+        json!([{"kind": "stress_tensor", "gauge": "strip.foot"}, {"kind": "energy"}]);
+    let strained = read_with(&scene, |bytes| {
+        let eigenvalues = array(bytes, "eigenvalues")?.to_vec();
+        let eigenvalues = eigenvalues.into_iter().map(f64::from_le_bytes);
+        let last = MODES * MODES * (MODES - 1);
+        array(bytes, "cubic")?[last] = 1e7f64.to_le_bytes();
+        let rows = array(bytes, "stress.root")?;
+        rows.fill(0.0f64.to_le_bytes());
+        for (k, eigenvalue) in eigenvalues.enumerate() {
+            rows[(MODES + 1) * k] = (0.5 * eigenvalue).sqrt().to_le_bytes();
+        }
+        Ok(())
+    })?;
+    let mut run = Run::of(strained, &[])?;
+    let mut sum = 0.0;
+    for k in 1..=6 {
+        sum += run
+            .value(&format!("strip.foot.stress_tensor[{k}]"))?
+            .powi(2);
+    }
+    let energy = run.value("energy.strain")?;
+    near(sum, energy, 1e-12 * energy);
     Ok(())
 }

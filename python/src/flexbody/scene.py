@@ -1100,6 +1100,20 @@ class TorsionStressOutput(Part):
     """
 
 
+class StressTensorOutput(Part):
+    """
+    Stress at a gauge of a reduced body, Pa: the components `xx`, `yy`, `zz`, `xy`, `xz`, `yz` along the file's axes as the body carries
+    them, and the equivalent stress of von Mises. They are the stresses of the modes in the file times the strains of the modes, without
+    what damps. Derivatives of the equivalent stress are zero where there is no stress.
+    """
+
+    kind: Literal["stress_tensor"] = "stress_tensor"
+    gauge: StrictStr
+    """
+    Gauge of the reduced body at which the stress is read, `body.gauge`.
+    """
+
+
 class ConnectivityForceOutput(Part):
     """
     Force that the part of a cable before a marker exerts on the part after it, global axes, N.
@@ -1341,6 +1355,7 @@ Output = TypeAliasType(
         | TorqueOutput
         | StressOutput
         | TorsionStressOutput
+        | StressTensorOutput
         | ConnectivityForceOutput
         | TravelOutput
         | ReactionOutput
@@ -2896,6 +2911,10 @@ class ReducedBody(Part):
     """
     Damping ratio of the modes of the free body: a number, or pairs of a frequency (Hz) and the ratio there, linear between them and
     constant outside.
+    """
+    gauges: dict[str, StrictStr] | None = None
+    """
+    Named points whose stress outputs read: names of stresses in the file.
     """
     markers: dict[str, StrictStr] = {}
     """

@@ -53,11 +53,16 @@ impl ModalStrain {
         strain
     }
 
+    /// Strain `e_m` of a mode at amplitudes of the modes: the amplitude without what pairs of others move without strain.
+    pub fn of_mode<N: Number>(&self, m: usize, eta: &[N]) -> N {
+        self.strain(m, eta, |_, _| {})
+    }
+
     /// Energy at amplitudes of the modes, J.
     pub fn energy<N: Number>(&self, eta: &[N]) -> N {
         let modes = self.eigenvalues.iter().enumerate();
         modes.fold(N::of(0.0), |energy, (m, eigenvalue)| {
-            let strain = self.strain(m, eta, |_, _| {});
+            let strain = self.of_mode(m, eta);
             energy + strain * strain * N::of(0.5 * eigenvalue)
         })
     }

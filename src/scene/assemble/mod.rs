@@ -18,7 +18,8 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
-    self, CouplingId, DirectionSource, Ends, First, LoadId, MarkerId, Place, PointId, Resolved,
+    self, CouplingId, DirectionSource, Ends, First, GaugeId, LoadId, MarkerId, Place, PointId,
+    Resolved,
 };
 use super::{Error, OutputKind, Scene};
 use crate::bodies::{Bodies, LumpedMass, Marker, Node};
@@ -26,7 +27,7 @@ use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, Attachment, AxisRotation, BuildError, Parts, State, StressPoint, System,
+    Angle, Attachment, AxisRotation, BuildError, Gauge, Parts, State, StressPoint, System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -56,6 +57,8 @@ pub struct Assembled<const D: usize = 2> {
     first_load: usize,
     /// Points of sections whose stress is read.
     points: Vec<StressPoint>,
+    /// Gauges whose stress is read.
+    gauges: Vec<Gauge>,
     /// First nodes of the interfaces of reduced bodies, by the index of the body.
     interfaces: BTreeMap<usize, Vec<usize>>,
 }
@@ -114,6 +117,11 @@ impl<const D: usize> Assembled<D> {
         &self.points[id.index()]
     }
 
+    /// A gauge of a reduced body whose stress is read.
+    pub fn gauge(&self, id: GaugeId) -> &Gauge {
+        &self.gauges[id.index()]
+    }
+
     /// Place among the loads of the system of a load of the scene.
     pub fn load(&self, id: LoadId) -> usize {
         self.first_load + id.index()
@@ -164,7 +172,7 @@ impl Resolved<'_> {
         builder.loads()?;
         builder.inputs();
         builder.ports();
-        let points = builder.section_points();
+        let (points, gauges) = (builder.section_points(), builder.gauges());
         let nodes = builder.parts.bodies.reference.clone();
         let principal = self.bodies.iter().map(|body| self.principal(body));
         let (frames, centers): (Vec<Matrix3<f64>>, Vec<_>) = principal.unzip();
@@ -172,6 +180,7 @@ impl Resolved<'_> {
         Ok(Assembled {
             system,
             points,
+            gauges,
             error: self.scene.error_wanted(),
             rates: builder.motions.rates(&nodes),
             motions: builder.motions,

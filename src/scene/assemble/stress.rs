@@ -1,14 +1,26 @@
-//! Points of sections whose stress is read.
+//! Points of sections and gauges of reduced bodies whose stress is read.
 
 use super::Builder;
 use crate::scene::resolved;
-use crate::system::StressPoint;
+use crate::system::{Gauge, StressPoint};
 
 impl<const D: usize> Builder<'_, D> {
     /// All of them, as the scene numbers them.
     pub(super) fn section_points(&self) -> Vec<StressPoint> {
         let points = self.resolved.points.iter();
         points.map(|point| self.section_point(point)).collect()
+    }
+
+    /// Gauges of reduced bodies, as the scene numbers them.
+    pub(super) fn gauges(&self) -> Vec<Gauge> {
+        let gauge = |of: &resolved::ResolvedGauge<'_>| {
+            let id = of.reduced.id.index();
+            Gauge {
+                body: self.interfaces.range(..id).count(),
+                by_modes: of.by_modes[..of.reduced.body.mode_count()].to_vec(),
+            }
+        };
+        self.resolved.gauges.iter().map(gauge).collect()
     }
 
     fn section_point(&self, given: &resolved::SectionPoint<'_>) -> StressPoint {

@@ -66,6 +66,10 @@ kinds! {
         /// Saint-Venant in the shape of the section (`T r / J` in a circle or tube). Shear by transverse forces and what a clamp that
         /// prevents warping adds are not in it. Of sections with a shape.
         TorsionStress(TorsionStressOutput),
+        /// Stress at a gauge of a reduced body, Pa: the components `xx`, `yy`, `zz`, `xy`, `xz`, `yz` along the file's axes as the body carries
+        /// them, and the equivalent stress of von Mises. They are the stresses of the modes in the file times the strains of the modes, without
+        /// what damps. Derivatives of the equivalent stress are zero where there is no stress.
+        StressTensor(AtGauge),
         /// Force that the part of a cable before a marker exerts on the part after it, global axes, N.
         ConnectivityForce(AtLine),
         /// Where along the cable a joint of kind `point_on_cable` stands: length from the first end, m.
@@ -227,6 +231,13 @@ pub struct TorsionStressOutput {
     pub points: Vec<Vec<f64>>,
 }
 
+/// Stress in a reduced body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AtGauge {
+    /// Gauge of the reduced body at which the stress is read, `body.gauge`.
+    pub gauge: String,
+}
+
 /// A place along a cable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OfCableJoint {
@@ -335,6 +346,7 @@ impl Output {
             Self::Torque(of) => &of.marker,
             Self::Stress(of) => &of.marker,
             Self::TorsionStress(of) => &of.marker,
+            Self::StressTensor(of) => &of.gauge,
             Self::Travel(of) => &of.joint,
             Self::Reaction(of) | Self::ReactionMoment(of) => {
                 return either(&of.motion, &of.joint);

@@ -48,6 +48,9 @@ pub struct FileBody {
     /// Named interfaces of the file.
     #[serde(default)]
     pub markers: BTreeMap<String, String>,
+    /// Named points whose stress outputs read: names of stresses in the file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub gauges: BTreeMap<String, String>,
     /// Content of the file; nothing before it is read.
     #[serde(skip)]
     pub container: Option<Arc<Container>>,

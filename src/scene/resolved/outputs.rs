@@ -1,8 +1,8 @@
 //! What the master reads.
 
 use super::{
-    AngleId, Cable, ConstraintOwnerId, DirectionSource, LoadId, PointId, ResolvedMarker, SlideId,
-    Slider,
+    AngleId, Cable, ConstraintOwnerId, DirectionSource, GaugeId, LoadId, PointId, Reduced,
+    ResolvedMarker, SlideId, Slider,
 };
 use crate::scene::description::{Along, OutputKind};
 
@@ -41,6 +41,8 @@ pub enum OutputTarget<'a> {
     Angle(DirectionSource<'a>, AngleId),
     /// Points of the section at a marker: the first, and the points as described.
     Points(ResolvedMarker<'a>, PointId, &'a [Vec<f64>]),
+    /// A gauge of a reduced body, of this name.
+    Gauge(&'a str, GaugeId),
     /// A joint of this name, and its slide.
     Slide(&'a str, SlideId),
     /// A joint or a motion.
@@ -68,4 +70,13 @@ pub struct SectionPoint<'a> {
     pub at: f64,
     /// Coordinates along the first and the second axis of the section; in the plane the way from the line to the left, and 0, m.
     pub point: [f64; 2],
+}
+
+/// A gauge of a reduced body whose stress is read.
+#[derive(Clone, Copy, Debug)]
+pub struct ResolvedGauge<'a> {
+    /// The body.
+    pub reduced: Reduced<'a>,
+    /// Stress by all modes of the file, `xx yy zz xy xz yz` in the file's axes, Pa.
+    pub by_modes: &'a [[f64; 6]],
 }

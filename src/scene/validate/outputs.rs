@@ -198,6 +198,7 @@ impl<'a> Resolved<'a> {
             }
             Output::Stress(of) => self.stress_points(path, &of.marker, &of.points)?,
             Output::TorsionStress(of) => self.torsion_points(path, &of.marker, &of.points)?,
+            Output::StressTensor(of) => self.gauge(&at("gauge"), &of.gauge)?,
             Output::Travel(of) => self.travel(&at("joint"), &of.joint)?,
             Output::Reaction(of) => OutputTarget::Reaction(self.reaction(path, of, false)?),
             Output::ReactionMoment(of) => OutputTarget::Reaction(self.reaction(path, of, true)?),

@@ -1,6 +1,8 @@
 //! Checks of reduced bodies.
 
-use super::checks::{expected, finite, not_negative, positive, quoted, unknown, vector};
+use std::collections::BTreeSet;
+
+use super::checks::{expected, finite, name, not_negative, positive, quoted, unknown, vector};
 use crate::scene::description::{DampingRatio, FixedInterfaceModes, Modes, ModesUpTo};
 use crate::scene::{Container, Error, FileBody};
 
@@ -35,6 +37,21 @@ impl FileBody {
                 let what = format!("the name of an interface in {}", quoted(&self.file));
                 let place = at(&format!("markers.{marker}"));
                 return Err(unknown(&place, &what, interface, known));
+            }
+        }
+        self.validate_gauges(path, container)
+    }
+
+    fn validate_gauges(&self, path: &str, container: &Container) -> Result<(), Error> {
+        let mut names = BTreeSet::new();
+        for (gauge, stress) in &self.gauges {
+            let place = format!("{path}.gauges.{gauge}");
+            name(&place, gauge, &mut names)?;
+            let stresses = &container.details.stresses;
+            if !stresses.contains_key(stress) {
+                let known = stresses.keys().map(String::as_str);
+                let what = format!("the name of a stress in {}", quoted(&self.file));
+                return Err(unknown(&place, &what, stress, known));
             }
         }
         Ok(())

@@ -1,9 +1,10 @@
-//! Points of sections whose stress is read.
+//! Points of sections and gauges of reduced bodies whose stress is read.
 
-use super::checks::{expected, finite, quoted};
+use super::checks::{expected, finite, quoted, unknown};
 use crate::scene::Error;
 use crate::scene::resolved::{
-    OutputTarget, Place, PointId, Resolved, ResolvedMarker, SectionPoint,
+    BodyReference, GaugeId, OutputTarget, Place, PointId, Resolved, ResolvedGauge, ResolvedMarker,
+    SectionPoint,
 };
 
 /// Most points of a section.
@@ -41,6 +42,46 @@ impl<'a> Resolved<'a> {
     ) -> Result<OutputTarget<'a>, Error> {
         let marker = self.require_rod_marker(&format!("{path}.marker"), marker)?;
         self.section_points(path, marker, points, true)
+    }
+
+    /// Resolves a gauge of a reduced body.
+    ///
+    /// # Errors
+    /// A gauge that does not exist.
+    pub(super) fn gauge(&mut self, path: &str, name: &'a str) -> Result<OutputTarget<'a>, Error> {
+        let Some(found) = self.gauges_by_name().find(|(of, _)| of == name) else {
+            let known: Vec<String> = self.gauges_by_name().map(|(of, _)| of).collect();
+            let known = known.iter().map(String::as_str);
+            return Err(unknown(
+                path,
+                "a gauge of a reduced body of this scene",
+                name,
+                known,
+            ));
+        };
+        let id = GaugeId(self.gauges.len());
+        self.gauges.push(found.1);
+        Ok(OutputTarget::Gauge(name, id))
+    }
+
+    /// Gauges of all reduced bodies by `body.gauge`.
+    fn gauges_by_name(&self) -> impl Iterator<Item = (String, ResolvedGauge<'a>)> {
+        let reduced = self.bodies.iter().filter_map(|body| match *body {
+            BodyReference::Reduced(reduced) => Some(reduced),
+            BodyReference::Cable(_) | BodyReference::Rigid(_) => None,
+        });
+        reduced.flat_map(|reduced| {
+            let stresses = &reduced.body.contained().details.stresses;
+            reduced
+                .body
+                .gauges
+                .iter()
+                .filter_map(move |(gauge, stress)| {
+                    let name = format!("{}.{gauge}", reduced.body.name);
+                    let by_modes = stresses.get(stress)?;
+                    Some((name, ResolvedGauge { reduced, by_modes }))
+                })
+        })
     }
 
     fn section_points(

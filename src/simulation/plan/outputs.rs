@@ -215,6 +215,8 @@ fn nature(source: Source) -> Option<Nature> {
         | Torque(_)
         | Stress(_)
         | TorsionStress(_)
+        | StressTensor(..)
+        | VonMisesStress(_)
         | ConnectivityForce(..)
         | Reaction(..)
         | ReactionMoment(..)

@@ -226,6 +226,8 @@ fn component(name: &str, axis: usize) -> String {
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+/// Components of a symmetric tensor.
+const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
 /// Parts of a quaternion.
 const PARTS: [&str; 4] = ["scalar part", "part x", "part y", "part z"];
 

@@ -1,10 +1,10 @@
 //! Outputs, natural frequencies, eigenvalues, and what goes out of ports.
 
-use super::{AXES, List, PARTS, Quantity, Source, component};
+use super::{AXES, COMPONENTS, List, PARTS, Quantity, Source, component};
 use crate::scene::unit::*;
 use crate::scene::{
-    Along, AngleId, ConstraintOwnerId, DirectionSource, InputKind, LoadId, MarkerId, Output,
-    OutputKind, OutputTarget, PointId, PortKind, Resolved, ResolvedPort, SlideId,
+    Along, AngleId, ConstraintOwnerId, DirectionSource, GaugeId, InputKind, LoadId, MarkerId,
+    Output, OutputKind, OutputTarget, PointId, PortKind, Resolved, ResolvedPort, SlideId,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -21,6 +21,8 @@ enum OutputShape {
     Matrix,
     /// A scalar part and one an axis.
     Quaternion,
+    /// Six, of a symmetric one.
+    SymmetricMatrix,
     /// As many as are asked for; in its meaning, `{}` is the number from 1 on.
     List,
     /// One a point of a section, which its meaning ends with.
@@ -48,6 +50,7 @@ enum Read {
     Load(fn(LoadId, usize) -> Quantity),
     Counted(fn(AngleId) -> Quantity),
     Points(fn(PointId) -> Quantity),
+    Gauge(fn(GaugeId, usize) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
     ConstraintOwner(fn(ConstraintOwnerId, usize, Along) -> Quantity),
     Scene(fn(usize) -> Quantity),
@@ -69,7 +72,7 @@ struct OutputLabel {
 fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
     use OutputKind as Kind;
     use Quantity::*;
-    use OutputShape::{List, Matrix, Points as AtPoints, Quaternion as Four, Scalar, Rotational, Vector};
+    use OutputShape::{List, Matrix, Points as AtPoints, Quaternion as Four, Scalar, Rotational, SymmetricMatrix, Vector};
     match kind {
         Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
@@ -98,6 +101,10 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         Kind::Torque => vec![("torque", "Torque about the tangent at {}", Some(NEWTON_METRE), Scalar, Read::Marker(|m, _| Torque(m)))],
         Kind::Stress => vec![("stress", "Normal stress at {}", Some(PASCAL), AtPoints, Read::Points(Stress))],
         Kind::TorsionStress => vec![("torsion_stress", "Shear stress by torsion at {}", Some(PASCAL), AtPoints, Read::Points(TorsionStress))],
+        Kind::StressTensor => vec![
+            ("stress_tensor", "Stress at {} along axes of its body", Some(PASCAL), SymmetricMatrix, Read::Gauge(StressTensor)),
+            ("von_mises_stress", "Equivalent stress of von Mises at {}", Some(PASCAL), Scalar, Read::Gauge(|gauge, _| VonMisesStress(gauge))),
+        ],
         Kind::ConnectivityForce => vec![
             ("connectivity_force", "Force of the part before on the part after {}", Some(NEWTON), Vector, Read::Marker(ConnectivityForce)),
         ],
@@ -261,6 +268,7 @@ fn words<'a>(of: &OutputTarget<'a>) -> (&'a str, String) {
         OutputTarget::Angle(DirectionSource::Pivot(pivot), _) => {
             (pivot.name, format!("of {}", second(pivot.name)))
         }
+        OutputTarget::Gauge(gauge, _) => (gauge, (*gauge).into()),
         OutputTarget::Slide(joint, _) => (joint, (*joint).into()),
         OutputTarget::Sliding(slider) => {
             let what = format!("the second marker of {} along its line", slider.name);
@@ -313,6 +321,7 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         (Read::Load(quantity), OutputTarget::Load(_, load, _)) => quantity(*load, k),
         (Read::Counted(quantity), OutputTarget::Angle(_, angle)) => quantity(*angle),
         (Read::Points(quantity), OutputTarget::Points(_, first, _)) => quantity(first.after(k)),
+        (Read::Gauge(quantity), OutputTarget::Gauge(_, gauge)) => quantity(*gauge, k),
         (Read::Slide(quantity), OutputTarget::Slide(_, slide)) => quantity(*slide),
         (Read::ConstraintOwner(quantity), OutputTarget::Reaction(reaction)) => {
             quantity(reaction.holder, k, along)
@@ -407,6 +416,10 @@ impl List {
             }
             (OutputShape::Matrix, _) => (0..9).for_each(|k| {
                 let what = format!("{what}, {} of the {} axis", AXES[k / 3], AXES[k % 3]);
+                self.output(component(name, k), what, *unit, source(k));
+            }),
+            (OutputShape::SymmetricMatrix, _) => (0..6).for_each(|k| {
+                let what = format!("{what}, component {}", COMPONENTS[k]);
                 self.output(component(name, k), what, *unit, source(k));
             }),
             (OutputShape::Quaternion, _) => (0..4).for_each(|k| {

@@ -6,6 +6,7 @@ pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
 pub(in crate::system) mod fit;
 mod forces;
+pub(in crate::system) mod gauge;
 mod resolution;
 pub(in crate::system) mod rod;
 pub(in crate::system) mod section;

@@ -1,4 +1,4 @@
-"""Writes strip.safetensors: a steel strip as a reduced model, by Ritz' method with polynomials.
+"""Writes strip.safetensors, here and for the outputs: a steel strip as a reduced model, by Ritz' method with polynomials.
 
     python docs/book/examples/bodies/strip.py
 
@@ -125,4 +125,6 @@ def write(path, arrays, metadata):
 
 if __name__ == "__main__":
     texts = {"format": "flexbody reduced body", "version": "1", "source": "Ritz polynomials of a slender strip"}
-    write(Path(__file__).with_name("strip.safetensors"), model(), texts)
+    examples = Path(__file__).resolve().parents[1]
+    for group in ("bodies", "outputs"):
+        write(examples / group / "strip.safetensors", model(), texts)

@@ -13,7 +13,7 @@ fn scene() -> Value {
             {"name": "bracket", "element": "reduced", "file": "parts/bracket.safetensors", "damping_ratio": 0.01,
                 "position": [1, 2, 3], "orientation": {"cardan": [0.1, 0.2, 0.3]},
                 "motion": {"velocity": [1, 0, 0], "spin": [0, 0, 1]},
-                "markers": {"left": "A1", "tip": "B"}},
+                "markers": {"left": "A1", "tip": "B"}, "gauges": {"corner": "fillet"}},
             {"name": "box", "element": "rigid", "mass": 1, "inertia": [1, 1, 1], "position": [0, 0, 0],
                 "markers": {"eye": [0, 0, 0.1]}}
         ],
@@ -148,7 +148,7 @@ fn files_are_named_and_checked() {
         (
             "/bodies/0/fil",
             json!("a"),
-            "bodies[0].fil: expected one of the keys name, file, sha256, modes, critically_damped, damping_ratio, position, orientation, motion, markers, found \"fil\"; did you mean `file`",
+            "bodies[0].fil: expected one of the keys name, file, sha256, modes, critically_damped, damping_ratio, position, orientation, motion, markers, gauges, found \"fil\"; did you mean `file`",
         ),
     ];
     for (pointer, value, expected) in cases {
@@ -281,6 +281,47 @@ fn damping_and_places_of_reduced_bodies_are_checked() {
             "/bodies/0/markers/tip",
             json!([0, 0, 0]),
             "bodies[0].markers.tip: expected a string, found a list",
+        ),
+    ];
+    for (pointer, value, expected) in cases {
+        let told = told(pointer, value);
+        assert!(told.starts_with(expected), "{told}\nnot {expected}");
+    }
+}
+
+#[test]
+fn gauges_of_reduced_bodies_are_checked() {
+    #[rustfmt::skip] // a table
+    let cases = [
+        (
+            "/bodies/0/gauges",
+            json!({"tip": "filet"}),
+            "bodies[0].gauges.tip: expected the name of a stress in \"parts/bracket.safetensors\" (fillet), found \"filet\"; did you mean `fillet`",
+        ),
+        (
+            "/bodies/0/gauges",
+            json!({"the tip": "fillet"}),
+            "bodies[0].gauges.the tip: expected a letter or _, then letters, digits and _, found \"the tip\"",
+        ),
+        (
+            "/bodies/0/gauges",
+            json!({"tip": 1}),
+            "bodies[0].gauges.tip: expected a string, found 1",
+        ),
+        (
+            "/outputs/-",
+            json!({"kind": "stress_tensor", "gauge": "bracket.corner"}),
+            "accepted",
+        ),
+        (
+            "/outputs/-",
+            json!({"kind": "stress_tensor", "gauge": "bracket.corners"}),
+            "outputs[4].gauge: expected a gauge of a reduced body of this scene (bracket.corner), found \"bracket.corners\"; did you mean `bracket.corner`",
+        ),
+        (
+            "/outputs/-",
+            json!({"kind": "stress_tensor", "marker": "bracket.corner"}),
+            "outputs[4].marker: ",
         ),
     ];
     for (pointer, value, expected) in cases {
