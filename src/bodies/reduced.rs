@@ -217,7 +217,7 @@ impl ReducedBody {
 
     /// Amplitudes of the modes, or their rates where `x` holds rates, `[n]`.
     #[inline(always)]
-    fn amplitudes<'a, const D: usize, N>(&self, x: &'a [Node<D, N>]) -> &'a [N] {
+    pub fn amplitudes<'a, const D: usize, N>(&self, x: &'a [Node<D, N>]) -> &'a [N] {
         &numbers(&x[self.inner()..])[..self.model.modes()]
     }
 

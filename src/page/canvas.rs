@@ -66,6 +66,29 @@ impl Canvas {
         self.shape(&shape, style);
     }
 
+    /// Triangles as one shape, with what they cover of each other.
+    pub fn triangles(&mut self, triangles: &[[Point; 3]], style: Style) {
+        let mut data = String::new();
+        for [a, b, c] in triangles {
+            let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            // All go round alike, so that none is a hole in another one.
+            let [b, c] = if turn < 0.0 { [c, b] } else { [b, c] };
+            let [a, b, c] = [a, b, c].map(|point| pair(*point));
+            write(&mut data, format_args!("M{a} L{b} L{c} Z"));
+        }
+        self.shape(&format!("path d=\"{data}\""), style);
+    }
+
+    /// Lines between pairs of points, as one shape.
+    pub fn segments(&mut self, ends: &[[Point; 2]], style: Style) {
+        let mut data = String::new();
+        for [a, b] in ends {
+            write(&mut data, format_args!("M{} L{}", pair(*a), pair(*b)));
+        }
+        let shape = format!("path d=\"{data}\" stroke-linecap=\"round\"");
+        self.shape(&shape, style);
+    }
+
     /// A circle.
     pub fn circle(&mut self, centre: Point, radius: f64, style: Style) {
         let [x, y] = centre.map(pixels);

@@ -56,9 +56,9 @@ pub struct Container {
 /// Arrays of a reduced model that its motion does not depend on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Details {
-    /// Points on the surface about the centre of mass in principal axes, m.
+    /// Points on the surface in the file's axes and from its origin, m.
     pub points: Vec<Vector3<f32>>,
-    /// Displacements of these points by modes, `[points modes]`.
+    /// Displacements of these points by modes in the file's axes, `[points modes]`.
     pub modes: Vec<Vector3<f32>>,
     /// Triangles by the numbers of their points.
     pub triangles: Vec<[u32; 3]>,
@@ -347,17 +347,14 @@ impl ModelReader<'_> {
             return Ok(details);
         };
         let points = shape.first().copied().unwrap_or_default();
-        let turned = self.body.axes.transpose().cast::<f32>();
         let given = self.arrays.numbers("surface.points", &[points, 3])?;
-        let from_center = given.chunks_exact(3).map(|of| {
-            let way = Vector3::from_column_slice(of) - self.body.center;
-            self.body.axes.tr_mul(&way).cast::<f32>()
-        });
-        details.points = from_center.collect();
+        let points_of = given.chunks_exact(3);
+        details.points = points_of
+            .map(|of| Vector3::from_column_slice(of).cast())
+            .collect();
         let modes = self.arrays.singles("surface.modes", &[points, 3, n])?;
         for of_point in modes.chunks_exact(3 * n) {
-            let mode =
-                |k: usize| turned * Vector3::new(of_point[k], of_point[n + k], of_point[2 * n + k]);
+            let mode = |k: usize| Vector3::new(of_point[k], of_point[n + k], of_point[2 * n + k]);
             details.modes.extend((0..n).map(mode));
         }
         if let Ok(shape) = self.arrays.shape("surface.triangles") {

@@ -20,6 +20,8 @@ pub struct Pose {
     /// Axes of the sections of a rod or beam at its nodes, the normal first; of a rigid body that rotates in space the axes of its frame;
     /// else none. In global components.
     pub axes: Vec<[[f64; 3]; 3]>,
+    /// Amplitudes of the modes of a reduced body; else none.
+    pub amplitudes: Vec<f64>,
 }
 
 impl Simulation {
@@ -278,14 +280,19 @@ pub(super) fn drawn<const D: usize>(quantity: Quantity, assembled: &Assembled<D>
 fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) -> Pose {
     let bodies = assembled.system.bodies();
     if let Some(LineStance { nodes, axes }) = bodies.line_stance(body, x) {
-        return Pose { nodes, axes };
+        return Pose {
+            nodes,
+            axes,
+            amplitudes: Vec::new(),
+        };
     }
     let first = bodies.ranges[body].start;
     let [position, slope] = [0, 1].map(|part| components(&Vector::from(x[first][part])));
-    if bodies.rigid_at(first).is_none() && !assembled.is_reduced(body) {
+    let reduced = assembled.reduced(body);
+    if bodies.rigid_at(first).is_none() && reduced.is_none() {
         return Pose {
             nodes: vec![[position, slope]],
-            axes: Vec::new(),
+            ..Pose::default()
         };
     }
     let (principal, within) = (axes_at(first, x), assembled.frame(body));
@@ -295,6 +302,7 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     Pose {
         nodes: vec![[origin.into(), axes[0].into()]],
         axes: vec![axes.map(Into::into)],
+        amplitudes: reduced.map_or_else(Vec::new, |reduced| reduced.amplitudes(x).to_vec()),
     }
 }
 

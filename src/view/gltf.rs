@@ -1,7 +1,7 @@
-//! The motion as glTF in one binary file (`.glb`). A rigid body is a mesh that its node moves; of a cable, rod or beam every ring of points
+//! The motion as glTF in one binary file (`.glb`). A rigid body is a mesh that its node moves, a reduced one has its modes as morph targets; of a cable, rod or beam every ring of points
 //! is bound to a joint of its own, so that the surface is exact in every frame. Up is the y axis of glTF, in space our z.
 //!
-//! Source: The Khronos Group, glTF 2.0 Specification (2021): binary glTF (4.4), skins (3.7.3), animations (3.11).
+//! Source: The Khronos Group, glTF 2.0 Specification (2021): binary glTF (4.4), morph targets (3.7.2.2), skins (3.7.3), animations (3.11).
 
 use super::numbers::{list, quoted};
 use super::recording::Recording;
@@ -121,6 +121,7 @@ impl File {
             self.nodes
                 .push(format!("{{\"name\":{name},\"mesh\":{mesh}}}"));
             let own = self.nodes.len() - 1;
+            self.deform(recording, surface, body, [own, input]);
             // The mesh hangs on what moves.
             let mover = &mut self.nodes[first];
             *mover = mover.replacen('{', &format!("{{\"children\":[{own}],"), 1);
@@ -151,6 +152,38 @@ impl File {
         ));
     }
 
+    /// Amplitudes of modes as weights of the mesh of a node over times.
+    fn deform(
+        &mut self,
+        recording: &Recording,
+        surface: &BodySurface,
+        body: usize,
+        [node, input]: [usize; 2],
+    ) {
+        if surface.modes.is_empty() {
+            return;
+        }
+        let frames = recording.poses.iter().map(|poses| &poses[body].amplitudes);
+        let modes = |amplitudes: &Vec<f64>| -> Vec<f32> {
+            let modes = surface.modes.iter();
+            modes.map(|(mode, _)| amplitudes[*mode] as f32).collect()
+        };
+        let weights: Vec<f32> = frames.flat_map(modes).collect();
+        let output = self.floats(&weights, "SCALAR", 1);
+        self.channel([input, output], node, "weights");
+    }
+
+    /// A quantity of a node that follows an output over an input.
+    fn channel(&mut self, [input, output]: [usize; 2], node: usize, path: &str) {
+        let sampler = self.samplers.len();
+        self.samplers.push(format!(
+            "{{\"input\":{input},\"output\":{output},\"interpolation\":\"LINEAR\"}}"
+        ));
+        self.channels.push(format!(
+            "{{\"sampler\":{sampler},\"target\":{{\"node\":{node},\"path\":\"{path}\"}}}}"
+        ));
+    }
+
     /// A node that goes and turns as a place does.
     fn place(&mut self, frames: &[Vec<PointWithAxes>], place: usize, input: usize) {
         let (mut ways, mut turns): (Vec<f32>, Vec<f32>) = (Vec::new(), Vec::new());
@@ -173,13 +206,7 @@ impl File {
             ("rotation", self.floats(&turns, "VEC4", 4)),
         ];
         for (path, output) in outputs {
-            let sampler = self.samplers.len();
-            self.samplers.push(format!(
-                "{{\"input\":{input},\"output\":{output},\"interpolation\":\"LINEAR\"}}"
-            ));
-            self.channels.push(format!(
-                "{{\"sampler\":{sampler},\"target\":{{\"node\":{node},\"path\":\"{path}\"}}}}"
-            ));
+            self.channel([input, output], node, path);
         }
     }
 
@@ -232,11 +259,31 @@ impl File {
             let weights = self.floats(&weights, "VEC4", 4);
             bound = format!(",\"JOINTS_0\":{joints},\"WEIGHTS_0\":{weights}");
         }
+        let targets = self.targets(surface);
+        // Zero is what nothing said means, but not every reader of motions takes it so.
+        let still = list(&surface.modes, |_| "0.0".to_owned());
+        let weights = if surface.modes.is_empty() {
+            String::new()
+        } else {
+            format!(",\"weights\":{still}")
+        };
         self.meshes.push(format!(
-            "{{\"primitives\":[{{\"attributes\":{{\"POSITION\":{position}{bound}}},\"indices\":{indices},\"material\":{}}}]}}",
+            "{{\"primitives\":[{{\"attributes\":{{\"POSITION\":{position}{bound}}},\"indices\":{indices},\"material\":{}{targets}}}]{weights}}}",
             body % BODIES.len()
         ));
         self.meshes.len() - 1
+    }
+
+    /// Displacements by modes, as morph targets.
+    fn targets(&mut self, surface: &BodySurface) -> String {
+        if surface.modes.is_empty() {
+            return String::new();
+        }
+        let targets = list(&surface.modes, |(_, ways)| {
+            let ways: Vec<f32> = ways.iter().flatten().map(|x| *x as f32).collect();
+            format!("{{\"POSITION\":{}}}", self.floats(&ways, "VEC3", 3))
+        });
+        format!(",\"targets\":{targets}")
     }
 
     fn finish(mut self, recording: &Recording) -> Vec<u8> {

@@ -4,6 +4,7 @@ use super::actions::{MovingAction, Where, actions};
 use super::numbers::{Numbers, list, quoted};
 use super::recording::Recording;
 use super::sections::{SectionStress, has_corners, sections};
+use super::skins::MovingSkin;
 use super::symbols::SymbolTable;
 use crate::math::rotation::{Quaternion, quaternion, quaternion_near};
 use crate::picture::symbols::load;
@@ -23,9 +24,18 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
     let times = numbers.exact(&column(&recording.times));
     let row_times = numbers.exact(&column(&recording.row_times));
     let table = numbers.exact(&recording.rows);
-    let bodies = resolved.bodies.iter().enumerate();
-    let bodies: Vec<String> = bodies
-        .map(|(place, body)| of_body(recording, &resolved, place, *body, &mut numbers))
+    let bodies = || resolved.bodies.iter().enumerate();
+    let skins: Vec<Option<MovingSkin<'_>>> = bodies()
+        .map(|(place, body)| MovingSkin::of(recording, place, *body))
+        .collect();
+    let bodies: Vec<String> = bodies()
+        .zip(&skins)
+        .map(|((place, body), skin)| {
+            let moved = skin
+                .as_ref()
+                .map(|skin| of_skin(recording, skin, &mut numbers));
+            of_body(recording, &resolved, (place, *body), moved, &mut numbers)
+        })
         .collect();
     let mut symbols = SymbolTable::default();
     let acting = actions(&resolved);
@@ -34,7 +44,9 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
         .enumerate()
         .map(|(place, action)| of_action(recording, place, action, &mut numbers, &mut symbols))
         .collect();
-    let markers = list(&resolved.markers, |marker| of_marker(&resolved, marker));
+    let markers = list(&resolved.markers, |marker| {
+        of_marker(&resolved, marker, &skins)
+    });
     let marks = marks(&resolved);
     let marks = list(&marks, |mark| of_mark(recording, mark, &mut symbols));
     let surfaces = list(of_surfaces(recording, &resolved), |text| text);
@@ -64,8 +76,8 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
 fn of_body(
     recording: &Recording,
     resolved: &Resolved<'_>,
-    place: usize,
-    body: BodyReference<'_>,
+    (place, body): (usize, BodyReference<'_>),
+    skin: Option<String>,
     numbers: &mut Numbers,
 ) -> String {
     let first = &recording.poses[0][place];
@@ -89,7 +101,7 @@ fn of_body(
             of_cable(resolved, cable) + &of_forces(recording, place, &stresses, numbers)
         }
         BodyReference::Rigid(rigid) => of_rigid(rigid),
-        BodyReference::Reduced(reduced) => of_reduced(reduced),
+        BodyReference::Reduced(reduced) => skin.unwrap_or_else(|| of_reduced(reduced)),
     };
     format!(
         "{{\"name\":{},\"nodes\":{nodes},\"turns\":{turns},\"track\":{track},\"drawn\":{drawn},{shape}}}",
@@ -219,6 +231,12 @@ fn of_rigid(rigid: Rigid<'_>) -> String {
     )
 }
 
+/// The surface of a reduced body, which deforms.
+fn of_skin(recording: &Recording, skin: &MovingSkin<'_>, numbers: &mut Numbers) -> String {
+    let radius = skin.reach();
+    format!("{},\"radius\":{radius:?}", skin.to_json(recording, numbers))
+}
+
 /// A star from the centre of mass to the interfaces, in the file's axes.
 fn of_reduced(reduced: Reduced<'_>) -> String {
     let container = reduced.body.contained();
@@ -241,7 +259,11 @@ fn inertial(body: &RigidBody) -> [f64; 3] {
     moments.map(|moment| (2.5 * (sum - 2.0 * moment).max(0.0) / body.mass()).sqrt())
 }
 
-fn of_marker(resolved: &Resolved<'_>, marker: &ResolvedMarker<'_>) -> String {
+fn of_marker(
+    resolved: &Resolved<'_>,
+    marker: &ResolvedMarker<'_>,
+    skins: &[Option<MovingSkin<'_>>],
+) -> String {
     let body = marker.place.body();
     let place = resolved
         .bodies
@@ -250,8 +272,11 @@ fn of_marker(resolved: &Resolved<'_>, marker: &ResolvedMarker<'_>) -> String {
     let at = match marker.place {
         Place::Point(_, point) => format!("\"point\":{point:?}"),
         Place::Interface(reduced, index) => {
-            let point = <[f64; 3]>::from(reduced.body.contained().place(index));
-            format!("\"point\":{point:?}")
+            let container = reduced.body.contained();
+            let point = <[f64; 3]>::from(container.place(index));
+            let skin = skins[reduced.id.index()].as_ref();
+            let moved = skin.map(|skin| skin.interface_to_json(&container.model.interfaces[index]));
+            format!("\"point\":{point:?}{}", moved.unwrap_or_default())
         }
         Place::Along(cable, s) => {
             let mesh = mesh(resolved, cable);

@@ -1,6 +1,7 @@
 //! A run, as pictures of it are drawn from: how bodies stand and what acts on them at some communication points, outputs at some or all.
 
 use super::actions::{MovingAction, actions};
+use super::skins;
 use crate::scene::Scene;
 use crate::simulation::{Causality, InputTable, Pose, Signals, Simulation, Variable};
 
@@ -225,13 +226,15 @@ impl UnfinishedRecording {
     /// How many frames after the first the limits allow.
     fn frames(&self, limits: &Limits, steps: u64) -> Result<u64, String> {
         let recording = &self.recording;
+        let [surfaces, skins] = skins::size(&recording.scene);
         let poses = recording.poses[0].iter();
         let numbers = |pose: &Pose| 6 * pose.nodes.len() + 4 * pose.axes.len();
         let stepped: usize = poses.map(numbers).sum::<usize>()
             + recording.acting[0].iter().map(Vec::len).sum::<usize>()
-            + 3 * recording.forces[0].iter().map(Vec::len).sum::<usize>();
+            + 3 * recording.forces[0].iter().map(Vec::len).sum::<usize>()
+            + skins;
         let exact = self.columns.len() + 2;
-        let fit = limits.bytes / (2 * stepped + 8 * exact);
+        let fit = limits.bytes.saturating_sub(surfaces) / (2 * stepped + 8 * exact);
         if fit < FEWEST_FRAMES {
             return Err("it is too large to be shown in motion on a page of this size".into());
         }

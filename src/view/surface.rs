@@ -1,12 +1,15 @@
-//! Surfaces of bodies for other programs: of cables, rods and beams rings of points along their lines, of rigid bodies their shape.
+//! Surfaces of bodies for other programs: of cables, rods and beams rings of points along their lines, of rigid bodies their shape, of
+//! reduced bodies the surface of their files.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::header::mesh;
 use super::recording::Recording;
 use super::sections::{has_corners, sections};
+use super::skins::seen_modes;
 use crate::elements::shape;
 use crate::math::rotation::{self, Quaternion};
+use crate::picture::Skin;
 use crate::scene::{BodyReference, FileBody, RigidBody, Solid};
 use crate::simulation::Pose;
 
@@ -50,6 +53,8 @@ pub(super) struct BodySurface {
     /// Place of every point, and its coordinates there, m.
     pub points: Vec<(usize, [f64; 3])>,
     pub faces: Vec<Vec<usize>>,
+    /// Modes that move points of a reduced body: their places in the file, and displacements of all points, m.
+    pub modes: Vec<(usize, Vec<[f64; 3]>)>,
     /// Where every place is; none of a rigid body, which has one place.
     stations: Vec<LineStation>,
     lengths: Vec<f64>,
@@ -69,6 +74,15 @@ impl BodySurface {
             places.push(self.section(pose, *station, recording.scene.dimension, before));
         }
         places
+    }
+
+    /// Coordinates of a point in a frame along the axes of its place, m.
+    pub fn local(&self, point: usize, recording: &Recording, frame: usize) -> [f64; 3] {
+        let amplitudes = &recording.poses[frame][self.body].amplitudes;
+        let modes = self.modes.iter();
+        modes.fold(self.points[point].1, |at, (mode, ways)| {
+            std::array::from_fn(|k| at[k] + amplitudes[*mode] * ways[point][k])
+        })
     }
 
     fn section(
@@ -145,7 +159,8 @@ pub(super) fn surfaces(recording: &Recording) -> Vec<BodySurface> {
                 )
             }
             BodyReference::Rigid(rigid) => solid(rigid.body, body, size),
-            BodyReference::Reduced(reduced) => star(reduced.body, body, size),
+            BodyReference::Reduced(reduced) => deforming(recording, reduced.body, body)
+                .unwrap_or_else(|| star(reduced.body, body, size)),
         })
         .collect()
 }
@@ -216,6 +231,7 @@ fn chain(
         name: name.into(),
         points,
         faces,
+        modes: Vec::new(),
         stations,
         lengths,
         body,
@@ -315,6 +331,7 @@ impl Built {
             name: name.to_owned(),
             points: self.points.into_iter().map(|point| (0, point)).collect(),
             faces: self.faces,
+            modes: Vec::new(),
             stations: Vec::new(),
             lengths: Vec::new(),
             body,
@@ -377,4 +394,31 @@ fn star(reduced: &FileBody, body: usize, size: f64) -> BodySurface {
     let ends = interfaces.map(|index| container.place(index));
     built.star(container.center, ends, BAR * size);
     built.rigid(&reduced.name, body)
+}
+
+/// The surface of a reduced body whose file has one.
+fn deforming(recording: &Recording, reduced: &FileBody, body: usize) -> Option<BodySurface> {
+    let skin = Skin::whole(reduced.contained())?;
+    let points = 0..skin.points.len();
+    let built = Built {
+        points: points
+            .clone()
+            .map(|point| skin.place(point).into())
+            .collect(),
+        faces: skin
+            .triangles
+            .iter()
+            .map(|corners| corners.to_vec())
+            .collect(),
+    };
+    let ways = |mode: usize| {
+        let ways = points.clone().map(|point| skin.mode(point, mode).into());
+        (mode, ways.collect())
+    };
+    let modes = seen_modes(recording, body, &skin).into_iter().map(ways);
+    let modes = modes.collect();
+    Some(BodySurface {
+        modes,
+        ..built.rigid(&reduced.name, body)
+    })
 }

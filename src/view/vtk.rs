@@ -32,8 +32,9 @@ fn polygons(recording: &Recording, surfaces: &[BodySurface], frame: usize) -> St
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (body, surface) in surfaces.iter().enumerate() {
         let (first, places) = (points.len() / 3, surface.places(recording, frame));
-        for (place, local) in &surface.points {
-            points.extend(places[*place].at(local).iter().map(|x| *x as f32));
+        for (number, (place, _)) in surface.points.iter().enumerate() {
+            let local = surface.local(number, recording, frame);
+            points.extend(places[*place].at(&local).iter().map(|x| *x as f32));
         }
         for face in &surface.faces {
             corners.extend(face.iter().map(|point| (first + point) as i32));

@@ -2,12 +2,16 @@
 
 use super::picture::{Picture, seen};
 use crate::page::canvas::Point;
-use crate::picture::Style;
 use crate::picture::palette::{BODY, INK, INSIDE};
+use crate::picture::{Skin, Style};
 use crate::scene::{BodyReference, Cable, FileBody, LineBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable.
 const PARTS: u32 = 96;
+/// Most points of the surface of a reduced body.
+const SURFACE_POINTS: usize = 300;
+/// Direction from the viewer of space, and back.
+const SEEN_ALONG: [f64; 3] = [1.0, -1.0, 1.0];
 /// With more elements than this, nodes would only blacken the line.
 const MOST_NODES: u32 = 64;
 
@@ -19,7 +23,12 @@ pub(super) fn outline(body: BodyReference<'_>, dimension: usize) -> Vec<[f64; 3]
         }
         BodyReference::Cable(cable) => cable_outline(cable.body),
         BodyReference::Rigid(rigid) => rigid_outline(rigid.body, dimension),
-        BodyReference::Reduced(reduced) => star(reduced.body),
+        BodyReference::Reduced(reduced) => match skin(reduced.body) {
+            Some(skin) => (0..skin.points.len())
+                .map(|point| reduced.body.point(skin.place(point).into()))
+                .collect(),
+            None => star(reduced.body),
+        },
     }
 }
 
@@ -38,6 +47,11 @@ pub(super) fn rigid_outline(rigid: &RigidBody, dimension: usize) -> Vec<[f64; 3]
     let markers = rigid.markers.values();
     let points = markers.map(|point| rigid.point(point.full()));
     hull(dimension, points.chain([rigid.position.full()]).collect())
+}
+
+/// The surface of a reduced body, if its file has one.
+fn skin(reduced: &FileBody) -> Option<Skin<'_>> {
+    Skin::thinned(reduced.contained(), SURFACE_POINTS)
 }
 
 /// Interfaces of a reduced body, which stand for it as a star around its centre, m.
@@ -91,7 +105,10 @@ impl Picture<'_> {
             }
             BodyReference::Cable(cable) => self.cable(cable, &points),
             BodyReference::Rigid(rigid) => self.rigid(rigid.body.position.full(), &points),
-            BodyReference::Reduced(reduced) => self.reduced(reduced.body.center(), &points),
+            BodyReference::Reduced(reduced) => match skin(reduced.body) {
+                Some(skin) => self.skin(reduced.body, &skin, &points),
+                None => self.reduced(reduced.body.center(), &points),
+            },
         }
     }
 
@@ -127,6 +144,25 @@ impl Picture<'_> {
         } else {
             self.canvas.circle(centre, 0.8 * self.unit, style);
         }
+    }
+
+    /// Triangles of the surface of a reduced body, and its outline and creases.
+    fn skin(&mut self, reduced: &FileBody, skin: &Skin<'_>, points: &[Point]) {
+        let inside = Style {
+            stroke: "none",
+            width: 0.0,
+            fill: INSIDE,
+        };
+        let triangles = skin.triangles.iter();
+        let triangles: Vec<[Point; 3]> = triangles
+            .map(|corners| corners.map(|corner| points[corner]))
+            .collect();
+        self.canvas.triangles(&triangles, inside);
+        let along = reduced.axes().tr_mul(&SEEN_ALONG.into());
+        let edges = skin.edges(Some(along)).into_iter();
+        let edges: Vec<[Point; 2]> = edges.map(|ends| ends.map(|end| points[end])).collect();
+        let width = 0.14 * self.unit;
+        self.canvas.segments(&edges, Style::line(BODY, width));
     }
 
     /// Lines from the centre to the interfaces.

@@ -123,6 +123,26 @@ mod tests {
         assert!(!picture.contains("NaN") && !picture.contains("inf"));
     }
 
+    /// One shape of its 16 triangles, and one of its 18 edges at the boundary.
+    #[test]
+    fn a_reduced_body_is_drawn_by_its_surface() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/book/examples/bodies");
+        let folder = std::path::Path::new(folder);
+        let text = std::fs::read_to_string(folder.join("reduced.json")).expect("a scene");
+        let scene = Scene::from_json_with(&text, &crate::scene::beside(folder));
+        let picture = drawing(&scene.expect("a valid scene"));
+        let shapes: Vec<&str> = picture
+            .lines()
+            .filter(|line| line.contains("<path"))
+            .collect();
+        let has = |begins: usize, ends: usize| {
+            let count = |line: &str, letter: char| line.matches(letter).count();
+            (shapes.iter()).any(|line| [count(line, 'M'), count(line, 'Z')] == [begins, ends])
+        };
+        assert!(has(16, 16) && has(18, 0), "{shapes:?}");
+        assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    }
+
     #[test]
     fn axes_are_named_and_wheels_have_the_ratio_of_their_gear() {
         let wheel = |name: &str, x: f64| {

@@ -22,7 +22,7 @@ use super::resolved::{
     Resolved,
 };
 use super::{Error, OutputKind, Scene};
-use crate::bodies::{Bodies, LumpedMass, Marker, Node};
+use crate::bodies::{Bodies, LumpedMass, Marker, Node, ReducedBody};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
@@ -107,9 +107,11 @@ impl<const D: usize> Assembled<D> {
         }
     }
 
-    /// Whether a body is a reduced one.
-    pub fn is_reduced(&self, body: usize) -> bool {
-        self.interfaces.contains_key(&body)
+    /// A reduced body, by its place among all bodies; none of another one.
+    pub fn reduced(&self, body: usize) -> Option<&ReducedBody> {
+        self.interfaces.get(&body)?;
+        let index = self.interfaces.range(..body).count();
+        self.system.bodies().reduced().get(index)
     }
 
     /// A point of a section whose stress is read.

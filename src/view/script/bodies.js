@@ -1,4 +1,4 @@
-// Bodies as surfaces: of chains rings of vertices along their lines, of rigid bodies their shape.
+// Bodies as surfaces: of chains rings of vertices along their lines, of rigid bodies their shape, of finite element models triangles that deform.
 
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, EdgesGeometry, Group, LatheGeometry, Line, LineBasicMaterial,
@@ -215,9 +215,48 @@ class Rigid {
   }
 }
 
+/** A finite element model: triangles between points that modes move. */
+class Skin {
+  constructor(body) {
+    this.body = body;
+    const { points, triangles, edges: ends } = body.skin;
+    const position = new BufferAttribute(points.slice(), 3);
+    const between = (index) => new BufferGeometry().setAttribute('position', position).setIndex(index);
+    this.object = new Group();
+    const surface = new Mesh(between(triangles), material(body.number));
+    Object.assign(surface.material, { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 });
+    for (const part of [surface, new LineSegments(between(ends), edges())]) {
+      part.frustumCulled = false;
+      this.object.add(part);
+    }
+    this.position = position;
+  }
+
+  update() {
+    const { body, position } = this;
+    const { points, modes: { values, width, rows } } = body.skin;
+    for (let k = 0; k < points.length; k += 1) {
+      // Where all points move alike, one row says how.
+      let at = (rows > 1 ? Math.floor(k / 3) * width : 0) + (k % 3);
+      let sum = points[k];
+      for (const amplitude of body.amplitudes) {
+        sum += values[at] * amplitude;
+        at += 3;
+      }
+      position.array[k] = sum;
+    }
+    position.needsUpdate = true;
+    this.object.position.copy(body.vector(0, 0));
+    this.object.quaternion.copy(body.stance(0));
+  }
+}
+
 /** The surfaces of all bodies. */
 export function surfaces(motion, size) {
-  return motion.bodies.map((body) => (body.lengths ? new Chain(body) : new Rigid(body, size)));
+  return motion.bodies.map((body) => {
+    if (body.lengths) return new Chain(body);
+    return body.skin ? new Skin(body) : new Rigid(body, size);
+  });
 }
 
 /** Lines of what bodies touch, lighter than these. */

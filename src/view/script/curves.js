@@ -16,6 +16,8 @@ const ROUNDOFF = 1e-9;
 const ROUNDOFF_OF_OTHERS = 1e-12;
 /** Quantities whose numbers are no components along x, y and z. */
 const NO_VECTOR = /_body$|^deflection|stress$|^quaternion$|^orientation$|^natural_frequency$/;
+/** Components of a stress. */
+const COMPONENTS = ['xx', 'yy', 'zz', 'xy', 'xz', 'yz'];
 /** Most points of a line; of more, the least and the largest of as many parts are drawn. */
 const MOST_POINTS = 1200;
 
@@ -31,7 +33,8 @@ export function groups(outputs) {
     const key = of === 'energy' || of === 'work' ? of : quantity;
     if (!quantities.has(key)) quantities.set(key, { unit, lines: [], isSum: key === of });
     const index = name.slice(whole.length);
-    const axis = NO_VECTOR.test(quantity) ? undefined : { '[1]': 'x', '[2]': 'y', '[3]': 'z' }[index];
+    const axes = quantity === 'stress_tensor' ? COMPONENTS : NO_VECTOR.test(quantity) ? [] : ['x', 'y', 'z'];
+    const axis = axes[index.slice(1, -1) - 1];
     const label = key === of ? quantity : axis ?? (index || quantity);
     quantities.get(key).lines.push({ name, column, label, roundoff: roundoff ?? 0 });
   });

@@ -163,7 +163,7 @@ class Player {
   addFactor() {
     const [label, slider] = ['of-factor', 'factor'].map(this.part);
     const { motion } = this;
-    if (!motion.bodies.some((body) => body.drawn && body.lengths)) label.remove();
+    if (!motion.bodies.some((body) => body.drawn && (body.lengths || body.skin))) label.remove();
     motion.isCarried = motion.bodies.some((body) => body.drawn && body.movesFar(this.size));
     // Bodies that do not fit as they are drawn would come apart.
     const isFitting = motion.isCarried || motion.fits(this.size);

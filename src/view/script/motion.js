@@ -71,6 +71,12 @@ class Body {
     this.each = this.track.width / described.nodes;
     this.radius ??= 0;
     this.drawn = described.drawn === undefined ? undefined : tracks[described.drawn].values;
+    if (described.skin) {
+      const { points, modes, amplitudes, triangles, edges } = described.skin;
+      this.skin = { points: tracks[points].values, modes: tracks[modes], amplitudes: tracks[amplitudes], triangles, edges };
+      this.amplitudes = new Float32Array(tracks[amplitudes].width);
+      this.undeformed = new Float32Array(this.amplitudes.length);
+    }
     if (described.forces !== undefined) {
       this.forces = tracks[described.forces];
       this.force = new Float32Array(this.forces.width);
@@ -83,6 +89,10 @@ class Body {
   seek(place, factor, isCarried) {
     between(this.track, place, this.now);
     if (this.forces) between(this.forces, place, this.force);
+    if (this.skin) {
+      between(this.skin.amplitudes, place, this.amplitudes);
+      this.undeformed.forEach((from, mode) => { this.amplitudes[mode] = from + factor * (this.amplitudes[mode] - from); });
+    }
     if (this.drawn && factor !== 1) enlarge(this, factor, isCarried);
   }
 
@@ -116,6 +126,13 @@ class Body {
     const at = node * this.each + this.each - 4;
     const [w, x, y, z] = this.now.subarray(at, at + 4);
     return new Quaternion(x, y, z, w).normalize();
+  }
+
+  /** Sum of three numbers a mode times the amplitudes. */
+  deformed(ways) {
+    const sum = new Vector3();
+    this.amplitudes.forEach((amplitude, mode) => sum.addScaledVector(new Vector3().fromArray(ways, 3 * mode), amplitude));
+    return sum;
   }
 
   /** Point and derivative of the line inside an element. */
@@ -213,7 +230,9 @@ export class Motion {
     }
     const body = this.bodies[marker.body];
     if (marker.point) {
-      return new Vector3(...marker.point).applyQuaternion(body.stance(0)).add(body.vector(0, 0));
+      const point = new Vector3(...marker.point);
+      if (marker.modes) point.add(body.deformed(marker.modes));
+      return point.applyQuaternion(body.stance(0)).add(body.vector(0, 0));
     }
     return body.line(marker.element, marker.xi)[0];
   }
@@ -223,6 +242,10 @@ export class Motion {
     const marker = this.markers[number];
     if (marker.columns) return new Quaternion();
     const body = this.bodies[marker.body];
+    if (marker.rotation) {
+      const turn = body.deformed(marker.rotation);
+      return body.stance(0).multiply(new Quaternion().setFromAxisAngle(turn.clone().normalize(), turn.length()));
+    }
     if (marker.point) return body.stance(0);
     return body.section(marker.element, marker.xi).stance;
   }
@@ -283,7 +306,10 @@ export class Motion {
     const now = this.time;
     this.seek(this.start);
     const atStart = gaps();
-    for (const body of this.bodies) if (body.drawn) body.now.set(body.drawn);
+    for (const body of this.bodies) {
+      if (body.drawn) body.now.set(body.drawn);
+      body.amplitudes?.set(body.undeformed);
+    }
     const drawn = gaps();
     this.seek(now);
     return drawn.every((gap, number) => atStart[number] > CLOSED * size || gap < OPEN * size);
@@ -291,7 +317,10 @@ export class Motion {
 
   /** Measures displacements of bodies from the start of the run. */
   measureFromStart() {
-    for (const body of this.bodies) body.drawn = body.track.values.slice(0, body.track.width);
+    for (const body of this.bodies) {
+      body.drawn = body.track.values.slice(0, body.track.width);
+      if (body.skin) body.undeformed = body.skin.amplitudes.values.slice(0, body.amplitudes.length);
+    }
   }
 
   /** Points that everything stays about, and how far around each of them. */
