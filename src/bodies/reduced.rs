@@ -215,6 +215,16 @@ impl ReducedBody {
         std::iter::once(self.frame.node).chain(self.modal())
     }
 
+    /// The model in the basis that is taken.
+    pub fn model(&self) -> &ReducedModel {
+        &self.model
+    }
+
+    /// Amplitudes of the modes of the file, `[modes of the file]`.
+    pub fn file_amplitudes<const D: usize>(&self, x: &[Node<D>]) -> Vec<f64> {
+        self.model.file_amplitudes(self.amplitudes(x))
+    }
+
     /// Amplitudes of the modes, or their rates where `x` holds rates, `[n]`.
     #[inline(always)]
     pub fn amplitudes<'a, const D: usize, N>(&self, x: &'a [Node<D, N>]) -> &'a [N] {

@@ -264,6 +264,7 @@ impl ModelReader<'_> {
             paired: self.paired,
             cubic,
             interfaces: self.interfaces()?,
+            of_file: None,
         })
     }
 

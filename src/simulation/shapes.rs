@@ -302,7 +302,7 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     Pose {
         nodes: vec![[origin.into(), axes[0].into()]],
         axes: vec![axes.map(Into::into)],
-        amplitudes: reduced.map_or_else(Vec::new, |reduced| reduced.amplitudes(x).to_vec()),
+        amplitudes: reduced.map_or_else(Vec::new, |reduced| reduced.file_amplitudes(x)),
     }
 }
 

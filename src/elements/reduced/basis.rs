@@ -202,6 +202,10 @@ impl ReducedModel {
             paired,
             cubic: cubic.kept(paired),
             interfaces: self.interfaces.iter().map(interface).collect(),
+            of_file: Some(match &self.of_file {
+                Some(before) => before * columns,
+                None => columns.clone(),
+            }),
             inertia_1,
             inertia_2,
         }

@@ -16,7 +16,7 @@ mod strain;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::math::jet::Number;
 
@@ -52,6 +52,8 @@ pub struct ReducedModel {
     pub cubic: Vec<f64>,
     /// Points and frames that joints, loads and outputs are attached to.
     pub interfaces: Vec<Interface>,
+    /// Amplitudes of the modes of the file by those of the modes of the model, `[modes of the file][n]`; nothing where they are the same.
+    pub of_file: Option<DMatrix<f64>>,
 }
 
 /// A point or a frame of a reduced model that joints, loads and outputs are attached to.
@@ -73,6 +75,26 @@ impl ReducedModel {
     /// Number of modes.
     pub fn modes(&self) -> usize {
         self.eigenvalues.len()
+    }
+
+    /// Returns the amplitudes of the modes of the file at amplitudes of the modes of the model.
+    pub fn file_amplitudes(&self, eta: &[f64]) -> Vec<f64> {
+        match &self.of_file {
+            Some(columns) => (columns * DVector::from_column_slice(eta)).data.into(),
+            None => eta.to_vec(),
+        }
+    }
+
+    /// Returns numbers by modes of the file as those by modes of the model.
+    pub fn by_own_modes<const K: usize>(&self, by_file: &[[f64; K]]) -> Vec<[f64; K]> {
+        let Some(columns) = &self.of_file else {
+            return by_file.to_vec();
+        };
+        let own = columns.column_iter().map(|column| {
+            let terms = || column.iter().zip(by_file);
+            std::array::from_fn(|at| terms().map(|(by, of)| by * of[at]).sum())
+        });
+        own.collect()
     }
 }
 

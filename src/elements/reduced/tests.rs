@@ -141,6 +141,7 @@ impl Points {
             paired,
             cubic,
             interfaces: Vec::new(),
+            of_file: None,
         }
     }
 

@@ -15,9 +15,11 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn gauges(&self) -> Vec<Gauge> {
         let gauge = |of: &resolved::ResolvedGauge<'_>| {
             let id = of.reduced.id.index();
+            let body = self.interfaces.range(..id).count();
+            let model = self.parts.bodies.reduced()[body].model();
             Gauge {
-                body: self.interfaces.range(..id).count(),
-                by_modes: of.by_modes[..of.reduced.body.mode_count()].to_vec(),
+                body,
+                by_modes: model.by_own_modes(of.by_modes),
             }
         };
         self.resolved.gauges.iter().map(gauge).collect()
