@@ -218,6 +218,25 @@ fn a_strip_has_natural_modes_with_held_interfaces() -> Result<(), String> {
     Ok(())
 }
 
+/// Stresses of the file follow its modes in any basis: the strip hangs from its clamp with the same stress.
+#[test]
+fn a_gauge_reads_the_same_in_any_basis() -> Result<(), String> {
+    let stress = |modes: &Value| {
+        let mut scene = strip(&json!({"modes": modes, "gauges": {"root": "root"}}));
+        scene["gravity"] = json!([0, 0, -9.81]);
+        scene["joints"] =
+            json!([{"name": "wall", "kind": "weld", "markers": ["ground", "strip.root"]}]);
+        scene["initial"] = json!({"state": "static_equilibrium"});
+        scene["outputs"] = json!([{"kind": "stress_tensor", "gauge": "strip.root"}]);
+        Run::new(&scene)?.value("strip.root.von_mises_stress")
+    };
+    let whole = stress(&json!("all"))?;
+    assert!(whole > 1e6, "{whole}");
+    near(stress(&json!({"fixed_interface": 6}))?, whole, 1e-9 * whole);
+    near(stress(&json!({"fixed_interface": 3}))?, whole, 0.05 * whole);
+    Ok(())
+}
+
 /// `critically_damped`: with both ends held the strip has static shapes, which answer to loads without ringing where that is said.
 #[test]
 fn static_shapes_of_a_strip_answer() -> Result<(), String> {
