@@ -55,7 +55,8 @@ impl DeformationWatch {
     /// Collects the reduced bodies of a scene.
     pub(super) fn new(resolved: &Resolved<'_>) -> Self {
         let bodies = resolved.bodies.iter().enumerate();
-        let reduced = bodies.filter(|(_, body)| matches!(body, BodyReference::Reduced(_)));
+        let reduced = bodies
+            .filter(|(_, body)| matches!(body, BodyReference::Reduced(of) if !of.body.is_rigid()));
         Self {
             bodies: reduced
                 .map(|(body, _)| Watched {

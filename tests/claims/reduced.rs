@@ -189,6 +189,27 @@ fn a_strip_without_modes_is_rigid() -> Result<(), String> {
     let expected = -9.81 * length / 2.0 / inertia * length;
     near(run.value("strip.tip.acceleration[3]")?, expected, 1e-9);
     assert_eq!(run.value("energy.strain")?, 0.0);
+    // Bit for bit as the rigid body of its mass and inertia.
+    let read_scene = read(&scene)?;
+    let container = read_scene.bodies[0]
+        .reduced()
+        .ok_or("a reduced body")?
+        .contained();
+    let inertia = &container.tensor()[..3];
+    scene["bodies"][0] = json!({"name": "strip", "element": "rigid", "mass": container.model.mass, "inertia": inertia,
+        "position": [LENGTH / 2.0, 0, 0], "markers": {"root": [-LENGTH / 2.0, 0, 0], "tip": [LENGTH / 2.0, 0, 0]}});
+    let mut rigid = Run::new(&scene)?;
+    for step in 1..=20 {
+        for run in [&mut run, &mut rigid] {
+            let done = run.0.step(0.02 * f64::from(step));
+            done.map_err(|error| error.to_string())?;
+        }
+        let [a, b] = [
+            run.vector("strip.tip.acceleration")?,
+            rigid.vector("strip.tip.acceleration")?,
+        ];
+        assert_eq!(a, b, "{step}");
+    }
     Ok(())
 }
 

@@ -1,8 +1,9 @@
 //! Bodies: a cable becomes a chain of elements or, where it does not bend, a rod; a rigid body a node.
 
+use nalgebra::Matrix3;
+
 use super::Builder;
 use super::initial::BodyNodes;
-
 use crate::bodies::{
     self, LineChain, LumpedMass, Marker, Node, RigidBodyFrame, RigidRod, RodChain, middle,
     planar_axes, transported_nodes, untwisted,
@@ -52,6 +53,7 @@ impl<const D: usize> Builder<'_, D> {
                     self.particle(index, rigid.body);
                 }
             }
+            BodyReference::Reduced(of) if of.body.is_rigid() => arm = self.rigid_model(of),
             BodyReference::Reduced(of) => {
                 let body = self.reduced(of)?;
                 arm = of.body.contained().from_center();
@@ -103,17 +105,39 @@ impl<const D: usize> Builder<'_, D> {
     fn frame(&mut self, rigid: Rigid<'_>) -> [f64; 3] {
         let (solid, body) = (self.resolved.solid(rigid), rigid.body);
         let largest = solid.moments.iter().copied().fold(0.0, f64::max);
-        let axes = body.axes() * solid.axes;
-        let axis = |k: usize| vector::<D, f64>(axes.column(k).into_owned().into()).into();
-        let node = self.parts.bodies.reference.len();
         // What rounding left of the moment of a thin rod about itself is none.
         let rounded = |moment| if moment > 1e-9 * largest { moment } else { 0.0 };
-        let frame = RigidBodyFrame::new(node, solid.mass, solid.moments.map(rounded));
-        self.parts.bodies.add_rigid(frame);
-        let center = vector::<D, f64>(body.point(solid.center.into())).into();
-        let nodes = [[center, axis(0)], [axis(1), axis(2)]];
-        self.parts.bodies.reference.extend(nodes);
+        let inertia = (solid.mass, solid.moments.map(rounded));
+        let center = body.point(solid.center.into());
+        self.add_frame(inertia, center, &(body.axes() * solid.axes));
         solid.along([0.0; 3])
+    }
+
+    /// A reduced body without modes is a rigid body.
+    fn rigid_model(&mut self, reduced: Reduced<'_>) -> [f64; 3] {
+        let container = reduced.body.contained();
+        let inertia = (container.model.mass, container.model.moments);
+        let axes = reduced.body.axes() * container.axes;
+        self.add_frame(inertia, reduced.body.center(), &axes);
+        container.from_center()
+    }
+
+    /// Mass (kg) and principal moments (kg m^2) of a rigid body, its centre of mass (m) and, as columns, principal axes at the start.
+    fn add_frame(
+        &mut self,
+        (mass, moments): (f64, [f64; 3]),
+        center: [f64; 3],
+        axes: &Matrix3<f64>,
+    ) {
+        let axis = |k: usize| vector::<D, f64>(axes.column(k).into_owned().into()).into();
+        let node = self.parts.bodies.reference.len();
+        let frame = RigidBodyFrame::new(node, mass, moments);
+        self.parts.bodies.add_rigid(frame);
+        let nodes = [
+            [vector::<D, f64>(center).into(), axis(0)],
+            [axis(1), axis(2)],
+        ];
+        self.parts.bodies.reference.extend(nodes);
     }
 
     /// A reduced body: its principal axes in two nodes, frames of its interfaces and amplitudes of its modes.
@@ -137,10 +161,16 @@ impl<const D: usize> Builder<'_, D> {
 
     /// An interface of a reduced body, with the first of the file's axes as direction.
     pub(super) fn interface(&self, reduced: Reduced<'_>, interface: usize) -> Marker {
-        let index = reduced.id.index();
-        let node = self.interfaces[&index][interface];
-        let direction = reduced.body.contained().directed([1.0, 0.0, 0.0]);
-        Marker::framed(index, node, [0.0; 3], direction)
+        let (index, container) = (reduced.id.index(), reduced.body.contained());
+        let direction = container.directed([1.0, 0.0, 0.0]);
+        match self.interfaces.get(&index) {
+            Some(nodes) => Marker::framed(index, nodes[interface], [0.0; 3], direction),
+            None => {
+                let node = self.parts.bodies.ranges[index].start;
+                let place = container.model.interfaces[interface].position;
+                Marker::framed(index, node, place.into(), direction)
+            }
+        }
     }
 
     /// A point of a rigid body in its frame, m.

@@ -194,6 +194,11 @@ impl FileBody {
         }
     }
 
+    /// Whether it has no modes.
+    pub fn is_rigid(&self) -> bool {
+        self.modes == Modes::Count(0)
+    }
+
     /// Whether the number of modes is left to the planner.
     pub fn is_open(&self) -> bool {
         self.modes == Modes::Word(ModesWord::Auto)

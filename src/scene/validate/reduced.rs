@@ -31,6 +31,13 @@ impl FileBody {
             let place = at("motion.deformation");
             return Err(expected(&place, "none of a reduced body", "one"));
         }
+        if self.is_rigid() && !self.gauges.is_empty() {
+            return Err(expected(
+                &at("gauges"),
+                "none of a body without modes",
+                self.gauges.len(),
+            ));
+        }
         for (marker, interface) in &self.markers {
             if container.interface(interface).is_none() {
                 let known = container.model.interfaces.iter().map(|of| of.name.as_str());

@@ -218,7 +218,11 @@ impl<'a, 'p> Search<'a, 'p> {
                 *count
             }
         });
-        least.chain(open_reduced(self.scene).map(|_| 0)).collect()
+        let reduced = open_reduced(self.scene).map(|(body, _)| {
+            // Stress is read of what deforms.
+            u32::from(with_rigid(self.scene.clone(), body).resolve().is_err())
+        });
+        least.chain(reduced).collect()
     }
 
     /// Whether the number of elements or modes of a body is left to the planner, by its place among those that have one.
