@@ -201,7 +201,11 @@ fn values_of_reduced_bodies_are_checked() {
         ("/bodies/0/modes", json!(-1), "bodies[0].modes: expected"),
         ("/bodies/0/modes", json!(2), "accepted"),
         ("/bodies/0/modes", json!("all"), "accepted"),
-        ("/bodies/0/modes", json!(0), "accepted"),
+        (
+            "/bodies/0/modes",
+            json!(0),
+            "bodies[0].gauges: expected none of a body without modes, found 1",
+        ),
         ("/bodies/0/modes", json!({"fixed_interface": 0}), "accepted"),
         ("/bodies/0/modes", json!({"fixed_interface": 3}), "accepted"),
         ("/bodies/0/modes", json!("auto"), "accepted"),
