@@ -230,7 +230,8 @@ export class Marks {
   placeNames() {
     const taken = [...this.reserved, ...this.points.map(([x, y]) => [x - 4, y - 4, x + 4, y + 4])];
     for (const { feet } of this.symbols) taken.push(...feet);
-    const isFree = (box) => taken.every(([a, b, c, d]) => box[2] < a || box[0] > c || box[3] < b || box[1] > d);
+    // Widths of texts differ by parts of a pixel from what is written.
+    const isFree = (box) => taken.every(([a, b, c, d]) => box[2] + 1 < a || box[0] - 1 > c || box[3] < b || box[1] > d);
     const [width, height] = this.room ?? [1e9, 1e9];
     const isShown = ({ label, text }) => text && label.parentNode.style.display !== 'none';
     for (const name of this.names.filter(isShown)) {
