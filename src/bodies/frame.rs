@@ -35,8 +35,8 @@ pub use derivatives::{AngularAccelerations, AxisMotion};
 pub use increment::RotationIncrement;
 pub(super) use increment::{spin_of, turned_back};
 pub use section_frame::{Derivative, SectionFrame, SectionFrameState};
-pub(super) use tangent::geometric;
 pub use tangent::rotation_block;
+pub(super) use tangent::{geometric, part_block};
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
 pub const RENEWED: f64 = 0.5;

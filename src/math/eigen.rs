@@ -1,7 +1,7 @@
 //! Eigenvalues of dense matrices, at set-up only.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{DMatrix, Hessenberg, SymmetricEigen};
+use nalgebra::{DMatrix, Dyn, Hessenberg, SymmetricEigen};
 
 use super::hessenberg;
 
@@ -15,10 +15,29 @@ pub fn symmetric_eigenvalues(n: usize, entry: impl Fn(usize, usize) -> f64) -> O
     if n == 0 {
         return Some(Vec::new());
     }
-    let decomposed = SymmetricEigen::try_new(matrix, f64::EPSILON, ITERATIONS * n)?;
-    let mut values = decomposed.eigenvalues.data.as_vec().clone();
+    let mut values = symmetric(matrix)?.eigenvalues.data.as_vec().clone();
     values.sort_by(f64::total_cmp);
     Some(values)
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, and its eigenvectors as columns.
+/// Returns `None` when the iteration does not converge (entries that are not finite).
+pub fn symmetric_eigenvectors(matrix: DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
+    let n = matrix.nrows();
+    let matrix = finite(n, |i, j| matrix[(i, j)])?;
+    if n == 0 {
+        return Some((Vec::new(), matrix));
+    }
+    let found = symmetric(matrix)?;
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|a, b| found.eigenvalues[*a].total_cmp(&found.eigenvalues[*b]));
+    let values = order.iter().map(|k| found.eigenvalues[*k]).collect();
+    Some((values, found.eigenvectors.select_columns(&order)))
+}
+
+fn symmetric(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, Dyn>> {
+    let most = ITERATIONS * matrix.nrows();
+    SymmetricEigen::try_new(matrix, f64::EPSILON, most)
 }
 
 /// Eigenvalues (real and imaginary part) of an `n` x `n` matrix given by its entries (row, column), in no

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::tangent::transformed;
-use super::{Derivative, RigidBodyFrame, axis_rates, rotation_block};
+use super::{Derivative, RigidBodyFrame, axis_rates, part_block, rotation_block};
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
@@ -152,10 +152,7 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         let spin = spin_matrix::<D>(rotation);
         let axes = spin * spin;
         for (node, part, mass) in self.masses() {
-            let mut block: NodeBlock<D> = no_block();
-            for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
-                block[part][r][part][c] = mass * axes[(r, c)];
-            }
+            let block: NodeBlock<D> = part_block(part, |r, c| mass * axes[(r, c)]);
             let partial = self.partial(node != self.node, x);
             assembly.add(
                 self.node,

@@ -11,9 +11,17 @@ use crate::bodies::nodes::NodeOwner;
 
 /// The block of a node whose second vector stands for a rotation.
 pub fn rotation_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
+    part_block(1, |i, j| matrix[(i, j)])
+}
+
+/// The block of a node over one of its vectors alone, by entries (row, column).
+pub(in crate::bodies) fn part_block<const D: usize>(
+    part: usize,
+    entry: impl Fn(usize, usize) -> f64,
+) -> NodeBlock<D> {
     let mut block = no_block();
     for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
-        block[1][i][1][j] = matrix[(i, j)];
+        block[part][i][part][j] = entry(i, j);
     }
     block
 }

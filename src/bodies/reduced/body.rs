@@ -6,7 +6,7 @@ use super::{ReducedBody, coupling_at};
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{Derivative, combined, unplaced};
+use crate::bodies::frame::{Derivative, combined, part_block, unplaced};
 use crate::bodies::linearized::{LinearTerms, LinearizationPoint};
 use crate::bodies::map::Rotations;
 use crate::bodies::setup::NodeNumber;
@@ -165,11 +165,8 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
     ) {
         let node = self.frame.node;
         let spin = spin_matrix::<D>(rotation);
-        let axes = spin * spin * self.model.mass;
-        let mut block = no_block();
-        for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
-            block[0][r][0][c] = axes[(r, c)];
-        }
+        let axes = spin * spin;
+        let block = part_block(0, |r, c| self.model.mass * axes[(r, c)]);
         assembly.add(node, node, &block, matrix);
         self.centrifugal_blocks(rotation, x, |a, b, block| {
             assembly.add(a, b, block, matrix);

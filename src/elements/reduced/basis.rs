@@ -5,9 +5,10 @@
 //! Source: R. R. Craig, M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA Journal 6 (1968) 1313-1319 (static shapes and
 //! modes with held interfaces).
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::{Interface, PAIRED, ReducedModel, Symmetric};
+use crate::math::eigen::symmetric_eigenvectors;
 use crate::math::least::Least;
 
 /// Part of the largest entry below which a pivot of rows counts as zero.
@@ -18,8 +19,6 @@ const SAME: f64 = 1e-6;
 const RIGID: f64 = 1e-6;
 /// Modes take part in second-order terms whose eigenvalues are below this multiple of the first one: 30 times its frequency.
 const PAIRED_BELOW: f64 = 900.0;
-/// Iterations of the decomposition a row.
-const ITERATIONS: usize = 60;
 
 /// A basis of the modes of a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +58,8 @@ impl ReducedModel {
         let stiffness = DMatrix::from_diagonal(&DVector::from_column_slice(&self.eigenvalues));
         let free = |shapes: &[DVector<f64>]| {
             let basis = independent(self.modes(), shapes);
-            let (eigenvalues, vectors) = ascending(basis.tr_mul(&(&stiffness * &basis)))?;
+            let (eigenvalues, vectors) =
+                symmetric_eigenvectors(basis.tr_mul(&(&stiffness * &basis)))?;
             Some((eigenvalues, basis * vectors))
         };
         let highest = free(natural)?.0.last().copied().unwrap_or_default();
@@ -136,7 +136,7 @@ impl ReducedModel {
         };
         let elastic = free.rows(6, self.modes());
         let stiffness = DMatrix::from_diagonal(&DVector::from_column_slice(&self.eigenvalues));
-        let (squares, vectors) = ascending(elastic.tr_mul(&(stiffness * elastic)))?;
+        let (squares, vectors) = symmetric_eigenvectors(elastic.tr_mul(&(stiffness * elastic)))?;
         let lowest = RIGID * self.eigenvalues.first().copied().unwrap_or_default();
         let modes = squares.into_iter().zip(vectors.column_iter());
         let elastic = modes.filter(|(square, _)| *square > lowest);
@@ -257,8 +257,10 @@ struct CubicTerms {
 
 impl CubicTerms {
     fn new(model: &ReducedModel, basis: &ModalBasis) -> Self {
-        let (all, paired, columns) = (model.modes(), model.paired, &basis.columns);
+        let (paired, columns) = (model.paired, &basis.columns);
         let n = basis.eigenvalues.len();
+        // A linear model has none, of any mode.
+        let all = if paired == 0 { 0 } else { model.modes() };
         let stored = |m: usize, k: usize, l: usize| model.cubic[(m * paired + k) * paired + l];
         // Third derivatives of an energy are symmetric in all modes.
         let whole = |m: usize, k: usize, l: usize| match [m, k, l].map(|of| of < paired) {
@@ -267,7 +269,7 @@ impl CubicTerms {
             [true, true, _] => stored(l, m, k),
             _ => 0.0,
         };
-        let first = columns.rows(0, paired.min(all));
+        let first = columns.rows(0, paired);
         let before = (0..all).map(|m| {
             let of_file = DMatrix::from_fn(paired, paired, |k, l| stored(m, k, l));
             first.tr_mul(&(of_file * first)) / model.eigenvalues[m]
@@ -338,23 +340,4 @@ fn independent(rows: usize, given: &[DVector<f64>]) -> DMatrix<f64> {
     } else {
         DMatrix::from_columns(&columns)
     }
-}
-
-/// Eigenvalues of a symmetric matrix, ascending, and its eigenvectors as columns.
-fn ascending(matrix: DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
-    let n = matrix.nrows();
-    if n == 0 {
-        return Some((Vec::new(), DMatrix::zeros(0, 0)));
-    }
-    if !matrix.iter().all(|entry| entry.is_finite()) {
-        return None;
-    }
-    let found = SymmetricEigen::try_new(matrix, f64::EPSILON, ITERATIONS * n)?;
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|a, b| found.eigenvalues[*a].total_cmp(&found.eigenvalues[*b]));
-    let values = order.iter().map(|k| found.eigenvalues[*k]).collect();
-    let columns: Vec<_> = (order.iter())
-        .map(|k| found.eigenvectors.column(*k))
-        .collect();
-    Some((values, DMatrix::from_columns(&columns)))
 }

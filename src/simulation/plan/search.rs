@@ -392,12 +392,10 @@ impl<'a, 'p> Search<'a, 'p> {
     pub fn refine(&self, choice: &mut Choice) -> bool {
         let mut refined = false;
         for (body, count) in choice.elements.iter_mut().enumerate() {
-            let most = self.most_modes(body).unwrap_or(MOST_ELEMENTS);
-            if self.is_free(body) && *count < most {
-                *count = (2 * *count).max(self.fewest[body]);
-                if let Some(most) = self.most_modes(body) {
-                    *count = most.min(*count);
-                }
+            let most_modes = self.most_modes(body);
+            if self.is_free(body) && *count < most_modes.unwrap_or(MOST_ELEMENTS) {
+                let doubled = (2 * *count).max(self.fewest[body]);
+                *count = doubled.min(most_modes.unwrap_or(u32::MAX));
                 refined = true;
             }
         }
