@@ -16,10 +16,12 @@ use nalgebra::Vector3;
 
 use super::Elimination;
 use super::connectivity::Node;
-use super::frame::{Axes, RigidBodyFrame, combined};
-use crate::elements::reduced::{ModalStrain, ReducedModel, SPIN_SCALE, SpinScale, Symmetric};
+use super::frame::{Axes, RigidBodyFrame, combined, turned_back};
+use crate::elements::reduced::{
+    Interface, ModalStrain, ReducedModel, SPIN_SCALE, SpinScale, Symmetric,
+};
 use crate::math::jet::Number;
-use crate::math::space::vector;
+use crate::math::space::{components, vector};
 
 /// Numbers in a node of space.
 const NUMBERS: usize = 6;
@@ -113,6 +115,22 @@ impl ReducedBody {
         let derived = self.derived() - self.frame.node;
         numbers_mut(&mut nodes[derived..])[..SPIN_SCALE].copy_from_slice(&SpinScale::ONE.0);
         nodes
+    }
+
+    /// Place of a point of the body that deforms as an interface does, m, and directions that are along these axes without deformation,
+    /// given in the axes of the body.
+    pub fn directed<const D: usize>(
+        &self,
+        point: &Interface,
+        axes: &Axes,
+        x: &[Node<D>],
+    ) -> ([f64; 3], [[f64; 3]; 3]) {
+        let (eta, of_body) = (self.amplitudes(x), self.axes(x));
+        let center = Vector3::from(components(&x[self.frame.node][0].into()));
+        let at = center + combined(&of_body, &point.place(eta, self.model.paired));
+        let back = -point.turn(eta);
+        let turned = |axis: &Vector3<f64>| combined(&of_body, &turned_back(&back, axis)).into();
+        (at.into(), axes.each_ref().map(turned))
     }
 
     /// First node of the frame of an interface, by its index.

@@ -134,6 +134,12 @@ fn body_in_words(body: &Body) -> String {
                 (Model::Rigid, _) => {
                     return format!("the rigid rod <em>{name}</em>, {length} m long");
                 }
+                (Model::Modal, _) => {
+                    let modes = cable.modes.unwrap_or_default();
+                    return format!(
+                        "the {kind} <em>{name}</em>, {length} m long, reduced to its static shapes and {modes} natural modes"
+                    );
+                }
                 (_, None) => "elements still to be counted".into(),
                 (_, Some(1)) => format!("1 {kind} element"),
                 (_, Some(count)) => format!("{count} {kind} elements"),

@@ -61,6 +61,7 @@ impl<'a> Resolved<'a> {
                 | Body::Auto(described) => {
                     let form = match described.model {
                         Model::Rigid => Form::Rod(next(&mut rods)),
+                        Model::Modal => Form::Modal,
                         Model::Auto | Model::Flexible => Form::Chain(next(&mut chains)),
                     };
                     BodyReference::Cable(Cable {
@@ -134,6 +135,11 @@ impl Cable<'_> {
     /// Whether it neither bends nor stretches.
     pub fn is_rigid(&self) -> bool {
         matches!(self.id.form, Form::Rod(_))
+    }
+
+    /// Whether it is reduced to modes.
+    pub fn is_modal(&self) -> bool {
+        self.id.form == Form::Modal
     }
 }
 

@@ -7,23 +7,29 @@ use super::resolved::{Cable, InputKind, OutputTarget, Place, Resolved, ResolvedM
 /// Shortest segment between two nodes, in elements of even length: shorter ones swing so fast that they
 /// would set the steps of the whole scene.
 pub(super) const SHORTEST: f64 = 1e-3;
+/// Segments of a line that is reduced to modes, between which strains are of degree 2: its first three frequencies are exact to 1e-4.
+const SEGMENTS: usize = 6;
 /// Part of the shortest segment, and of the length of a body, by which roundoff moves a marker.
 const ROUNDOFF: f64 = 1e-9;
 
 impl<'a> Resolved<'a> {
-    /// Material coordinates in [0, 1] of the nodes of a cable.
+    /// Material coordinates in [0, 1] of the nodes of a cable, between which modes are computed where it is reduced to them.
     ///
     /// # Errors
     /// When there are too few elements for what acts inside the body, or it acts at two places that are closer
     /// than a thousandth of an element; when their number is left to the planner.
     pub fn nodes(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
         let path = format!("bodies[{}]", cable.id.body);
+        let held = self.loaded_coordinates(cable);
+        let stations = cable.body.stations.iter().map(|station| station.at);
+        if cable.is_modal() {
+            let least = corners(&path, 1, &held)?.len() - 1;
+            return nodes(&path, least.max(SEGMENTS), &held, stations.count());
+        }
         let Some(elements) = cable.body.elements else {
             let message = "expected a number of elements, found \"auto\": `flexbody plan` finds it";
             return Err(Error::new(format!("{path}.elements"), message));
         };
-        let held = self.loaded_coordinates(cable);
-        let stations = cable.body.stations.iter().map(|station| station.at);
         nodes(&path, elements as usize, &held, stations.count())
     }
 

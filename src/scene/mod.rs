@@ -32,7 +32,7 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
 pub use alike::did_you_mean;
-pub use assemble::{Assembled, assemble};
+pub use assemble::{Assembled, ModalLine, assemble};
 pub use container::{Container, Details};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, FileBody,

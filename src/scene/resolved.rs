@@ -76,7 +76,7 @@ impl LineId {
     pub fn chain(self) -> Option<usize> {
         match self.form {
             Form::Chain(chain) => Some(chain),
-            Form::Rod(_) => None,
+            Form::Rod(_) | Form::Modal => None,
         }
     }
 }
@@ -88,6 +88,8 @@ pub enum Form {
     Chain(usize),
     /// Rigid, by the index among the rods.
     Rod(usize),
+    /// Reduced to modes.
+    Modal,
 }
 
 /// A cable.

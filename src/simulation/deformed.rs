@@ -55,8 +55,11 @@ impl DeformationWatch {
     /// Collects the reduced bodies of a scene.
     pub(super) fn new(resolved: &Resolved<'_>) -> Self {
         let bodies = resolved.bodies.iter().enumerate();
-        let reduced = bodies
-            .filter(|(_, body)| matches!(body, BodyReference::Reduced(of) if !of.body.is_rigid()));
+        let reduced = bodies.filter(|(_, body)| match body {
+            BodyReference::Reduced(of) => !of.body.is_rigid(),
+            BodyReference::Cable(cable) => cable.is_modal(),
+            BodyReference::Rigid(_) => false,
+        });
         Self {
             bodies: reduced
                 .map(|(body, _)| Watched {

@@ -6,10 +6,10 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::bodies::{LineStance, Marker, Node, axes_at, combined};
+use crate::bodies::{LineStance, Marker, Node, ReducedBody, axes_at, combined};
 use crate::math::space::{Vector, components};
-use crate::scene::{Assembled, LoadId};
-use crate::system::{Evaluation, State, System};
+use crate::scene::{Assembled, LoadId, ModalLine};
+use crate::system::{Evaluation, State};
 
 /// Where a body is: what a line or surface of it is drawn from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -189,12 +189,12 @@ impl<const D: usize> Engine<D> {
         parts: &dyn Fn(usize) -> u32,
     ) -> Vec<Vec<[f64; 3]>> {
         let (assembled, Evaluation { x, .. }) = self.placed(state, inputs);
-        outlines(&assembled.system, x, parts)
+        outlines(assembled, x, parts)
     }
 
     /// Returns the lines of all bodies as the scene draws them, m.
     pub(super) fn drawn_outlines(&self, parts: &dyn Fn(usize) -> u32) -> Vec<Vec<[f64; 3]>> {
-        outlines(&self.assembled.system, &self.assembled.nodes, parts)
+        outlines(&self.assembled, &self.assembled.nodes, parts)
     }
 
     /// See [`drawn`].
@@ -210,7 +210,9 @@ impl<const D: usize> Engine<D> {
         let of = |body: usize| {
             let bends = bodies.line(body);
             let bends = bends.map(|chain| values.elastic_displacement(system, chain, nodes));
-            bends.or(bodies.is_along_line(body).then_some(0.0))
+            let modal = assembled.modal_line(body).zip(assembled.reduced(body));
+            let modal = modal.map(|(line, body)| line.deflection(body, &values.x));
+            (bends.or(modal)).or(bodies.is_along_line(body).then_some(0.0))
         };
         (0..bodies.ranges.len()).filter_map(of).collect()
     }
@@ -289,6 +291,9 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     let first = bodies.ranges[body].start;
     let [position, slope] = [0, 1].map(|part| components(&Vector::from(x[first][part])));
     let reduced = assembled.reduced(body);
+    if let (Some(line), Some(body)) = (assembled.modal_line(body), reduced) {
+        return modal_pose(line, body, x);
+    }
     if bodies.rigid_at(first).is_none() && reduced.is_none() {
         return Pose {
             nodes: vec![[position, slope]],
@@ -306,13 +311,30 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     }
 }
 
+/// How a line stands that is reduced to modes.
+fn modal_pose<const D: usize>(line: &ModalLine, body: &ReducedBody, x: &[Node<D>]) -> Pose {
+    let sections = line.sections(body, x);
+    Pose {
+        nodes: sections.iter().map(|(at, axes)| [*at, axes[0]]).collect(),
+        axes: sections.into_iter().map(|(_, axes)| axes).collect(),
+        amplitudes: Vec::new(),
+    }
+}
+
 fn outlines<const D: usize>(
-    system: &System<D>,
+    assembled: &Assembled<D>,
     x: &[Node<D>],
     parts: &dyn Fn(usize) -> u32,
 ) -> Vec<Vec<[f64; 3]>> {
-    let bodies = system.bodies();
-    let of = |body: usize| bodies.outline(body, x, parts);
+    let bodies = assembled.system.bodies();
+    let of = |body: usize| match assembled.modal_line(body).zip(assembled.reduced(body)) {
+        Some((line, body)) => line
+            .sections(body, x)
+            .into_iter()
+            .map(|(at, _)| at)
+            .collect(),
+        None => bodies.outline(body, x, parts),
+    };
     (0..bodies.ranges.len()).map(of).collect()
 }
 

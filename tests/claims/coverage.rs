@@ -19,7 +19,8 @@ const SINGLE: [&str; 4] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 13] = [
+const REFUSED: [&str; 14] = [
+    "bodies{cable}.modes",
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -46,8 +47,9 @@ const TOGETHER: [&str; 7] = [
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
-/// whose element is chosen says is what the element says that it becomes (`elements.rs`). What needs a file has its claims in `reduced.rs`.
-const OWN: [&str; 13] = [
+/// whose element is chosen says is what the element says that it becomes (`elements.rs`). What needs a file has its claims in `reduced.rs`,
+/// what reduces lines to modes in `tests/laws/modal_lines.rs`.
+const OWN: [&str; 15] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
@@ -56,8 +58,10 @@ const OWN: [&str; 13] = [
     "bodies{cable}.model=",
     "bodies{rod}.elements",
     "bodies{rod}.model",
+    "bodies{rod}.modes",
     "bodies{beam}.elements",
     "bodies{beam}.model",
+    "bodies{beam}.modes",
     "bodies{auto}",
     "bodies{reduced}",
     "outputs{stress_tensor}",

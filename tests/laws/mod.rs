@@ -28,6 +28,7 @@ mod linkage;
 mod links;
 mod mechanics;
 mod mechanism;
+mod modal_lines;
 mod motion;
 mod moved;
 mod moved_bodies;

@@ -287,5 +287,8 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
             terms.is_damped = true;
             self.damping_blocks(x, |a, b, block| assembly.add(a, b, block, damping));
         }
+        if at.rotation != [0.0; 3] {
+            self.linearize_coriolis(at, terms);
+        }
     }
 }

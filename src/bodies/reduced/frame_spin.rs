@@ -12,10 +12,14 @@ use nalgebra::{Matrix3, Vector3};
 use super::ReducedBody;
 use super::linearized::Stiffness;
 use crate::bodies::assembly::NodeBlock;
-use crate::bodies::connectivity::Node;
+use crate::bodies::body::BodyPart;
+use crate::bodies::connectivity::{Node, map_node};
 use crate::bodies::frame::along;
+use crate::bodies::linearized::{LinearTerms, LinearizationPoint};
+use crate::bodies::probe::Nodes;
 use crate::elements::reduced::CentrifugalStiffness;
-use crate::math::jet::Number;
+use crate::math::jet::{Jet, Number};
+use crate::math::space::{Vector, spun};
 
 impl Stiffness for CentrifugalStiffness<'_> {
     fn rotations(&self) -> Matrix3<f64> {
@@ -64,6 +68,28 @@ impl ReducedBody {
         let mut sum = self.axes(f);
         (0..3).for_each(|k| sum[k] += on_axes[k]);
         self.frame.set_axes(&sum, f);
+    }
+
+    /// Adds the Coriolis forces of small motions to the linearized equations: derivatives by what is counted, at rest.
+    pub(super) fn linearize_coriolis<const D: usize>(
+        &self,
+        at: &mut LinearizationPoint<'_, D>,
+        terms: &mut LinearTerms,
+    ) {
+        let (node, rotation, mass) = (self.frame.node, at.rotation, self.model.mass);
+        let nodes: Vec<usize> = self.acted().collect();
+        let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
+            let at_rest = |rate: Jet| rate - Jet::from_re(rate.re);
+            let mut rates: Vec<Node<D, Jet>> = v.iter().map(|v| map_node(v, at_rest)).collect();
+            self.place_changes(x, &mut rates);
+            self.add_frame_forces((x, &rates), rotation, f);
+            self.pull_back_all((x, None), f);
+            let coriolis = spun(rotation, Vector::<D, Jet>::from(rates[node][0]));
+            let sums = f[node][0].iter_mut().zip(&coriolis);
+            sums.for_each(|(sum, part)| *sum -= *part * Jet::from_re(2.0 * mass));
+        };
+        let blocks = at.probe.differentiate(&nodes, true, &force);
+        blocks.add(at.assembly, &mut terms.damping, &mut |_, _, _| {});
     }
 
     /// Kinetic energy at rest in a scene that rotates, J, without that of the centre of mass.

@@ -28,7 +28,7 @@ impl CentrifugalStiffness<'_> {
         let momentum = times(inertia, &spin);
         let moved = Matrix3::from_columns(&[0, 1, 2].map(|k| {
             let across = spin.cross(&Vector3::ith(k, 1.0));
-            -spin.cross(&times(inertia, &across))
+            spin.cross(&times(inertia, &across))
         }));
         let outer = spin * momentum.transpose();
         moved - (outer + outer.transpose()) * 0.5

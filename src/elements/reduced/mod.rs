@@ -11,6 +11,7 @@
 mod basis;
 mod centrifugal;
 mod inertia;
+mod line;
 mod strain;
 
 #[cfg(test)]
@@ -23,6 +24,7 @@ use crate::math::jet::Number;
 pub use basis::ModalBasis;
 pub use centrifugal::CentrifugalStiffness;
 pub use inertia::{SPIN_SCALE, SpinScale};
+pub use line::{LineModes, LineSection, StraightLine};
 pub use strain::{ModalStiffness, ModalStrain};
 
 /// Most modes whose pairs have second-order displacements in a body that moves: pairs of stiff modes diverge.

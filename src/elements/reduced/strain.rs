@@ -19,7 +19,9 @@ pub struct ModalStrain {
 impl ModalStrain {
     /// Strain energy of a model.
     pub fn new(model: &ReducedModel) -> Self {
-        let paired = model.paired;
+        // Without cubic terms strains are amplitudes.
+        let has_pairs = model.cubic.iter().any(|cubic| *cubic != 0.0);
+        let paired = if has_pairs { model.paired } else { 0 };
         let weight = |at: usize| {
             let (m, k, l) = (at / (paired * paired), at / paired % paired, at % paired);
             if m < k || m < l {

@@ -2,9 +2,9 @@
 //!
 //! Source: Newton's law for every point, written here anew.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
-use super::{ModalStrain, PAIRED, ReducedModel, Symmetric};
+use super::{CentrifugalStiffness, ModalStrain, PAIRED, ReducedModel, Symmetric};
 
 mod basis;
 
@@ -296,5 +296,43 @@ fn elastic_forces_and_stiffness_derive_from_the_energy() {
                 "{k} {l}"
             );
         }
+    }
+}
+
+/// Second differences of `V = -W^T J W / 2` along rotations by `s p` and amplitudes `eta + s d`.
+#[test]
+fn centrifugal_stiffness_is_that_of_the_potential() {
+    let model = Points::new().model();
+    let (eta, ..) = motion();
+    let mut random = Random(11);
+    let rotation = random.vector();
+    let potential = |turn: &Vector3<f64>, eta: &[f64]| {
+        let carried = Rotation3::new(-turn) * rotation;
+        -0.5 * carried.dot(&model.momentum_of_spin(eta, &carried))
+    };
+    let stiffness = CentrifugalStiffness {
+        model: &model,
+        eta: &eta,
+        rotation,
+    };
+    for _ in 0..8 {
+        let (turn, moved) = (random.vector(), [0; MODES].map(|_| random.next()));
+        let step = 1e-3;
+        let at = |s: f64| {
+            let eta: Vec<f64> = eta.iter().zip(&moved).map(|(eta, d)| eta + s * d).collect();
+            potential(&(turn * s), &eta)
+        };
+        let difference = (at(step) - 2.0 * at(0.0) + at(-step)) / (step * step);
+        let mut found = turn.dot(&(stiffness.of_rotations() * turn));
+        for (k, a) in moved.iter().enumerate() {
+            found += 2.0 * a * turn.dot(&stiffness.of_rotation_and_mode(k));
+            for (l, b) in moved.iter().enumerate() {
+                found += a * b * stiffness.of_modes(k, l);
+            }
+        }
+        assert!(
+            (found - difference).abs() < 1e-5 * found.abs().max(1.0),
+            "{found} {difference}"
+        );
     }
 }

@@ -36,8 +36,10 @@ impl<const D: usize> Builder<'_, D> {
                 let unit = Vector::<3>::ith(k, 1.0).into();
                 built.directed(reduced.body.contained().directed(unit))
             }
-            Place::Along(..) if built.is_framed() => {
-                built.directed(Vector::<3>::ith(k, 1.0).into())
+            Place::Along(cable, _) if built.is_framed() => {
+                let unit = Vector::<3>::ith(k, 1.0).into();
+                let line = self.lines.get(&cable.id.body_index());
+                built.directed(line.map_or(unit, |line| line.directed(unit)))
             }
             _ => built,
         })
@@ -144,6 +146,9 @@ impl<const D: usize> Builder<'_, D> {
         else {
             return None;
         };
+        if cable.is_modal() {
+            return None;
+        }
         let marker = self.marker(joint.ends.second);
         let (line, frame) = (self.on_line_of(cable, s), marker.nodes[0]);
         let before = self.parts.joints.iter().filter_map(|joint| joint.clamp());

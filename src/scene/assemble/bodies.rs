@@ -45,6 +45,13 @@ impl<const D: usize> Builder<'_, D> {
             BodyReference::Cable(cable) => match cable.id.form {
                 Form::Chain(_) => self.chain(cable, first)?,
                 Form::Rod(_) => arm[0] = self.rod(index, cable.body),
+                Form::Modal => {
+                    let body;
+                    (body, arm) = self.modal(cable)?;
+                    axes.extend(body.axes_nodes());
+                    still = Some(body.inner());
+                    self.parts.bodies.add_reduced(body);
+                }
             },
             BodyReference::Rigid(rigid) => {
                 if D == 3 && rigid.body.inertia().is_some() {
@@ -334,7 +341,7 @@ impl<const D: usize> Builder<'_, D> {
                 let section = sections.and_then(|rod| rod.section_at(&marker));
                 section.unwrap_or(marker)
             }
-            Form::Rod(_) => self.on_line_of(cable, s),
+            Form::Rod(_) | Form::Modal => self.on_line_of(cable, s),
         }
     }
 
@@ -350,6 +357,7 @@ impl<const D: usize> Builder<'_, D> {
                 let RigidRod { node, length, .. } = self.parts.bodies.rods()[rod];
                 Marker::rigid(body, node, [(s - 0.5) * length, 0.0])
             }
+            Form::Modal => self.on_modes(cable, s),
         }
     }
 }

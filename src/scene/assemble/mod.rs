@@ -6,6 +6,7 @@ mod bodies;
 mod coordinates;
 mod initial;
 mod memory;
+mod modal;
 mod ports;
 mod reduced;
 mod solids;
@@ -21,6 +22,8 @@ use super::resolved::{
     self, CouplingId, DirectionSource, Ends, First, GaugeId, LoadId, MarkerId, Place, PointId,
     Resolved,
 };
+pub use modal::ModalLine;
+
 use super::{Error, OutputKind, Scene};
 use crate::bodies::{Bodies, LumpedMass, Marker, Node, ReducedBody};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
@@ -61,6 +64,8 @@ pub struct Assembled<const D: usize = 2> {
     gauges: Vec<Gauge>,
     /// First nodes of the interfaces of reduced bodies, by the index of the body.
     interfaces: BTreeMap<usize, Vec<usize>>,
+    /// Lines that are reduced to modes, by the index of the body.
+    lines: BTreeMap<usize, ModalLine>,
 }
 
 impl<const D: usize> Assembled<D> {
@@ -107,10 +112,17 @@ impl<const D: usize> Assembled<D> {
         }
     }
 
+    /// A line that is reduced to modes, by its place among all bodies; none of another one.
+    pub fn modal_line(&self, body: usize) -> Option<&ModalLine> {
+        self.lines.get(&body)
+    }
+
     /// A reduced body, by its place among all bodies; none of another one.
     pub fn reduced(&self, body: usize) -> Option<&ReducedBody> {
-        self.interfaces.get(&body)?;
-        let index = self.interfaces.range(..body).count();
+        if !self.interfaces.contains_key(&body) && !self.lines.contains_key(&body) {
+            return None;
+        }
+        let index = self.interfaces.range(..body).count() + self.lines.range(..body).count();
         self.system.bodies().reduced().get(index)
     }
 
@@ -159,6 +171,7 @@ impl Resolved<'_> {
             markers: Vec::new(),
             couplings: Vec::new(),
             interfaces: BTreeMap::new(),
+            lines: BTreeMap::new(),
             parts: self.parts(),
         };
         for index in 0..self.bodies.len() {
@@ -176,7 +189,12 @@ impl Resolved<'_> {
         builder.ports();
         let (points, gauges) = (builder.section_points(), builder.gauges());
         let nodes = builder.parts.bodies.reference.clone();
-        let principal = self.bodies.iter().map(|body| self.principal(body));
+        let lines = builder.lines;
+        let bodies = self.bodies.iter().enumerate();
+        let principal = bodies.map(|(index, body)| match lines.get(&index) {
+            Some(line) => (line.axes, line.center),
+            None => self.principal(body),
+        });
         let (frames, centers): (Vec<Matrix3<f64>>, Vec<_>) = principal.unzip();
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
@@ -194,6 +212,7 @@ impl Resolved<'_> {
             couplings: builder.couplings,
             first_load,
             interfaces: builder.interfaces,
+            lines,
         })
     }
 
@@ -251,6 +270,8 @@ pub struct Builder<'a, const D: usize> {
     couplings: Vec<usize>,
     /// First nodes of the interfaces of reduced bodies, by the index of the body.
     interfaces: BTreeMap<usize, Vec<usize>>,
+    /// Lines that are reduced to modes, by the index of the body.
+    lines: BTreeMap<usize, ModalLine>,
     pub(super) parts: Parts<D>,
 }
 

@@ -8,6 +8,9 @@ use crate::scene::resolved::{Place, Reduced, Resolved};
 /// Square of the ratio to the highest natural frequency without static shapes above which modes are critically damped.
 const FAST: f64 = 25.0;
 
+/// Interfaces of a body that are acted on: by what is taken of a place.
+type OfPlace<'a> = &'a dyn Fn(Place<'_>) -> Option<usize>;
+
 impl Resolved<'_> {
     /// Returns the model that a reduced body takes of its file, and the damping ratios of its modes.
     ///
@@ -16,20 +19,12 @@ impl Resolved<'_> {
     pub(super) fn model_of(&self, reduced: Reduced<'_>) -> Result<(ReducedModel, Vec<f64>), Error> {
         let model = &reduced.body.contained().model;
         let basis = self.basis(reduced)?;
-        let is_settled = |eigenvalue: f64| {
-            let is_static = matches!(reduced.body.modes, Modes::FixedInterface(_));
-            is_static && reduced.body.critically_damped && eigenvalue > FAST * basis.highest
-        };
-        let ratio = |eigenvalue: &f64| {
+        let is_static = matches!(reduced.body.modes, Modes::FixedInterface(_));
+        let given = |eigenvalue: f64| {
             let frequency = eigenvalue.sqrt() / std::f64::consts::TAU;
-            let given = reduced.body.damping_ratio.at(frequency);
-            if is_settled(*eigenvalue) {
-                given.max(1.0)
-            } else {
-                given
-            }
+            reduced.body.damping_ratio.at(frequency)
         };
-        let ratios = basis.eigenvalues.iter().map(ratio).collect();
+        let ratios = damping_ratios(&basis, is_static && reduced.body.critically_damped, given);
         // The arrays of the file are taken bit for bit where all its modes are.
         let is_whole = basis == model.first_modes(model.modes()) && basis.paired == model.paired;
         let taken = if is_whole {
@@ -50,7 +45,10 @@ impl Resolved<'_> {
         else {
             return Ok(model.first_modes(reduced.body.first_modes()));
         };
-        let held = self.interfaces_acted_on(reduced);
+        let held = self.interfaces_acted_on(&|place| match place {
+            Place::Interface(of, index) if of.id == reduced.id => Some(index),
+            _ => None,
+        });
         let basis = model.fixed_interface_modes(&held, fixed_interface as usize);
         basis.ok_or_else(|| {
             let place = format!("bodies[{}].modes.fixed_interface", reduced.id.index());
@@ -60,25 +58,27 @@ impl Resolved<'_> {
         })
     }
 
-    /// Lists the interfaces of a reduced body that joints, motions, loads and ports act on, by their indices in the model.
-    fn interfaces_acted_on(&self, reduced: Reduced<'_>) -> Vec<usize> {
-        let of_joints = self.joints.iter().flat_map(|joint| joint.ends.markers());
-        let driven = self.motions.iter();
-        let of_motions = driven.flat_map(|motion| motion.driven.quantity().place.markers());
-        let of_loads = self
-            .loads
-            .iter()
-            .flat_map(|load| load.kind.place().markers());
-        let of_ports = self.ports.iter().map(|port| port.marker);
-        let markers = of_joints.chain(of_motions).chain(of_loads).chain(of_ports);
-        let mut found: Vec<usize> = markers
-            .filter_map(|marker| match marker.place {
-                Place::Interface(of, index) if of.id == reduced.id => Some(index),
-                _ => None,
-            })
-            .collect();
+    /// Lists the interfaces of a reduced body that something acts on, by their indices in the model.
+    pub(super) fn interfaces_acted_on(&self, index: OfPlace<'_>) -> Vec<usize> {
+        let markers = self.acted_on().into_iter();
+        let mut found: Vec<usize> = markers.filter_map(|marker| index(marker.place)).collect();
         found.sort_unstable();
         found.dedup();
         found
     }
+}
+
+/// Damping ratios of the modes of a basis, from those given for eigenvalues. Static shapes far above the natural modes are critically damped
+/// where they may be.
+pub(super) fn damping_ratios(
+    basis: &ModalBasis,
+    may_be_critical: bool,
+    given: impl Fn(f64) -> f64,
+) -> Vec<f64> {
+    let ratio = |eigenvalue: &f64| {
+        let is_critical = may_be_critical && *eigenvalue > FAST * basis.highest;
+        let given = given(*eigenvalue);
+        if is_critical { given.max(1.0) } else { given }
+    };
+    basis.eigenvalues.iter().map(ratio).collect()
 }

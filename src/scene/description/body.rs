@@ -53,6 +53,10 @@ pub struct LineBody {
     /// Whether it bends and stretches.
     #[serde(default)]
     pub model: Model,
+    /// Natural modes of model `modal` with held interfaces, beside the static shapes of the markers that joints, motions, loads and ports act
+    /// on; 0 takes the static shapes alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modes: Option<u32>,
     /// Material.
     pub material: Material,
     /// Cross section, where it is the same all along.
@@ -116,8 +120,8 @@ impl LineModel {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Model {
-    /// Flexible, unless its number of elements is left to the planner, which finds that this changes no output by more than
-    /// the error wanted: then it says `rigid` here.
+    /// Flexible, unless its number of elements is left to the planner, which finds that another model changes no output by more than
+    /// the error wanted: then it says `rigid` or `modal` here.
     #[default]
     Auto,
     /// Flexible.
@@ -126,6 +130,10 @@ pub enum Model {
     /// force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
     /// along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
     Rigid,
+    /// Reduced to `modes`: it moves freely, and deflections are exact to second order (beyond a tenth of its length a run says so). Of
+    /// straight rods and beams in space that are not twisted at rest. Strains, section forces and stresses are not read of it, and nothing
+    /// acts or slides along it but gravity. Static shapes far above the natural modes are critically damped. Elements have no effect.
+    Modal,
 }
 
 /// A rigid body; without inertia, a particle.

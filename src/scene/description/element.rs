@@ -92,9 +92,10 @@ impl Body {
         }
     }
 
-    /// The body if it is a cable that bends.
+    /// The body if it is a cable of elements that bend.
     pub fn flexible(&self) -> Option<&LineBody> {
-        self.cable().filter(|cable| cable.model != Model::Rigid)
+        let has_elements = |cable: &&LineBody| ![Model::Rigid, Model::Modal].contains(&cable.model);
+        self.cable().filter(has_elements)
     }
 
     /// The body, to be changed, if it is a cable or a rod.

@@ -272,6 +272,7 @@ impl<const D: usize> Builder<'_, D> {
                 });
                 places.collect()
             }
+            Form::Modal => unreachable!("{}", line::NOT_ALONG_MODES),
         }
     }
 }

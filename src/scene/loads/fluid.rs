@@ -156,7 +156,7 @@ impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
                 let section = match cable.id.form {
                     Form::Chain(_) => sections(ends[0] + point.at * (ends[1] - ends[0])).0,
                     // All along it that of its middle, as its mass.
-                    Form::Rod(_) => cable.body.section_at(0.5),
+                    Form::Rod(_) | Form::Modal => cable.body.section_at(0.5),
                 };
                 strips.push(self.strip(&section));
             }

@@ -38,6 +38,10 @@ fn function_along(path: &str, text: &str) -> Result<Function, Error> {
     function.map_err(|told| Error::new(path, told))
 }
 
+/// Why nothing acts along a body that is reduced to modes.
+pub(super) const NOT_ALONG_MODES: &str =
+    "what acts along a body that is reduced to modes is refused";
+
 /// Builds a line load that is uniform along a body.
 pub(super) fn uniform<const K: usize>(components: &[Signal]) -> LineLoad<K> {
     LineLoad {
@@ -55,7 +59,9 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn segments(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
         match cable.id.form {
             Form::Chain(_) => self.resolved.nodes(cable),
-            Form::Rod(_) => Ok((0..=PANELS).map(|k| k as f64 / PANELS as f64).collect()),
+            Form::Rod(_) | Form::Modal => {
+                Ok((0..=PANELS).map(|k| k as f64 / PANELS as f64).collect())
+            }
         }
     }
 
@@ -64,6 +70,7 @@ impl<const D: usize> Builder<'_, D> {
         match cable.id.form {
             Form::Chain(chain) => LoadedLine::Chain(chain),
             Form::Rod(rod) => LoadedLine::Rod(self.parts.bodies.rods()[rod]),
+            Form::Modal => unreachable!("{NOT_ALONG_MODES}"),
         }
     }
 

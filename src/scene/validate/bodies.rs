@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
-use super::ELEMENTS;
 use super::checks::{
     components, expected, finite, name, needed, not_negative, planar, positive, quoted, spin,
     vector,
 };
+use super::{ELEMENTS, LINE_MODES};
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Place, Resolved, ResolvedMass};
 use crate::scene::{
@@ -90,6 +90,7 @@ impl LineBody {
         }
         self.shape.validate(&at("shape"), dimension)?;
         self.validate_model(&at("model"), dimension)?;
+        self.validate_modes(&at("modes"))?;
         let found = self.section_at(0.5).second_moments[0];
         if !self.shape.is_straight() && !self.is_rod() && found > 0.0 {
             let place = at("section.second_moment");
@@ -141,22 +142,55 @@ impl LineBody {
         Ok(())
     }
 
-    /// A rigid rod is a body of the plane, straight and undeformed.
+    /// A rigid rod is a body of the plane, one of modes of space; both are straight and undeformed.
     fn validate_model(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        if self.model != Model::Rigid {
-            return Ok(());
+        let wanted = "\"auto\" or \"flexible\"";
+        let model = match self.model {
+            Model::Auto | Model::Flexible => return Ok(()),
+            Model::Rigid => "\"rigid\"",
+            Model::Modal => "\"modal\"",
+        };
+        if self.model == Model::Rigid {
+            planar(path, dimension, wanted, model)?;
+        } else if dimension == 2 {
+            let wanted = format!("{wanted} in the plane");
+            return Err(expected(path, &wanted, model));
+        } else if !self.is_rod() {
+            let wanted = format!("{wanted} of a cable, which has no axes (a rod or a beam does)");
+            return Err(expected(path, &wanted, model));
         }
-        let (wanted, rigid) = ("\"auto\" or \"flexible\"", "\"rigid\"");
-        planar(path, dimension, wanted, rigid)?;
         if !self.shape.is_straight() {
-            let wanted = format!("{wanted} of a cable that is curved without stress");
-            return Err(expected(path, &wanted, rigid));
+            let wanted = format!("{wanted} of a line that is curved without stress");
+            return Err(expected(path, &wanted, model));
+        }
+        if self.model == Model::Modal && self.stations.iter().any(|station| station.twist != 0.0) {
+            let wanted = format!("{wanted} of a line that is twisted without stress");
+            return Err(expected(path, &wanted, model));
         }
         if self.motion.deformation.is_some() {
-            let wanted = format!("{wanted} of a cable that deforms at the start");
-            return Err(expected(path, &wanted, rigid));
+            let wanted = format!("{wanted} of a line that deforms at the start");
+            return Err(expected(path, &wanted, model));
         }
         Ok(())
+    }
+
+    /// Modes belong to model `modal`, which needs them.
+    fn validate_modes(&self, path: &str) -> Result<(), Error> {
+        let wanted = format!(
+            "an integer from {} to {}",
+            LINE_MODES.start(),
+            LINE_MODES.end()
+        );
+        match (self.model, self.modes) {
+            (Model::Modal, None) => Err(expected(path, &wanted, "nothing")),
+            (Model::Modal, Some(modes)) if !LINE_MODES.contains(&modes) => {
+                Err(expected(path, &wanted, modes))
+            }
+            (Model::Auto | Model::Flexible | Model::Rigid, Some(modes)) => {
+                Err(expected(path, "nothing but with model \"modal\"", modes))
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -184,23 +184,33 @@ impl<'a> Resolved<'a> {
         Ok(marker)
     }
 
-    /// Finds a line body.
+    /// Finds a line body that something acts along.
     ///
     /// # Errors
-    /// The body does not exist, or is of kind `rigid`.
+    /// The body does not exist, is of kind `rigid`, or is reduced to modes.
     pub(crate) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
+            Some(BodyReference::Cable(cable)) if cable.is_modal() => Err(modal(
+                path,
+                "a line of elements, along which something acts",
+                cable,
+            )),
             Some(BodyReference::Cable(cable)) => Ok(*cable),
             _ => Err(self.no_line(path, "cable", |_| true, name)),
         }
     }
 
-    /// Finds a rod or a beam.
+    /// Finds a rod or a beam that something acts along.
     ///
     /// # Errors
-    /// The body does not exist, or is no rod or beam.
+    /// The body does not exist, is no rod or beam, or is reduced to modes.
     pub(crate) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
+            Some(BodyReference::Cable(cable)) if cable.is_modal() => Err(modal(
+                path,
+                "a line of elements, along which something acts",
+                cable,
+            )),
             Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
             _ => Err(self.no_line(path, "rod or beam", LineBody::is_rod, name)),
         }
@@ -403,5 +413,16 @@ fn chain(path: &str, wanted: &str, cable: Cable<'_>) -> Result<usize, Error> {
             let found = format!("{name}, which is rigid (bodies[{}].model)", cable.id.body);
             Err(expected(path, wanted, found))
         }
+        Form::Modal => Err(modal(path, wanted, &cable)),
     }
+}
+
+/// An error for a line body that is reduced to modes where another one is wanted.
+fn modal(path: &str, wanted: &str, cable: &Cable<'_>) -> Error {
+    let name = quoted(&cable.body.name);
+    let found = format!(
+        "{name}, which is reduced to modes (bodies[{}].model)",
+        cable.id.body
+    );
+    expected(path, wanted, found)
 }

@@ -6,6 +6,7 @@ use super::outputs::{Difference, RelativeTo};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 use super::response::FREQUENCIES;
 use super::search::{COMPARED_MODES, Search, counted};
+use crate::scene::Model;
 
 impl Search<'_, '_> {
     /// The plan of a choice, from what doubling and a tenth of the tolerance change.
@@ -131,9 +132,15 @@ impl Search<'_, '_> {
             let place = with_counts.iter().position(|of| *of == index);
             let count = place.map_or(0, |place| choice.elements[place]);
             let is_free = place.is_some_and(|place| self.is_free(place));
+            let modes = place.and_then(|place| *choice.modes.get(place)?);
+            let given = body.cable().filter(|line| line.model == Model::Modal);
+            let modes = modes.or(given.and_then(|line| line.modes));
             let why = match (is_free, &changes, count) {
                 (false, ..) => "as the scene says".into(),
                 (true, Some(changes), 0) => format!("to let it bend {changes}"),
+                (true, Some(changes), _) if modes.is_some() => {
+                    format!("taking twice its elements {changes}")
+                }
                 (true, Some(changes), _) if body.reduced().is_some() => {
                     format!("taking {COMPARED_MODES} modes or more {changes}")
                 }
@@ -142,6 +149,7 @@ impl Search<'_, '_> {
             };
             let line = body.cable().map(|line| line.sections.element());
             let (kind, elements) = match (count, line) {
+                _ if modes.is_some() => ("modal", modes),
                 (0, None) if place.is_none() && body.reduced().is_some() => ("reduced", None),
                 (0, _) => ("rigid", None),
                 (count, None) => ("reduced", Some(count)),

@@ -20,6 +20,8 @@ const QUIET: f64 = 0.5;
 pub(super) struct Choice {
     /// Elements of every line body, in the order of the bodies, then modes of every reduced body whose number of modes is open.
     pub elements: Vec<u32>,
+    /// Natural modes of the line bodies that are reduced to modes instead, in the order of the bodies; empty where none is.
+    pub modes: Vec<Option<u32>>,
     pub tolerance: f64,
     /// Whether steps are at most half as long as those between communication points, where these end them.
     pub is_halved: bool,

@@ -10,6 +10,7 @@ mod damping;
 mod experiment;
 mod given;
 mod ladder;
+mod modal;
 mod motion;
 mod outputs;
 mod report;

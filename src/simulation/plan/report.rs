@@ -44,9 +44,10 @@ pub struct Plan {
 pub struct PlannedBody {
     /// Name of the body.
     pub name: String,
-    /// `cable`, `rod`, `beam`, `reduced` or `rigid`.
+    /// `cable`, `rod`, `beam`, `reduced`, `modal` or `rigid`.
     pub kind: &'static str,
-    /// Number of elements, where it bends; of modes with held interfaces, where it is reduced and their number was open.
+    /// Number of elements, where it bends; of natural modes with held interfaces, where it is a line that is reduced to modes, or reduced and
+    /// their number was open.
     pub elements: Option<u32>,
     /// The fewest that a cable can have, or is given.
     pub fewest: Option<u32>,
@@ -226,14 +227,18 @@ impl PlannedBody {
     /// The parts that the number of the body counts.
     pub fn parts(&self) -> &'static str {
         match self.kind {
-            "reduced" => "fixed-interface modes",
+            "reduced" | "modal" => "fixed-interface modes",
             _ => "elements",
         }
     }
 
     /// The number of the body in a column of elements; of modes, with that word.
     pub fn count_in_words(&self) -> String {
-        let unit = if self.kind == "reduced" { " modes" } else { "" };
+        let unit = if ["reduced", "modal"].contains(&self.kind) {
+            " modes"
+        } else {
+            ""
+        };
         self.elements
             .map(|count| format!("{count}{unit}"))
             .unwrap_or_default()

@@ -3,6 +3,7 @@
 use super::experiment::{PlannedExperiment, TrialRun, Unfinished};
 use super::given::TrialConditions;
 use super::ladder::Choice;
+use super::modal::with_all_modes;
 use super::outputs::{Difference, OutputGroup, difference, groups, scales};
 use super::report::Plan;
 use super::response::Responses;
@@ -101,7 +102,9 @@ pub(super) fn with_counts(mut scene: Scene, counts: &[u32]) -> Scene {
             reduced.modes = Modes::FixedInterface(FixedInterfaceModes {
                 fixed_interface: *count,
             });
-        } else if let Some(line) = scene.bodies[body].cable_mut() {
+        } else if let Some(line) = scene.bodies[body].cable_mut()
+            && line.model != Model::Modal
+        {
             line.elements = Some(*count);
         }
     }
@@ -121,6 +124,7 @@ pub(super) fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
         };
         Some(match (cable.body.model, cable.body.elements) {
             (Model::Rigid, _) => Ok(0),
+            (Model::Modal, _) => Ok(1),
             (_, Some(count)) => Ok(count),
             (_, None) => resolved.fewest_elements(*cable),
         })
@@ -195,6 +199,7 @@ impl<'a, 'p> Search<'a, 'p> {
         } else {
             in_space
         };
+        let in_space = self.reduce_lines(&mut choice, in_space);
         let sheared = self.shear(&choice);
         let plan = self.report(&choice, &in_space, &in_time);
         let mut scene = self.planned(&choice);
@@ -228,7 +233,9 @@ impl<'a, 'p> Search<'a, 'p> {
     /// Whether the number of elements or modes of a body is left to the planner, by its place among those that have one.
     pub fn is_free(&self, counted_body: usize) -> bool {
         match cables(self.scene).nth(counted_body) {
-            Some((_, line)) => line.elements.is_none() && line.model != Model::Rigid,
+            Some((_, line)) => {
+                line.elements.is_none() && [Model::Auto, Model::Flexible].contains(&line.model)
+            }
             None => self.most_modes(counted_body).is_some(),
         }
     }
@@ -257,7 +264,7 @@ impl<'a, 'p> Search<'a, 'p> {
                 line.axial = Axial::CriticallyDamped;
             }
         }
-        scene = with_counts(scene, &choice.elements);
+        scene = with_all_modes(with_counts(scene, &choice.elements), choice);
         scene.accuracy = Accuracy {
             error: Some(self.error),
             relative_tolerance: Some(choice.tolerance),

@@ -20,7 +20,9 @@ const TOLERANCE: f64 = 1e-4;
 pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), Error> {
     let coarsest = fewest(scene)?;
     let is_free: Vec<bool> = cables(scene)
-        .map(|(_, cable)| cable.elements.is_none() && cable.model != Model::Rigid)
+        .map(|(_, cable)| {
+            cable.elements.is_none() && [Model::Auto, Model::Flexible].contains(&cable.model)
+        })
         .chain(open_reduced(scene).map(|_| false))
         .collect();
     let most = ELEMENTS.max(FINER * coarsest.iter().sum::<u32>());

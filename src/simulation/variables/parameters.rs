@@ -106,6 +106,9 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
         // It has no frame to be curved in and no bending stiffness.
         rows.retain(|(.., parameter, _)| !matches!(parameter, SecondMoment(_)));
     }
+    if cable.is_modal() {
+        rows.retain(|(.., parameter, _)| !matches!(parameter, Elements(_)));
+    }
     if cable.is_rigid() {
         // What is left without effect is none: a study of it would find nothing.
         rows.retain(|(.., parameter, _)| matches!(parameter, LineLoad(_) | Area(_)));

@@ -48,11 +48,6 @@ pub enum SpectrumError {
          frame that turns with them (\"rotation\")"
     )]
     Spins(f64),
-    /// Reduced bodies in a scene that rotates.
-    #[error(
-        "expected no reduced body in a scene that rotates, found one: Coriolis forces on modes are not linearized"
-    )]
-    ReducedInRotatingFrame,
     /// The cable of this body has been paid out by a length, m, at a rate, m/s.
     #[error(
         "expected winches that stand with cables as long as at the start, found {1} m of body {0} paid out, at {2} m/s"
@@ -187,7 +182,6 @@ pub fn eigenvalues<const D: usize>(
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
-    refuse_reduced(system)?;
     refuse_paid_out(system, work, false)?;
     refuse_driven(system, work)?;
     // Nothing tells the spin of a thin rod about itself, and gyroscopic terms of sections are not linearized.
@@ -296,14 +290,6 @@ fn refuse_rotating<const D: usize>(
     Ok(())
 }
 
-/// Refuses reduced bodies in a scene that rotates: Coriolis forces on modes are not in the linearization.
-fn refuse_reduced<const D: usize>(system: &System<D>) -> Result<(), SpectrumError> {
-    if system.is_rotating() && !system.bodies.reduced().is_empty() {
-        return Err(SpectrumError::ReducedInRotatingFrame);
-    }
-    Ok(())
-}
-
 /// Refuses cables, rods and beams that rotate as a whole while a prescribed motion moves: centrifugal and gyroscopic terms of small motions
 /// beside that rotation are not in the linearization. The nodes are those of the state with its rates.
 fn refuse_driven<const D: usize>(
@@ -376,7 +362,6 @@ pub(super) fn at_rest<'a, const D: usize>(
     }
     let rest = vec![0.0; v.len()];
     DrivenSystem::new(system, inputs, work, state).linearize(state.time, q, &rest);
-    refuse_reduced(system)?;
     refuse_paid_out(system, work, true)?;
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
