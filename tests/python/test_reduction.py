@@ -12,7 +12,8 @@ import safetensors.numpy
 import scipy.linalg
 import scipy.sparse as sparse
 from conftest import ROOT
-from flexbody.reduction import FiniteElementModel, Interface, ReducedBody
+from finite_elements import beam, tensor
+from flexbody.reduction import Interface, ModalModel, ReducedBody
 from flexbody.reduction.readers.scikit_fem import Solid
 from skfem import Basis, ElementHex2, ElementVector, MeshHex
 
@@ -46,11 +47,6 @@ def ends(block):
     return {"left": np.flatnonzero(along < 0.1001), "right": np.flatnonzero(along > 0.2999)}
 
 
-def tensor(six):
-    xx, yy, zz, xy, xz, yz = np.moveaxis(np.asarray(six), -1, 0)
-    return np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), (0, 1), (-2, -1))
-
-
 def by_nodes(model):
     """Permutation of degrees of freedom to three a node, one node after the other."""
     return np.lexsort((model.dofs[:, 1], model.dofs[:, 0]))
@@ -60,40 +56,6 @@ def with_rows_of_nodes(model):
     """Mass and stiffness with three degrees of freedom a node, one node after the other."""
     order = by_nodes(model)
     return [sparse.csc_array(matrix)[order][:, order] for matrix in (model.mass, model.stiffness)]
-
-
-def beam(elements, length=1.3, modulus=2e11, density=7800.0, width=0.02, height=0.01, poissons_ratio=0.3):
-    """Uniform rod along x of Euler-Bernoulli elements with six degrees of freedom a node."""
-    area, step = width * height, length / elements
-    polar = width * height * (width**2 + height**2) / 12
-    # Bending towards y, and towards z, with rotations about z, and about -y.
-    moments = {1: height * width**3 / 12, 2: width * height**3 / 12}
-    size = 6 * (elements + 1)
-    mass, stiffness = sparse.lil_array((size, size)), sparse.lil_array((size, size))
-    line_stiffness, line_mass = np.array([[1, -1], [-1, 1]]), np.array([[2, 1], [1, 2]]) / 6
-    bending = np.array(
-        [[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]],
-        float,
-    )
-    inertia = np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]) / 420
-    shear = modulus / (2 * (1 + poissons_ratio))
-    for element in range(elements):
-        first, second = 6 * element, 6 * element + 6
-        for component, rigidity, inert in [(0, modulus * area, density * area), (3, shear * polar, density * polar)]:
-            at = np.ix_(*[[first + component, second + component]] * 2)
-            stiffness[at] += rigidity / step * line_stiffness
-            mass[at] += inert * step * line_mass
-        for across, moment in moments.items():
-            rotation, sign = {1: (5, 1), 2: (4, -1)}[across]
-            at = np.ix_(*[[first + across, first + rotation, second + across, second + rotation]] * 2)
-            scale = np.array([1, sign * step, 1, sign * step])
-            scale = np.outer(scale, scale)
-            stiffness[at] += modulus * moment / step**3 * bending * scale
-            mass[at] += density * area * step * inertia * scale
-    nodes = np.zeros((elements + 1, 3))
-    nodes[:, 0] = np.linspace(0, length, elements + 1)
-    dofs = np.array([(node, component) for node in range(elements + 1) for component in range(6)])
-    return FiniteElementModel(mass.tocsc(), stiffness.tocsc(), nodes, dofs)
 
 
 def test_free_frequencies_are_those_of_the_solids(example):
@@ -396,6 +358,48 @@ def test_fewer_modes_are_those_of_a_smaller_basis(block):
         (large.interfaces["right"].modes, small.interfaces["right"].modes * signs),
     ]:
         assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
+
+
+def test_modes_in_other_units_make_the_same_body(block):
+    """Modes of any size, with rigid ones among them, in millimetres, kilograms and milliseconds."""
+    mass, stiffness = with_rows_of_nodes(block.model)
+    nodes = block.model.nodes
+    values, shapes = scipy.linalg.eigh(stiffness.toarray(), mass.toarray())
+    expected = flexbody.reduce(mass, stiffness, nodes, NOTHING, modes=5)
+    sizes = np.linspace(0.1, 40.0, 11)
+    model = ModalModel(mass, shapes[:, :11] * sizes, values[:11] * 1e-6, nodes * 1e3, units="mm-kg-ms")
+    body = model.reduce(NOTHING)
+    assert body.eigenvalues == pytest.approx(expected.eigenvalues, rel=1e-9)
+    for part in ("mass", "centre", "inertia", "inertia_1", "inertia_2", "coupling"):
+        wanted = np.asarray(getattr(expected, part))
+        assert np.asarray(getattr(body, part)) == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max()), part
+    wanted = expected.interfaces["first"].modes
+    assert body.interfaces["first"].modes == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+    with pytest.raises(
+        flexbody.Error, match="expected displacements of shape .* and as many eigenvalues, found shapes"
+    ):
+        ModalModel(mass, shapes, values[:3], nodes).reduce(NOTHING)
+
+
+def test_rows_of_inner_modes_do_not_move_with_the_body(block):
+    """Half the nodes are replaced by amplitudes of modes with the others held: the same frequencies, and a warning."""
+    mass, stiffness = (matrix.toarray() for matrix in with_rows_of_nodes(block.model))
+    kept = np.arange(len(block.model.nodes) // 2)
+    outer = np.arange(3 * len(kept))
+    inner = np.arange(3 * len(kept), len(mass))
+    _, held = scipy.linalg.eigh(stiffness[np.ix_(inner, inner)], mass[np.ix_(inner, inner)])
+    basis = scipy.linalg.block_diag(np.eye(len(outer)), held)
+    basis[inner[0] :, outer] = -np.linalg.solve(stiffness[np.ix_(inner, inner)], stiffness[np.ix_(inner, outer)])
+    # Amplitudes come first.
+    basis = np.hstack([basis[:, inner], basis[:, outer]])
+    dofs = np.vstack([np.full((len(inner), 2), -1), [(node, axis) for node in kept for axis in range(3)]])
+    matrices = [basis.T @ matrix @ basis for matrix in (mass, stiffness)]
+    nodes = block.model.nodes
+    with pytest.warns(flexbody.FlexbodyWarning, match=f"{len(inner)} of {len(mass)} are amplitudes of inner modes"):
+        body = flexbody.reduce(*matrices, nodes[kept], NOTHING, dofs=dofs, modes=5)
+    expected = flexbody.reduce(mass, stiffness, nodes, NOTHING, modes=5)
+    assert body.eigenvalues == pytest.approx(expected.eigenvalues, rel=1e-8)
+    assert body.inertia == pytest.approx(expected.inertia, rel=1e-9, abs=1e-12)
 
 
 def test_the_file_is_what_safetensors_reads(bracket, tmp_path):

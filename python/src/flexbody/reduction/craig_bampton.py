@@ -1,14 +1,17 @@
 """Reduction of a finite element model to modes: the basis of Craig and Bampton in mean axes."""
 
+import warnings
+
 import numpy as np
 import scipy.sparse as sparse
 
 from flexbody._errors import Error
-from flexbody.reduction.body import InterfaceMotion, ReducedBody, Surface
+from flexbody._program import FlexbodyWarning
+from flexbody.reduction.body import ReducedBody
 from flexbody.reduction.elastic import ElasticModel, rigid_sets
-from flexbody.reduction.interface import Interface, InterfaceRows
 from flexbody.reduction.invariants import components, invariants, rigid_body_mass
 from flexbody.reduction.model import scaled_model
+from flexbody.reduction.outputs import BodyOutputs
 from flexbody.reduction.second_order import (
     MOST_MODES,
     QuadraticForces,
@@ -47,7 +50,8 @@ def reduce(
     nodes: coordinates [nodes, 3].
     interfaces: an `Interface`, or indices of nodes (from 0), by name. Names are those of the markers of a scene.
     dofs: node and component (0 to 2: translations, 3 to 5: rotations) of each degree of freedom [dofs, 2]. If it is not
-        given, each node has three translations, one node after the other.
+        given, each node has three translations, one node after the other. A row (-1, -1) is the amplitude of an inner
+        mode of a superelement.
     units: consistent unit system of all arguments, such as `mm-t-s`: length, mass, time.
     modes: how many natural modes with held interfaces the basis has, beside static shapes.
     quadratic_force: function of displacements [dofs] that returns the quadratic part of the internal force [dofs];
@@ -63,15 +67,17 @@ def reduce(
     source: where the model comes from.
     highest_frequency: highest frequency that the mesh resolves, Hz.
 
-    Returns a `ReducedBody`. Raises `flexbody.Error` with what was expected and found.
+    Returns a `ReducedBody`. Warns (`flexbody.FlexbodyWarning`) of inner modes. Raises `flexbody.Error` with what was
+    expected and found.
     """
     if isinstance(modes, bool) or not isinstance(modes, (int, np.integer)) or modes < 0:
         raise Error(f"modes: expected a number of modes, found {modes!r}")
     model = scaled_model(mass, stiffness, nodes, dofs, unit_system(units))
-    rows = _interface_rows(model, interfaces)
+    outputs = BodyOutputs(model, interfaces, triangles, stress)
+    rows = outputs.interfaces
     forces = QuadraticForces(model, quadratic_force, internal_force, prestressed_stiffness, amplitude)
-    triangles = _triangles(triangles, len(model.nodes))
-    stress = {name: _stress_rows(name, matrix, model) for name, matrix in (stress or {}).items()}
+    if model.inner_modes:
+        _warn_of_inner_modes(model)
 
     at_rest = rigid_body_mass(model)
     to_dofs = rigid_sets(model, rows)
@@ -97,20 +103,21 @@ def reduce(
         inertia_2=integrals.second,
         coupling=integrals.coupling,
         cubic=cubic,
-        interfaces={interface.name: _motion(interface, shapes, second) for interface in rows},
-        surface=_surface(model, triangles, shapes),
-        stress={name: matrix @ shapes for name, matrix in stress.items()},
         source=source,
         highest_frequency=highest_frequency,
         shapes=shapes,
+        **outputs.of(shapes, second),
     )
 
 
-def _interface_rows(model, interfaces):
-    if not hasattr(interfaces, "items") or not interfaces:
-        raise Error(f"interfaces: expected interfaces by name, found {interfaces!r}")
-    given = {name: one if isinstance(one, Interface) else Interface(one) for name, one in interfaces.items()}
-    return [InterfaceRows(name, one, model.nodes, model.columns, model.units) for name, one in given.items()]
+def _warn_of_inner_modes(model):
+    warnings.warn(
+        f"dofs: {model.inner_modes} of {model.size} are amplitudes of inner modes, whose nodes are not in the model: "
+        f"forces of inertia on them are missing when the body rotates; reduce the matrices of all nodes, or use modes "
+        f"(`ModalModel`), where that counts",
+        FlexbodyWarning,
+        stacklevel=3,
+    )
 
 
 def _elastic_model(model, at_rest, to_dofs):
@@ -158,38 +165,3 @@ def _second_order_count(wanted, eigenvalues):
     if isinstance(wanted, bool) or not isinstance(wanted, (int, np.integer)) or not 0 < wanted <= len(eigenvalues):
         raise Error(f"second_order_modes: expected 1 to {len(eigenvalues)} modes, found {wanted!r}")
     return int(wanted)
-
-
-def _motion(interface, shapes, second):
-    at = None if second is None else np.tensordot(interface.translation.toarray(), second, 1)
-    rotation = None if interface.rotation is None else interface.rotation @ shapes
-    return InterfaceMotion(interface.position, interface.translation @ shapes, rotation, at)
-
-
-def _triangles(triangles, count):
-    if triangles is None:
-        return None
-    found = np.asarray(triangles)
-    if found.ndim != 2 or found.shape[1] != 3 or found.dtype.kind not in "iu" or not len(found):
-        raise Error(f"triangles: expected indices of nodes of shape [triangles, 3], found shape {list(found.shape)}")
-    if found.min() < 0 or found.max() >= count:
-        raise Error(f"triangles: expected indices of nodes from 0 to {count - 1}, found {found.min()} to {found.max()}")
-    return found
-
-
-def _surface(model, triangles, shapes):
-    if triangles is None:
-        return None
-    used, renamed = np.unique(triangles, return_inverse=True)
-    columns = model.columns[used, :3]
-    if (columns < 0).any():
-        raise Error("triangles: expected nodes with three translations, found some without")
-    return Surface(model.nodes[used], shapes[columns], renamed.reshape(triangles.shape))
-
-
-def _stress_rows(name, matrix, model):
-    """Matrix [6, dofs] from displacements in SI units to Pa, checked."""
-    matrix = sparse.csr_array(matrix, dtype=float)
-    if matrix.shape != (6, model.size):
-        raise Error(f"stress[{name!r}]: expected a matrix of shape [6, {model.size}], found {list(matrix.shape)}")
-    return model.units.stress * (matrix @ sparse.diags_array(model.to_model))

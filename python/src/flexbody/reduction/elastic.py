@@ -193,10 +193,13 @@ class ElasticModel:
         """
         basis = self.without_rigid(self.orthonormal(self._of_unit_mass(shapes)))
         values, vectors = scipy.linalg.eigh(basis.T @ (self.stiffness @ basis), basis.T @ (self.mass @ basis))
-        modes = basis @ vectors
-        # Signs do not depend on roundoff: symmetric modes have two largest components.
-        signs = np.cos(np.arange(len(modes))) @ (modes / np.abs(modes).max(axis=0))
-        return values, modes * np.where(signs < 0, -1.0, 1.0)
+        return values, with_signs(basis @ vectors)
+
+
+def with_signs(modes):
+    """Modes [dofs, n] with signs that do not depend on roundoff: symmetric modes have two largest components."""
+    signs = np.cos(np.arange(len(modes))) @ (modes / np.abs(modes).max(axis=0))
+    return modes * np.where(signs < 0, -1.0, 1.0)
 
 
 def rigid_sets(model, interfaces):

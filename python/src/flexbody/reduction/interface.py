@@ -44,8 +44,9 @@ class InterfaceRows:
     rotation: sparse matrix [3, dofs], or None where the nodes lie on a line.
     """
 
-    def __init__(self, name, interface, nodes, columns, units):
-        """nodes [p, 3] in m, columns: degree of freedom of each node's components [p, 6], -1 where there is none."""
+    def __init__(self, name, interface, model):
+        """interface: an `Interface`; model: a `ScaledModel`."""
+        nodes, columns, units = model.nodes, model.columns, model.units
         if not re.fullmatch(r"[A-Za-z0-9_]+", name) or name in RESERVED:
             raise Error(
                 f"interfaces: expected a name of letters, digits and underscores, not {' or '.join(RESERVED)}, "
@@ -70,7 +71,7 @@ class InterfaceRows:
                 f"{where}.nodes: expected nodes with three translations, found node "
                 f"{self.nodes[(own[:, :3] < 0).any(1)][0]} without"
             )
-        size = int(columns.max()) + 1
+        size = model.size
         self.translation = _selected(own, np.multiply.outer(weights, np.eye(3)), size)
         self.rotation = self._rotation(points - mean, weights, own, size)
         arm = self.position - mean

@@ -20,7 +20,7 @@ class FiniteElementModel:
     nodes: coordinates [nodes, 3].
     dofs: node (from 0) and component of each degree of freedom [dofs, 2]: components 0, 1, 2 are translations along x,
         y, z and 3, 4, 5 rotations about them. If it is not given, each node has three translations, one node after the
-        other.
+        other. A row (-1, -1) is the amplitude of an inner mode of a superelement, zero in rigid motions.
     labels: number of each node in the program that the model comes from [nodes], if there are such numbers.
     units: consistent unit system, such as `mm-t-s`.
     source: where the model comes from, as text for the container.
@@ -41,14 +41,7 @@ class FiniteElementModel:
 
         Returns indices from 0. Raises `flexbody.Error` if a number is unknown.
         """
-        if self.labels is None:
-            raise Error("labels: expected a model with numbers of nodes, found one without")
-        known = {int(label): index for index, label in enumerate(self.labels)}
-        wanted = [int(label) for label in np.atleast_1d(labels)]
-        missing = [label for label in wanted if label not in known]
-        if missing:
-            raise Error(f"labels: expected numbers of nodes of the model, found {missing[:5]}")
-        return np.array([known[label] for label in wanted])
+        return node_numbers(self.labels, labels)
 
     def reduce(self, interfaces, **options):
         """Reduces the model: calls `flexbody.reduce` with its matrices, nodes, degrees of freedom, units and source."""
@@ -56,6 +49,21 @@ class FiniteElementModel:
 
         given = {"dofs": self.dofs, "units": self.units, "source": self.source}
         return reduce(self.mass, self.stiffness, self.nodes, interfaces, **{**given, **options})
+
+
+def node_numbers(known, labels):
+    """Indices of nodes by their numbers: `known` are those of all nodes, or None.
+
+    Raises `flexbody.Error` if a number is unknown.
+    """
+    if known is None:
+        raise Error("labels: expected a model with numbers of nodes, found one without")
+    places = {int(label): index for index, label in enumerate(known)}
+    wanted = [int(label) for label in np.atleast_1d(labels)]
+    missing = [label for label in wanted if label not in places]
+    if missing:
+        raise Error(f"labels: expected numbers of nodes of the model, found {missing[:5]}")
+    return np.array([places[label] for label in wanted])
 
 
 @dataclass
@@ -83,15 +91,21 @@ class ScaledModel:
         """Number of degrees of freedom."""
         return len(self.dofs)
 
+    @property
+    def inner_modes(self):
+        """Number of degrees of freedom that are amplitudes of inner modes of a superelement."""
+        return int((self.dofs[:, 0] < 0).sum())
+
     def rigid_motions(self, centre):
         """Displacements [dofs, 6] of unit translations along the axes and unit rotations about them through a point."""
         motions = np.zeros((self.size, 6))
         arms = self.nodes - centre
         for axis in range(3):
-            moved = np.zeros((len(self.nodes), 6))
+            # The last column is that of inner modes.
+            moved = np.zeros((len(self.nodes), 7))
             moved[:, axis] = 1
             motions[:, axis] = moved[self.dofs[:, 0], self.dofs[:, 1]]
-            moved = np.zeros((len(self.nodes), 6))
+            moved = np.zeros((len(self.nodes), 7))
             moved[:, :3] = arms @ cross_matrix(np.eye(3)[axis]).T
             moved[:, 3 + axis] = 1
             motions[:, 3 + axis] = moved[self.dofs[:, 0], self.dofs[:, 1]]
@@ -112,7 +126,7 @@ class ScaledModel:
                 gradient[:, second] += arms[:, first]
                 for axis in np.eye(3):
                     moved = np.outer(arms[:, first] * arms[:, second], axis)
-                    moved = np.hstack([moved, np.cross(gradient, axis) / (2 * size)])
+                    moved = np.hstack([moved, np.cross(gradient, axis) / (2 * size), np.zeros((len(moved), 1))])
                     fields.append(moved[self.dofs[:, 0], self.dofs[:, 1]])
         return np.column_stack(fields)
 
@@ -146,7 +160,8 @@ def scaled_model(mass, stiffness, nodes, dofs, units):
         raise Error(f"stiffness: expected the shape of the mass {list(mass.shape)}, found {list(stiffness.shape)}")
     dofs = _dofs(dofs, size, len(nodes))
     columns = np.full((len(nodes), 6), -1, dtype=np.int64)
-    columns[dofs[:, 0], dofs[:, 1]] = np.arange(size)
+    nodal = np.flatnonzero(dofs[:, 0] >= 0)
+    columns[dofs[nodal, 0], dofs[nodal, 1]] = nodal
     to_model = np.where(dofs[:, 1] < 3, 1 / units.length, 1.0)
     scale = sparse.diags_array(to_model)
     return ScaledModel(
@@ -194,10 +209,13 @@ def _dofs(dofs, size, count):
     dofs = np.asarray(dofs)
     if dofs.shape != (size, 2) or dofs.dtype.kind not in "iu":
         raise Error(f"dofs: expected integers of shape [{size}, 2] (node, component), found shape {list(dofs.shape)}")
+    nodal = dofs[~(dofs == -1).all(axis=1)]
+    if not len(nodal):
+        raise Error("dofs: expected degrees of freedom of nodes, found none")
     for column, limit, what in [(0, count, "nodes"), (1, 6, "components")]:
-        least, largest = dofs[:, column].min(), dofs[:, column].max()
+        least, largest = nodal[:, column].min(), nodal[:, column].max()
         if least < 0 or largest >= limit:
             raise Error(f"dofs: expected {what} from 0 to {limit - 1}, found {least} to {largest}")
-    if len(np.unique(dofs, axis=0)) != size:
+    if len(np.unique(nodal, axis=0)) != len(nodal):
         raise Error("dofs: expected each component of each node once, found one twice")
     return dofs.astype(np.int64)

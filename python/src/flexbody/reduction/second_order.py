@@ -63,7 +63,8 @@ class QuadraticForces:
     def _scale(self, mode):
         """Amplitude at which the largest translation of a mode is small against the size of the body."""
         size = np.ptp(self.model.nodes, axis=0).max()
-        largest = np.abs(mode[self.model.dofs[:, 1] < 3]).max()
+        components = self.model.dofs[:, 1]
+        largest = np.abs(mode[(components >= 0) & (components < 3)]).max()
         return self.amplitude * size / largest
 
     def _square(self, mode):
