@@ -1,7 +1,8 @@
-"""Readers of finite element models. Each returns a `FiniteElementModel`."""
+"""Readers of finite element models. Most return a `FiniteElementModel`, each says what."""
 
 from flexbody.reduction.readers.abaqus import read_abaqus
 from flexbody.reduction.readers.calculix import read_calculix
 from flexbody.reduction.readers.matrix_market import read_matrix_market
+from flexbody.reduction.readers.nastran import read_nastran, read_nastran_modes
 
-__all__ = ["read_abaqus", "read_calculix", "read_matrix_market"]
+__all__ = ["read_abaqus", "read_calculix", "read_matrix_market", "read_nastran", "read_nastran_modes"]
