@@ -11,9 +11,9 @@ from skfem import Basis, ElementHex1, ElementVector, MeshHex
 FREE_ROD = np.array([4.730040745, 7.853204624, 10.995607838, 14.137165491, 17.278759657, 20.420352251])
 
 
-def block():
+def block(elements=3):
     """A small solid away from the origin, with three degrees of freedom a node, one node after the other."""
-    sides = np.linspace(0, 0.18, 4), np.linspace(0, 0.03, 2), np.linspace(0, 0.01, 2)
+    sides = np.linspace(0, 0.06 * elements, elements + 1), np.linspace(0, 0.03, 2), np.linspace(0, 0.01, 2)
     mesh = MeshHex.init_tensor(*sides).translated((0.1, -0.2, 0.05))
     solid = Solid(Basis(mesh, ElementVector(ElementHex1())), youngs_modulus=2.1e11, poissons_ratio=0.3, density=7850)
     order = np.lexsort((solid.model.dofs[:, 1], solid.model.dofs[:, 0]))

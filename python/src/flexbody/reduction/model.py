@@ -24,6 +24,8 @@ class FiniteElementModel:
     labels: number of each node in the program that the model comes from [nodes], if there are such numbers.
     units: consistent unit system, such as `mm-t-s`.
     source: where the model comes from, as text for the container.
+    triangles: surface as indices of nodes [triangles, 3], for pictures, or None.
+    interfaces: node sets of the model by name, each an `Interface`; they are there to choose from.
     """
 
     mass: object
@@ -33,6 +35,8 @@ class FiniteElementModel:
     labels: object = None
     units: str = "m-kg-s"
     source: str = ""
+    triangles: object = None
+    interfaces: dict = field(default_factory=dict)
 
     def indices(self, labels):
         """Finds nodes by their numbers in the program that the model comes from.
@@ -44,10 +48,10 @@ class FiniteElementModel:
         return node_numbers(self.labels, labels)
 
     def reduce(self, interfaces, **options):
-        """Reduces the model: calls `flexbody.reduce` with its matrices, nodes, degrees of freedom, units and source."""
+        """Reduces the model: calls `flexbody.reduce` with its matrices, nodes, dofs, units, source and triangles."""
         from flexbody.reduction.craig_bampton import reduce
 
-        given = {"dofs": self.dofs, "units": self.units, "source": self.source}
+        given = {"dofs": self.dofs, "units": self.units, "source": self.source, "triangles": self.triangles}
         return reduce(self.mass, self.stiffness, self.nodes, interfaces, **{**given, **options})
 
 
