@@ -5,6 +5,7 @@ from flexbody.reduction.readers.calculix import read_calculix
 from flexbody.reduction.readers.exudyn import read_exudyn, read_exudyn_modes
 from flexbody.reduction.readers.matrix_market import read_matrix_market
 from flexbody.reduction.readers.nastran import read_nastran, read_nastran_modes
+from flexbody.reduction.readers.sid_fem import read_sid_fem
 
 __all__ = [
     "read_abaqus",
@@ -14,4 +15,5 @@ __all__ = [
     "read_matrix_market",
     "read_nastran",
     "read_nastran_modes",
+    "read_sid_fem",
 ]
