@@ -360,6 +360,27 @@ def test_fewer_modes_are_those_of_a_smaller_basis(block):
         assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
 
 
+def test_nodes_without_rotary_inertia_are_condensed():
+    """A bent frame of two rods with masses at its nodes only, as most programs lump them; the reference condenses."""
+    rod = beam(5)
+    turn = sparse.kron(sparse.eye_array(12), [[0, -1, 0], [1, 0, 0], [0, 0, 1]]).tocsc()
+    corner = rod.nodes[-1]
+    across = rod.nodes[1:] @ np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).T + corner
+    nodes = np.vstack([rod.nodes, across])
+    stiffness = np.zeros((66, 66))
+    stiffness[:36, :36] += rod.stiffness.toarray()
+    stiffness[30:, 30:] += (turn @ rod.stiffness @ turn.T).toarray()
+    dofs = np.array([(node, component) for node in range(11) for component in range(6)])
+    masses = np.where(np.isin(np.arange(11), [0, 10]), 0.5, 1.0)[dofs[:, 0]] * (dofs[:, 1] < 3)
+    body = flexbody.reduce(sparse.diags_array(masses), stiffness, nodes, NOTHING, dofs=dofs, modes=27)
+    heavy, light = np.flatnonzero(masses), np.flatnonzero(masses == 0)
+    inner = np.linalg.solve(stiffness[np.ix_(light, light)], stiffness[np.ix_(light, heavy)])
+    condensed = stiffness[np.ix_(heavy, heavy)] - stiffness[np.ix_(heavy, light)] @ inner
+    expected = np.sqrt(scipy.linalg.eigvalsh(condensed, np.diag(masses[heavy]))[6:]) / (2 * np.pi)
+    assert len(body.frequencies) == len(expected)
+    assert body.frequencies == pytest.approx(expected, rel=1e-8)
+
+
 def test_modes_in_other_units_make_the_same_body(block):
     """Modes of any size, with rigid ones among them, in millimetres, kilograms and milliseconds."""
     mass, stiffness = with_rows_of_nodes(block.model)

@@ -174,7 +174,14 @@ class ElasticModel:
     def _held_dense(self, rows):
         """All modes with held rows of a small model, in order of frequency."""
         free = scipy.linalg.null_space(rows.toarray()) if rows.shape[0] else np.eye(self.mass.shape[0])
-        _, vectors = scipy.linalg.eigh(free.T @ (self.stiffness @ free), free.T @ (self.mass @ free))
+        stiffness, mass = free.T @ (self.stiffness @ free), free.T @ (self.mass @ free)
+        if self.mass.diagonal().min() > 0:
+            _, vectors = scipy.linalg.eigh(stiffness, mass)
+        else:
+            # Nodes of lumped masses have no rotary inertia: the inverse problem has a positive matrix.
+            values, vectors = scipy.linalg.eigh(mass, stiffness + self.shift * mass)
+            kept = values > ROUNDOFF * values[-1]
+            vectors = (vectors[:, kept] / np.sqrt(values[kept]))[:, ::-1]
         return free @ vectors
 
     def orthonormal(self, shapes, dependent=DEPENDENT):
