@@ -36,6 +36,9 @@ const MASTERS: PinnedPackages = pinned("tests/masters/requirements.txt", "python
 /// Environment of the Python package and of the generator of its models. It is separate, so that no picture needs a
 /// cluster.
 const OWN: PinnedPackages = pinned("tests/python/requirements.txt", "python-own");
+/// Environment of the readers of finite element models that need packages of other programs. It is separate, because one of
+/// them needs an older numpy.
+const READERS: PinnedPackages = pinned("tests/python/readers.txt", "python-readers");
 /// Environment of the references of random scenes. It is separate, so that no picture needs it.
 const PLANS: PinnedPackages = pinned("tests/plans/requirements.txt", "python-plans");
 /// The linker of libraries; apart, so that what needs no library does not need it.
@@ -100,6 +103,14 @@ impl Python {
     /// Python or a package cannot be installed.
     pub fn prepare_own(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, OWN)
+    }
+
+    /// Prepares the environment of readers of finite element models.
+    ///
+    /// # Errors
+    /// Python or a package cannot be installed.
+    pub fn prepare_readers(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, READERS)
     }
 
     /// Prepares the environment of plans that are compared with references.

@@ -57,7 +57,7 @@ const fn always(name: &'static str, run: fn(&Workspace, bool) -> Result<Outcome>
 }
 
 /// The checks in order.
-const CHECKS: [Check; 14] = [
+const CHECKS: [Check; 15] = [
     always("formatting", |workspace, _| formatting(workspace)),
     always("clippy", |workspace, _| clippy(workspace)),
     always("dependencies", |workspace, _| dependencies(workspace)),
@@ -87,6 +87,11 @@ const CHECKS: [Check; 14] = [
             "tests/masters",
         ],
         run: master_tests,
+    },
+    Check {
+        name: "readers of finite element models",
+        folders: &["python/src/flexbody/reduction", "tests/python"],
+        run: reader_tests,
     },
     Check {
         name: "model descriptions under fmi-rs",
@@ -284,6 +289,13 @@ fn fmpy_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
 fn package_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
     let python = Python::prepare_own(workspace)?;
     run(&mut pytest(&python, workspace, "tests/python", all)?).map(passed)
+}
+
+/// Tests of readers that need packages of other programs. The tests of the package skip them.
+fn reader_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
+    let python = Python::prepare_readers(workspace)?;
+    let mut tests = pytest(&python, workspace, "tests/python/test_nastran.py", all)?;
+    run(tests.arg(workspace.path("tests/python/test_exudyn.py"))).map(passed)
 }
 
 /// One scene after the other: what a plan may take is measured.

@@ -198,7 +198,7 @@ def _natural(with_rigid, modal_mass, stiffness):
     if not least > LEAST_MASS * np.abs(with_rigid).max():
         raise Error(
             f"modes: expected a positive mass of body and modes together, found the eigenvalue {least:.3g} of the "
-            f"modes without rigid motions, beside {np.abs(with_rigid).max():.3g} with them: is a mode rigid, or are the "
+            f"modes without rigid motions, beside {np.abs(with_rigid).max():.3g} with them: is a mode rigid, or are "
             f"integrals of modes less exact than their mass, such as sums over few nodes?"
         )
     values, vectors = scipy.linalg.eigh(stiffness, modal_mass)

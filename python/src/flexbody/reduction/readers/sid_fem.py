@@ -69,10 +69,10 @@ def read_sid_fem(path, interfaces, *, units="m-kg-s"):
     units: consistent unit system of the file.
 
     Returns a `ReducedBody`: frame and modes are changed to mean axes at the centre of mass and natural modes of the
-    free body, whatever frame the file has. Where the file has geometric stiffness (`phi` of order 1, or stiffening parts of
-    `Ct` or `Cr`), interfaces have second-order displacements. Stiffening in `Oe` is part of `inertia_2` either way.
-    Cubic terms of the strain energy are not in such files, and are zero. Damping (`De`), rotations to second order and
-    stress (`sigma`) are left out: scenes give `damping_ratio`.
+    free body, whatever frame the file has. Where the file has geometric stiffness (`phi` of order 1, or stiffening
+    parts of `Ct` or `Cr`), interfaces have second-order displacements. Stiffening in `Oe` is part of `inertia_2` either
+    way. Cubic terms of the strain energy are not in such files, and are zero. Damping (`De`), rotations to second order
+    and stress (`sigma`) are left out: scenes give `damping_ratio`.
 
     Raises `flexbody.Error` if the file is not of this format, lacks a matrix, has initial stresses, or has integrals
     that contradict each other.
