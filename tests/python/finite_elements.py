@@ -64,3 +64,17 @@ def beam(elements, length=1.3, modulus=2e11, density=7800.0, width=0.02, height=
     nodes[:, 0] = np.linspace(0, length, elements + 1)
     dofs = np.array([(node, component) for node in range(elements + 1) for component in range(6)])
     return FiniteElementModel(mass.tocsc(), stiffness.tocsc(), nodes, dofs)
+
+
+def bent_frame():
+    """Two rods at a right angle with masses at their nodes only, as most programs lump them."""
+    rod = beam(5)
+    quarter = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    turn = sparse.kron(sparse.eye_array(12), quarter).tocsc()
+    stiffness = np.zeros((66, 66))
+    stiffness[:36, :36] += rod.stiffness.toarray()
+    stiffness[30:, 30:] += (turn @ rod.stiffness @ turn.T).toarray()
+    nodes = np.vstack([rod.nodes, rod.nodes[1:] @ quarter.T + rod.nodes[-1]])
+    dofs = np.array([(node, component) for node in range(11) for component in range(6)])
+    masses = np.where(np.isin(np.arange(11), [0, 10]), 0.5, 1.0)[dofs[:, 0]] * (dofs[:, 1] < 3)
+    return FiniteElementModel(sparse.diags_array(masses).tocsc(), sparse.csc_array(stiffness), nodes, dofs)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 import scipy.sparse as sparse
-from finite_elements import FREE_ROD, beam, block, free_frequencies
+from finite_elements import FREE_ROD, beam, bent_frame, block, free_frequencies
 from flexbody.reduction import FiniteElementModel, Interface
 from flexbody.reduction.readers import read_nastran, read_nastran_modes
 
@@ -313,6 +313,27 @@ def test_modes_of_op2_make_the_same_body(tmp_path, systems, table):
     wanted = expected.interfaces["last"].modes
     assert body.interfaces["last"].modes == pytest.approx(wanted, abs=1e-5 * np.abs(wanted).max())
     assert found.reduce(corner, modes=3).frequencies == pytest.approx(expected.frequencies[:3], rel=2e-7)
+
+
+def test_rotations_without_mass_are_part_of_modes(tmp_path):
+    """Lumped masses: the mass has no rows of rotations, and an interface of one node has its rotation all the same."""
+    frame = bent_frame()
+    # The inverse problem: the mass is singular.
+    shift = 1e3
+    values, shapes = scipy.linalg.eigh(frame.mass.toarray(), (frame.stiffness + shift * frame.mass).toarray())
+    values, shapes = 1 / values[:-13:-1] - shift, shapes[:, :-13:-1]
+    modes = write_modes(tmp_path / "frame.op2", frame, values, shapes, [1, 2])
+    order = [number(node) for node in range(len(frame.nodes))]
+    mass, _ = all_directions(frame, order)
+    write_binary_op4(tmp_path / "frame.op4", {"MGG": mass.toarray()})
+    bulk = write_bulk(tmp_path / "frame.bdf", frame, [1, 2])
+    end = {"end": Interface([0], held="nothing")}
+    found = read_nastran_modes(modes, bulk, matrices=tmp_path / "frame.op4", units="m-kg-s").reduce(end)
+    expected = frame.reduce(end, modes=6)
+    assert found.frequencies == pytest.approx(expected.frequencies, rel=1e-5)
+    signs = np.sign(np.einsum("ak,ak->k", found.interfaces["end"].modes, expected.interfaces["end"].modes))
+    wanted = expected.interfaces["end"].rotation
+    assert found.interfaces["end"].rotation * signs == pytest.approx(wanted, abs=1e-4 * np.abs(wanted).max())
 
 
 def test_modes_that_are_not_those_of_the_free_body_are_refused(tmp_path):

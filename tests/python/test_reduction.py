@@ -12,7 +12,7 @@ import safetensors.numpy
 import scipy.linalg
 import scipy.sparse as sparse
 from conftest import ROOT
-from finite_elements import beam, tensor
+from finite_elements import beam, bent_frame, tensor
 from flexbody.reduction import Interface, ModalModel, ReducedBody
 from flexbody.reduction.readers.scikit_fem import Solid
 from skfem import Basis, ElementHex2, ElementVector, MeshHex
@@ -361,24 +361,17 @@ def test_fewer_modes_are_those_of_a_smaller_basis(block):
 
 
 def test_nodes_without_rotary_inertia_are_condensed():
-    """A bent frame of two rods with masses at its nodes only, as most programs lump them; the reference condenses."""
-    rod = beam(5)
-    turn = sparse.kron(sparse.eye_array(12), [[0, -1, 0], [1, 0, 0], [0, 0, 1]]).tocsc()
-    corner = rod.nodes[-1]
-    across = rod.nodes[1:] @ np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).T + corner
-    nodes = np.vstack([rod.nodes, across])
-    stiffness = np.zeros((66, 66))
-    stiffness[:36, :36] += rod.stiffness.toarray()
-    stiffness[30:, 30:] += (turn @ rod.stiffness @ turn.T).toarray()
-    dofs = np.array([(node, component) for node in range(11) for component in range(6)])
-    masses = np.where(np.isin(np.arange(11), [0, 10]), 0.5, 1.0)[dofs[:, 0]] * (dofs[:, 1] < 3)
-    body = flexbody.reduce(sparse.diags_array(masses), stiffness, nodes, NOTHING, dofs=dofs, modes=27)
+    """The reference condenses the rotations of a frame whose masses are lumped."""
+    frame = bent_frame()
+    body = frame.reduce(NOTHING, modes=27)
+    masses, stiffness = frame.mass.diagonal(), frame.stiffness.toarray()
     heavy, light = np.flatnonzero(masses), np.flatnonzero(masses == 0)
     inner = np.linalg.solve(stiffness[np.ix_(light, light)], stiffness[np.ix_(light, heavy)])
     condensed = stiffness[np.ix_(heavy, heavy)] - stiffness[np.ix_(heavy, light)] @ inner
     expected = np.sqrt(scipy.linalg.eigvalsh(condensed, np.diag(masses[heavy]))[6:]) / (2 * np.pi)
     assert len(body.frequencies) == len(expected)
     assert body.frequencies == pytest.approx(expected, rel=1e-8)
+    assert frame.reduce(NOTHING, modes=5).frequencies == pytest.approx(expected[:5], rel=1e-8)
 
 
 def test_modes_in_other_units_make_the_same_body(block):
@@ -396,6 +389,15 @@ def test_modes_in_other_units_make_the_same_body(block):
         assert np.asarray(getattr(body, part)) == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max()), part
     wanted = expected.interfaces["first"].modes
     assert body.interfaces["first"].modes == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+    # Rotations of nodes have no unit.
+    frame = bent_frame()
+    reduced = frame.reduce(NOTHING, modes=5)
+    shapes = reduced.shapes * np.where(frame.dofs[:, 1] < 3, 1e3, 1.0)[:, None]
+    values = reduced.eigenvalues * 1e-6
+    again = ModalModel(frame.mass, shapes, values, frame.nodes * 1e3, frame.dofs, units="mm-kg-ms").reduce(NOTHING)
+    for part in ("modes", "rotation"):
+        wanted = getattr(reduced.interfaces["first"], part)
+        assert getattr(again.interfaces["first"], part) == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
     with pytest.raises(
         flexbody.Error, match="expected displacements of shape .* and as many eigenvalues, found shapes"
     ):

@@ -78,7 +78,7 @@ def read_nastran(bulk, *, units, matrices=None, mass=None, stiffness=None, dofs=
         pairs = _rows(bulk, dofs)
         found = [_op4_matrix(matrices, name, len(pairs)) for name in names]
     _warn_of_equations(bulk, names)
-    return _model(bulk, where, pairs, found, units)
+    return _model(bulk, where, pairs, found, _loaded(found), units)
 
 
 def read_nastran_modes(modes, bulk, *, units, matrices=None, mass=None, dofs=None, subcase=None):
@@ -98,11 +98,13 @@ def read_nastran_modes(modes, bulk, *, units, matrices=None, mass=None, dofs=Non
         pairs = _rows(bulk, dofs)
         found = _op4_matrix(matrices, name, len(pairs))
     table = _eigenvectors(modes, subcase)
-    model = _model(bulk, _listed(modes), pairs, [found, found], units)
-    shapes = _shapes(modes, table, model, bulk.axes)
+    shapes = _shapes(modes, table, pairs, _loaded([found]), bulk.axes)
+    # Lumped masses have no rotary inertia, but interfaces read rotations.
+    used = _loaded([found]) | (np.abs(shapes).max(axis=1) > 0)
+    model = _model(bulk, _listed(modes), pairs, [found, found], used, units)
     return ModalModel(
         mass=model.mass,
-        modes=shapes,
+        modes=shapes[used],
         eigenvalues=np.asarray(table.eigns, float),
         nodes=model.nodes,
         dofs=model.dofs,
@@ -272,12 +274,18 @@ def _op4_matrix(paths, name, size):
     raise Error(f"{_listed(paths)}: expected the matrix {name}, found {', '.join(sorted(known)) or 'none'}")
 
 
-def _model(bulk, where, pairs, matrices, units):
-    """Matrices in the axes of the basic system as a `FiniteElementModel`: mass, then stiffness."""
-    matrices = [_turned(bulk, pairs, matrix) for matrix in matrices]
-    used = sum(abs(matrix) @ np.ones(len(pairs)) for matrix in matrices) > 0
+def _loaded(matrices):
+    """Rows that have an entry in one of the matrices [rows]."""
+    return sum(abs(matrix) @ np.ones(matrix.shape[0]) for matrix in matrices) > 0
+
+
+def _model(bulk, where, pairs, matrices, used, units):
+    """Matrices in the axes of the basic system as a `FiniteElementModel`: mass, then stiffness; rows that are used."""
+    turn = _to_basic(bulk.axes, pairs[used])
     pairs = pairs[used]
     matrices = [matrix[used][:, used].tocsc() for matrix in matrices]
+    if turn is not None:
+        matrices = [(turn @ matrix @ turn.T).tocsc() for matrix in matrices]
     inner = pairs[:, 1] == 0
     missing = sorted(set(pairs[~inner, 0].tolist()) - set(bulk.nodes))
     if missing:
@@ -305,12 +313,6 @@ def _model(bulk, where, pairs, matrices, units):
         units=units,
         source=f"Nastran: {where}",
     )
-
-
-def _turned(bulk, pairs, matrix):
-    """A matrix with displacements along the axes of the basic system."""
-    turn = _to_basic(bulk.axes, pairs)
-    return matrix if turn is None else (turn @ matrix @ turn.T).tocsc()
 
 
 def _to_basic(axes, pairs):
@@ -356,23 +358,34 @@ def _eigenvectors(path, subcase):
     return tables[subcase]
 
 
-def _shapes(path, table, model, axes):
-    """Modes [dofs, modes] along the axes of the basic system."""
-    places = {int(number): place for place, number in enumerate(table.node_gridtype[:, 0])}
-    missing = [int(label) for label in model.labels if int(label) not in places]
+def _shapes(path, table, pairs, heavy, axes):
+    """Modes [rows, modes] along the axes of the basic system; zero where the table has no such point.
+
+    heavy: rows that have mass [rows].
+    """
+    numbers = table.node_gridtype[:, 0]
+    known = np.isin(pairs[:, 0], numbers)
+    missing = np.unique(pairs[heavy & ~known, 0]).tolist()
     if missing:
-        raise Error(f"{path}: expected modes of all nodes with mass; {len(missing)} are missing, such as {missing[:3]}")
-    data = np.asarray(table.data, float)[:, [places[int(label)] for label in model.labels]]
-    # Tables whose names begin with B are along the axes of the basic system.
-    is_basic = table.table_name_str.startswith("B")
-    for index, label in enumerate(model.labels):
-        turn = axes.get(int(label))
-        if turn is not None and not is_basic:
-            data[:, index, :3] = data[:, index, :3] @ turn.T
-            data[:, index, 3:] = data[:, index, 3:] @ turn.T
-    if (model.dofs < 0).any():
+        raise Error(
+            f"{path}: expected modes of all points with mass; {len(missing)} are missing, such as {missing[:3]}"
+        )
+    if (heavy & (pairs[:, 1] == 0)).any():
         raise Error(f"{path}: expected modes of nodes, found scalar points with mass")
-    return data[:, model.dofs[:, 0], model.dofs[:, 1]].T
+    data = np.array(table.data, float)
+    # Tables whose names begin with B are along the axes of the basic system.
+    if not table.table_name_str.startswith("B"):
+        for place, number in enumerate(numbers.tolist()):
+            turn = axes.get(number)
+            if turn is not None:
+                data[:, place, :3] = data[:, place, :3] @ turn.T
+                data[:, place, 3:] = data[:, place, 3:] @ turn.T
+    rows = np.flatnonzero(known & (pairs[:, 1] > 0))
+    order = np.argsort(numbers)
+    places = order[np.searchsorted(numbers, pairs[rows, 0], sorter=order)]
+    shapes = np.zeros((len(pairs), len(data)))
+    shapes[rows] = data[:, places, pairs[rows, 1] - 1].T
+    return shapes
 
 
 def _warn_of_equations(bulk, names):
