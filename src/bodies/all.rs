@@ -156,6 +156,13 @@ impl<const D: usize> Bodies<D> {
         &self.reduced
     }
 
+    /// A marker at the mean axes of a reduced body, by its place among all bodies; none of another one.
+    pub fn mean_axes(&self, body: usize) -> Option<Marker> {
+        let node = self.ranges.get(body)?.start;
+        let is_reduced = self.reduced.iter().any(|body| body.frame.node == node);
+        is_reduced.then(|| Marker::framed(body, node, [0.0; 3], [1.0, 0.0, 0.0]))
+    }
+
     /// The body with this first node. Bodies stand in the order of their nodes.
     pub fn body_from(&self, first: usize) -> Option<usize> {
         let start = |nodes: &Range<usize>| nodes.start;

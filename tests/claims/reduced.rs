@@ -258,6 +258,37 @@ fn a_gauge_reads_the_same_in_any_basis() -> Result<(), String> {
     Ok(())
 }
 
+/// The deflection of the clamped strip from its root is the way of its tip, in axes of the scene; from the mean axes it is that way less what these
+/// rotate and move: of a shape `x^2 (6 L^2 - 4 L x + x^2)` about, the tip is farther from the mean than the middle.
+#[test]
+fn a_strip_deflects_from_its_root_and_from_mean_axes() -> Result<(), String> {
+    let mut scene = strip(&json!({}));
+    scene["gravity"] = json!([0, 0, -0.981]);
+    scene["joints"] =
+        json!([{"name": "wall", "kind": "weld", "markers": ["ground", "strip.root"]}]);
+    scene["initial"] = json!({"state": "static_equilibrium"});
+    scene["outputs"] = json!([{"kind": "position", "marker": "strip.tip"},
+        {"kind": "deflection", "marker": "strip.tip", "from": "strip.root"},
+        {"kind": "deflection", "marker": "strip.tip"}, {"kind": "deflection", "marker": "strip.root"}]);
+    let mut run = Run::new(&scene)?;
+    let fallen = run.value("strip.tip.position[3]")?;
+    // w L^4 / (8 E I) of a strip of 30 x 3 mm.
+    let exact = -7850.0 * 0.03 * 0.003 * 0.981 * LENGTH.powi(4)
+        / (8.0 * 2.1e11 * 0.03 * 0.003_f64.powi(3) / 12.0);
+    near(fallen, exact, 0.01 * exact.abs());
+    near(
+        run.value("strip.tip.deflection_from_root[3]")?,
+        fallen,
+        1e-9,
+    );
+    let [tip, root] = ["tip", "root"].map(|of| run.value(&format!("strip.{of}.deflection[3]")));
+    let (tip, root) = (tip?, root?);
+    // Ends bend to one side of the line that fits best, which passes 0.6 and 0.9 of the length.
+    assert!(tip < 0.0 && root < 0.0, "{tip} {root}");
+    assert!(tip.abs() < 0.2 * fallen.abs(), "{tip} {fallen}");
+    Ok(())
+}
+
 /// `critically_damped`: with both ends held the strip has static shapes, which answer to loads without ringing where that is said.
 #[test]
 fn static_shapes_of_a_strip_answer() -> Result<(), String> {

@@ -655,16 +655,19 @@ class Method(Part):
     """
 
 
-Model = TypeAliasType("Model", Literal["auto", "flexible", "rigid"])
+Model = TypeAliasType("Model", Literal["auto", "flexible", "rigid", "modal"])
 """
 Whether a cable bends and stretches.
 
-- `auto`: Flexible, unless its number of elements is left to the planner, which finds that this changes no output by more than
-the error wanted: then it says `rigid` here.
+- `auto`: Flexible, unless its number of elements is left to the planner, which finds that another model changes no output by more than
+the error wanted: then it says `rigid` or `modal` here.
 - `flexible`: Flexible.
 - `rigid`: Rigid: a rod, uniform along its length. In the plane, straight, and not deforming at the start. Axial
 force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
 along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
+- `modal`: Reduced to `modes`: it moves freely, and deflections are exact to second order (beyond a tenth of its length a run says so). Of
+straight rods and beams in space that are not twisted at rest. Strains, section forces and stresses are not read of it, and nothing
+acts or slides along it but gravity. Static shapes far above the natural modes are critically damped. Elements have no effect.
 """
 
 
@@ -841,12 +844,13 @@ class DisplacementOutput(Part):
 
 class DeflectionOutput(Part):
     """
-    Deflection of a marker of a cable, rod or beam, m: its place less where it would be if the body were rigid. The rigid body is
+    Deflection of a marker of a cable, rod, beam or reduced body, m: its place less where it would be if the body were rigid. The rigid body is
     carried by the frame at the marker `from`; without that it is the drawn body where it fits the present one best, in the mean
     of the squared distances along its length. Components are along the axes of the scene as the rigid body carries them. The frame
     at a marker is that of the section, of a cable its tangent: in space the drawn one taken to the present one by the smallest
-    rotation. The best fit of a cable that is drawn straight in space rotates by the smallest rotation too. Zero of a body whose
-    `model` is `rigid`. A winch lengthens the drawn body.
+    rotation. The best fit of a cable that is drawn straight in space rotates by the smallest rotation too. Without `from` the mean axes
+    of its modes carry a reduced body, and a rod whose `model` is `modal`. Zero of a body whose `model` is `rigid`. A winch lengthens
+    the drawn body.
     """
 
     kind: Literal["deflection"] = "deflection"
@@ -2637,6 +2641,11 @@ class Cable(Part):
     """
     Whether it bends and stretches.
     """
+    modes: Annotated[StrictInt | None, Field(ge=0)] = None
+    """
+    Natural modes of model `modal` with held interfaces, beside the static shapes of the markers that joints, motions, loads and ports act
+    on; 0 takes the static shapes alone.
+    """
     motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
     """
     Rigid motion at the start; velocity of the first end.
@@ -2697,6 +2706,11 @@ class Rod(Part):
     """
     Whether it bends and stretches.
     """
+    modes: Annotated[StrictInt | None, Field(ge=0)] = None
+    """
+    Natural modes of model `modal` with held interfaces, beside the static shapes of the markers that joints, motions, loads and ports act
+    on; 0 takes the static shapes alone.
+    """
     motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
     """
     Rigid motion at the start; velocity of the first end.
@@ -2755,6 +2769,11 @@ class Beam(Part):
     model: Model = "auto"
     """
     Whether it bends and stretches.
+    """
+    modes: Annotated[StrictInt | None, Field(ge=0)] = None
+    """
+    Natural modes of model `modal` with held interfaces, beside the static shapes of the markers that joints, motions, loads and ports act
+    on; 0 takes the static shapes alone.
     """
     motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
     """
@@ -2816,6 +2835,11 @@ class AutoBody(Part):
     model: Model = "auto"
     """
     Whether it bends and stretches.
+    """
+    modes: Annotated[StrictInt | None, Field(ge=0)] = None
+    """
+    Natural modes of model `modal` with held interfaces, beside the static shapes of the markers that joints, motions, loads and ports act
+    on; 0 takes the static shapes alone.
     """
     motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
     """

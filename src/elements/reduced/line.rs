@@ -3,7 +3,7 @@
 //! Strains `e` (stretch and shear) and `k` (twist and curvatures) along the axes of the sections are linear in amplitudes. A section rotates by
 //! `Q' = Q k~` and its point moves by `r' = Q (e1 + e)`, so that both follow to second order by integration from the first end:
 //! `Q = I + phi~ + W / 2`, `phi' = k`, `W_kl' = phi_k~ k_l~ + phi_l~ k_k~`, and `r_k' = phi_k x e1 + e_k`,
-//! `r_kl' = W_kl e1 + phi_k x e_l + phi_l x e_k`. The strain energy is quadratic without cubic terms. Strains are of degree 2 between nodes.
+//! `r_kl' = W_kl e1 + phi_k x e_l + phi_l x e_k`. The strain energy is quadratic without cubic terms. Strains are of degree 2 in every segment.
 //!
 //! Source: J. C. Simo, A finite strain beam formulation. The three-dimensional dynamic problem. Part I, Comput. Methods Appl. Mech. Eng. 49
 //! (1985) 55-70 (strains); T. R. Kane, R. R. Ryan, A. K. Banerjee, Dynamics of a cantilever beam attached to a moving base, J. Guid. Control
@@ -22,7 +22,7 @@ use crate::math::quadrature::{GAUSS_5, integrals_to};
 
 /// Points of a segment at which sections are read.
 const POINTS: usize = GAUSS_5.len();
-/// Numbers of a strain between two nodes: its values at both and in the middle.
+/// Numbers of a strain in a segment: its values at both ends and in the middle.
 const SHAPES: usize = 3;
 /// Part of the largest square of a period below which modes are left out: roundoff.
 const FASTEST: f64 = 1e-12;
@@ -41,17 +41,17 @@ pub struct LineSection {
 /// A straight line of sections, along the first of its axes, from its first end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightLine {
-    /// Places of its nodes, ascending from 0, m.
-    pub nodes: Vec<f64>,
-    /// Sections at the points of [`GAUSS_5`] between neighbouring nodes.
+    /// Places of the ends of its segments, ascending from 0, m.
+    pub ends: Vec<f64>,
+    /// Sections at the points of [`GAUSS_5`] of every segment.
     pub sections: Vec<[LineSection; POINTS]>,
     /// Strains that are not held, by their places among six: without 1 and 2 sections stay across the line.
     pub strains: &'static [usize],
-    /// Names of its markers and the nodes that they are at.
+    /// Names of its markers and the ends of segments that they are at.
     pub markers: Vec<(String, usize)>,
 }
 
-/// A straight line reduced to all modes that its nodes allow, from which bases are taken.
+/// A straight line reduced to all modes that its segments allow, from which bases are taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineModes {
     line: StraightLine,
@@ -61,9 +61,9 @@ pub struct LineModes {
     pub axes: Matrix3<f64>,
     /// Masses at the points of all segments.
     masses: Vec<SectionMass>,
-    /// Places of the points, and of the nodes, without deformation.
+    /// Places of the points, and of the ends of segments, without deformation.
     places: Field,
-    /// Strains of the modes, `[strains of all nodes][modes]`.
+    /// Strains of the modes, `[strains of all segments][modes]`.
     columns: DMatrix<f64>,
     /// The model without second-order terms.
     linear: ReducedModel,
@@ -85,17 +85,17 @@ struct Moved {
     by: Matrix3<f64>,
 }
 
-/// Displacements of sections at the points of all segments and at nodes.
+/// Displacements of sections at the points of all segments and at their ends.
 #[derive(Clone, Debug, PartialEq)]
 struct Field {
     points: Vec<Moved>,
-    nodes: Vec<Moved>,
+    ends: Vec<Moved>,
 }
 
 /// A field along a line.
 struct Along<const C: usize> {
     points: Vec<SMatrix<f64, 3, C>>,
-    nodes: Vec<SMatrix<f64, 3, C>>,
+    ends: Vec<SMatrix<f64, 3, C>>,
 }
 
 /// A mode: strains, rotations and the field against the first end, and against mean axes.
@@ -161,7 +161,7 @@ impl Field {
     fn map(&self, of: impl Fn(&Moved) -> Moved) -> Self {
         Self {
             points: self.points.iter().map(&of).collect(),
-            nodes: self.nodes.iter().map(&of).collect(),
+            ends: self.ends.iter().map(&of).collect(),
         }
     }
 
@@ -170,22 +170,22 @@ impl Field {
             |a: &[Moved], b: &[Moved]| a.iter().zip(b).map(|(a, b)| *a + *b * factor).collect();
         Self {
             points: sum(&self.points, &other.points),
-            nodes: sum(&self.nodes, &other.nodes),
+            ends: sum(&self.ends, &other.ends),
         }
     }
 
     fn of(at: &Along<1>, by: impl Fn(usize, bool) -> Matrix3<f64>) -> Self {
-        let moved = |of: &[Vector3<f64>], is_node| {
+        let moved = |of: &[Vector3<f64>], is_end| {
             let all = of.iter().enumerate();
             all.map(|(index, at)| Moved {
                 at: *at,
-                by: by(index, is_node),
+                by: by(index, is_end),
             })
             .collect()
         };
         Self {
             points: moved(&at.points, false),
-            nodes: moved(&at.nodes, true),
+            ends: moved(&at.ends, true),
         }
     }
 }
@@ -193,7 +193,7 @@ impl Field {
 impl StraightLine {
     /// Lengths of its segments, m.
     fn lengths(&self) -> impl Iterator<Item = f64> {
-        self.nodes.windows(2).map(|ends| ends[1] - ends[0])
+        self.ends.windows(2).map(|ends| ends[1] - ends[0])
     }
 
     /// Numbers of strains that describe its deformation.
@@ -206,7 +206,7 @@ impl StraightLine {
         let mut start = SMatrix::zeros();
         let mut sums = Along {
             points: Vec::new(),
-            nodes: vec![start],
+            ends: vec![start],
         };
         for (segment, length) in self.lengths().enumerate() {
             let rates: [_; POINTS] = std::array::from_fn(|point| rates(POINTS * segment + point));
@@ -217,7 +217,7 @@ impl StraightLine {
             sums.points
                 .extend(GAUSS_5.map(|point| sum(integrals_to(point.at))));
             start = sum(GAUSS_5.map(|point| point.weight));
-            sums.nodes.push(start);
+            sums.ends.push(start);
         }
         sums
     }
@@ -366,9 +366,9 @@ impl LineModes {
         let moved = self
             .line
             .integrated(|point| rotation.points[point].cross(&Vector3::x()) + strains[point][0]);
-        let field = Field::of(&moved, |at, is_node| {
-            let of = if is_node {
-                &rotation.nodes
+        let field = Field::of(&moved, |at, is_end| {
+            let of = if is_end {
+                &rotation.ends
             } else {
                 &rotation.points
             };
@@ -414,9 +414,9 @@ impl LineModes {
                 |of: &Mode, by: &Mode| of.rotation.points[point].cross(&by.strains[point][0]);
             rotation.points[point] * Vector3::x() + stretched(a, b) + stretched(b, a)
         });
-        let field = Field::of(&moved, |at, is_node| {
-            if is_node {
-                rotation.nodes[at]
+        let field = Field::of(&moved, |at, is_end| {
+            if is_end {
+                rotation.ends[at]
             } else {
                 rotation.points[at]
             }
@@ -433,22 +433,22 @@ impl LineModes {
     fn interfaces(&self, modes: &[Mode], pairs: &[Field]) -> Vec<Interface> {
         let markers = self.line.markers.iter();
         markers
-            .map(|(name, node)| self.interface(name, *node, modes, pairs))
+            .map(|(name, end)| self.interface(name, *end, modes, pairs))
             .collect()
     }
 
-    fn interface(&self, name: &str, node: usize, modes: &[Mode], pairs: &[Field]) -> Interface {
-        let rotation = modes.iter().map(|of| rotation_of(&of.field.nodes[node].by));
+    fn interface(&self, name: &str, end: usize, modes: &[Mode], pairs: &[Field]) -> Interface {
+        let rotation = modes.iter().map(|of| rotation_of(&of.field.ends[end].by));
         Interface {
             name: name.into(),
-            position: self.places.nodes[node].at,
-            modes: modes.iter().map(|of| of.field.nodes[node].at).collect(),
+            position: self.places.ends[end].at,
+            modes: modes.iter().map(|of| of.field.ends[end].at).collect(),
             rotation: Some(rotation.collect()),
-            second: pairs.iter().map(|of| of.nodes[node].at).collect(),
+            second: pairs.iter().map(|of| of.ends[end].at).collect(),
         }
     }
 
-    /// Returns the model in a basis of the modes, with interfaces at markers, and its nodes as interfaces without names.
+    /// Returns the model in a basis of the modes, with interfaces at markers, and the ends of segments as interfaces without names.
     pub fn in_basis(&self, basis: &ModalBasis) -> (ReducedModel, Vec<Interface>) {
         let columns = &self.columns * &basis.columns;
         let modes: Vec<Mode> = columns
@@ -468,7 +468,7 @@ impl LineModes {
             let product = products[at] + of(&pairs[at], &self.places);
             inertia_of(&product, 0.5)
         });
-        let nodes = (0..self.line.nodes.len()).map(|node| self.interface("", node, &modes, &pairs));
+        let ends = (0..self.line.ends.len()).map(|end| self.interface("", end, &modes, &pairs));
         let model = ReducedModel {
             eigenvalues: basis.eigenvalues.clone(),
             inertia_1: (modes.iter())
@@ -480,7 +480,7 @@ impl LineModes {
             interfaces: self.interfaces(&modes, &pairs),
             ..self.linear.clone()
         };
-        (model, nodes.collect())
+        (model, ends.collect())
     }
 }
 

@@ -21,7 +21,7 @@ pub struct ModalLine {
     pub axes: Matrix3<f64>,
     /// Place of the centre of mass from the first end in the axes of its sections, m.
     pub center: Vector3<f64>,
-    /// Its nodes, from which it is drawn, in principal axes.
+    /// Places along the line from which it is drawn, in principal axes.
     pub nodes: Vec<Interface>,
     /// First nodes in the system of its markers, and the material coordinates of these.
     markers: Vec<(f64, usize)>,
@@ -130,7 +130,7 @@ impl Resolved<'_> {
         };
         let markers = body.markers.iter();
         let line = StraightLine {
-            nodes: mesh.iter().map(|s| s * length).collect(),
+            ends: mesh.iter().map(|s| s * length).collect(),
             sections: mesh.windows(2).map(|ends| sections(body, ends)).collect(),
             strains: if body.is_beam() { OF_BEAM } else { OF_ROD },
             markers: markers

@@ -17,12 +17,13 @@ kinds! {
         /// Way of the second marker of a joint along its line from the first marker or the point, m; not where that line belongs to a
         /// cable.
         Displacement(OfLineJoint),
-        /// Deflection of a marker of a cable, rod or beam, m: its place less where it would be if the body were rigid. The rigid body is
+        /// Deflection of a marker of a cable, rod, beam or reduced body, m: its place less where it would be if the body were rigid. The rigid body is
         /// carried by the frame at the marker `from`; without that it is the drawn body where it fits the present one best, in the mean
         /// of the squared distances along its length. Components are along the axes of the scene as the rigid body carries them. The frame
         /// at a marker is that of the section, of a cable its tangent: in space the drawn one taken to the present one by the smallest
-        /// rotation. The best fit of a cable that is drawn straight in space rotates by the smallest rotation too. Zero of a body whose
-        /// `model` is `rigid`. A winch lengthens the drawn body.
+        /// rotation. The best fit of a cable that is drawn straight in space rotates by the smallest rotation too. Without `from` the mean axes
+        /// of its modes carry a reduced body, and a rod whose `model` is `modal`. Zero of a body whose `model` is `rigid`. A winch lengthens
+        /// the drawn body.
         Deflection(DeflectionOutput),
         /// Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
         /// inertia.

@@ -150,6 +150,11 @@ impl LineBody {
             Model::Rigid => "\"rigid\"",
             Model::Modal => "\"modal\"",
         };
+        let line = if self.model == Model::Rigid {
+            "cable"
+        } else {
+            "line"
+        };
         if self.model == Model::Rigid {
             planar(path, dimension, wanted, model)?;
         } else if dimension == 2 {
@@ -160,7 +165,7 @@ impl LineBody {
             return Err(expected(path, &wanted, model));
         }
         if !self.shape.is_straight() {
-            let wanted = format!("{wanted} of a line that is curved without stress");
+            let wanted = format!("{wanted} of a {line} that is curved without stress");
             return Err(expected(path, &wanted, model));
         }
         if self.model == Model::Modal && self.stations.iter().any(|station| station.twist != 0.0) {
@@ -168,7 +173,7 @@ impl LineBody {
             return Err(expected(path, &wanted, model));
         }
         if self.motion.deformation.is_some() {
-            let wanted = format!("{wanted} of a line that deforms at the start");
+            let wanted = format!("{wanted} of a {line} that deforms at the start");
             return Err(expected(path, &wanted, model));
         }
         Ok(())
@@ -429,9 +434,14 @@ impl Resolved<'_> {
             let path = format!("masses[{index}]");
             let at = |key: &str| format!("{path}.{key}");
             let marker = self.require_marker(&at("marker"), &mass.marker)?;
-            if let Place::Interface(..) = marker.place {
-                let wanted = "a marker of another body than a reduced one, whose mass is that of its file; \
-                              weld a rigid body to the interface";
+            let is_reduced = match marker.place {
+                Place::Interface(..) => true,
+                Place::Along(cable, _) => cable.is_modal(),
+                Place::Point(..) => false,
+            };
+            if is_reduced {
+                let wanted = "a marker of another body than a reduced one, whose modes have their mass; \
+                              weld a rigid body there";
                 return Err(expected(&at("marker"), wanted, quoted(&mass.marker)));
             }
             if !seen.insert(&mass.marker) {

@@ -156,7 +156,7 @@ impl<'a> Resolved<'a> {
                 OutputTarget::Sliding(self.require_slider(&at("joint"), &of.joint)?)
             }
             Output::Deflection(of) => {
-                let marker = self.require_cable_marker(&at("marker"), &of.marker)?;
+                let marker = self.require_deformable_marker(&at("marker"), &of.marker)?;
                 OutputTarget::Deflected(marker, self.deflected_from(path, of, &marker)?)
             }
             Output::Angle(of) => {
@@ -242,6 +242,7 @@ impl<'a> Resolved<'a> {
         };
         let path = format!("{path}.from");
         let from = self.require_marker(&path, name)?;
+        refuse_point(&path, from)?;
         if from.place.body_index() != marker.place.body_index() {
             let wanted = format!("a marker of {}", quoted(marker.place.body().name()));
             return Err(expected(&path, &wanted, quoted(name)));

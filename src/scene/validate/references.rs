@@ -131,20 +131,43 @@ impl<'a> Resolved<'a> {
         Err(expected(path, wanted, found))
     }
 
-    /// Finds a marker of a line body.
+    /// Finds a marker of a line body or a reduced body.
     ///
     /// # Errors
     /// The marker does not exist, or is on a rigid body.
+    pub(crate) fn require_deformable_marker(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<ResolvedMarker<'a>, Error> {
+        let marker = self.require_marker(path, name)?;
+        match marker.place {
+            Place::Along(..) | Place::Interface(..) => Ok(marker),
+            Place::Point(..) => {
+                let wanted = "a marker of a cable or a reduced body";
+                Err(expected(path, wanted, quoted(name)))
+            }
+        }
+    }
+
+    /// Finds a marker of a line body whose sections are read.
+    ///
+    /// # Errors
+    /// The marker does not exist, is on another body, or on a line that is reduced to modes.
     pub(crate) fn require_cable_marker(
         &self,
         path: &str,
         name: &'a str,
     ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
-        if matches!(marker.place, Place::Along(..)) {
-            return Ok(marker);
+        let wanted = "a marker of a cable";
+        match marker.place {
+            Place::Along(cable, _) if cable.is_modal() => {
+                Err(modal(path, "a line whose sections are read", &cable))
+            }
+            Place::Along(..) => Ok(marker),
+            Place::Point(..) | Place::Interface(..) => Err(expected(path, wanted, quoted(name))),
         }
-        Err(expected(path, "a marker of a cable", quoted(name)))
     }
 
     /// Finds a marker of a rod or beam in space.

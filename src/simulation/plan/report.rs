@@ -234,14 +234,12 @@ impl PlannedBody {
 
     /// The number of the body in a column of elements; of modes, with that word.
     pub fn count_in_words(&self) -> String {
-        let unit = if ["reduced", "modal"].contains(&self.kind) {
-            " modes"
-        } else {
-            ""
-        };
-        self.elements
-            .map(|count| format!("{count}{unit}"))
-            .unwrap_or_default()
+        let has_modes = ["reduced", "modal"].contains(&self.kind);
+        match self.elements {
+            Some(1) if has_modes => "1 mode".into(),
+            Some(count) if has_modes => format!("{count} modes"),
+            count => count.map_or(String::new(), |count| count.to_string()),
+        }
     }
 }
 

@@ -117,8 +117,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 }
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
-    /// Deflection of a marker of a chain: its place less where the drawn body, carried by the frame at another marker or in its best
-    /// rigid fit, takes it, along the carried axes, m. Zero of what does not bend.
+    /// Deflection of a marker: its place less where the drawn body takes it that the frame at another marker carries, along the carried axes,
+    /// m. Without another marker a chain is in its best rigid fit, and the mean axes carry a reduced body. Zero of what does not bend.
     pub fn deflection(
         &self,
         system: &System<D>,
@@ -126,18 +126,23 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         marker: &Marker,
         from: Option<&Marker>,
     ) -> [N; 3] {
-        let Some(chain) = system.bodies.line(marker.body) else {
+        let line = system.bodies.line(marker.body);
+        let mean = system.bodies.mean_axes(marker.body);
+        if line.is_none() && mean.is_none() {
             return [N::of(0.0); 3];
-        };
-        let by = chain.length_now(&self.drives).length_ratio();
+        }
+        let by = line.map_or(N::of(1.0), |chain| {
+            chain.length_now(&self.drives).length_ratio()
+        });
         let as_drawn = |of: &Marker| full(of.position(drawn)).map(N::of) * by;
         let now = |of: &Marker| full(of.lift().position(&self.x));
-        let fit = match from {
-            None => self.rigid_fit(system, chain, drawn),
-            Some(from) => {
+        let fit = match (from.or(mean.as_ref()), line) {
+            (Some(from), _) => {
                 let axes = self.carried_axes(drawn, from);
                 RigidFit::new(as_drawn(from), now(from), axes)
             }
+            (None, Some(chain)) => self.rigid_fit(system, chain, drawn),
+            (None, None) => return [N::of(0.0); 3],
         };
         fit.displacement(&as_drawn(marker), &now(marker)).into()
     }

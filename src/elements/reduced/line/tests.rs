@@ -9,13 +9,13 @@ use super::{LineModes, LineSection, StraightLine};
 use crate::elements::reduced::ReducedModel;
 use crate::math::quadrature::GAUSS_5;
 
-/// Steps of the midpoint rule between two nodes.
+/// Steps of the midpoint rule in a segment.
 const STEPS: usize = 400;
 const LENGTH: f64 = 1.3;
 
 /// A tapered beam with coupled sections, with three segments.
 fn beam() -> (LineModes, StraightLine) {
-    let nodes = [0.0, 0.4, 0.7, LENGTH];
+    let ends = [0.0, 0.4, 0.7, LENGTH];
     let section = |s: f64| {
         let mut stiffness =
             Matrix6::from_diagonal(&Vector6::new(900.0, 400.0, 300.0, 2.0, 4.0, 3.0));
@@ -27,9 +27,9 @@ fn beam() -> (LineModes, StraightLine) {
             stiffness: stiffness * (1.5 - 0.5 * s),
         }
     };
-    let segments = nodes.windows(2);
+    let segments = ends.windows(2);
     let line = StraightLine {
-        nodes: nodes.to_vec(),
+        ends: ends.to_vec(),
         sections: segments
             .map(|ends| GAUSS_5.map(|point| section(ends[0] + point.at * (ends[1] - ends[0]))))
             .collect(),
@@ -49,11 +49,11 @@ fn beam() -> (LineModes, StraightLine) {
     (modes, line)
 }
 
-/// Place and rotation of every node from the first end, at these numbers of strains.
+/// Place and rotation of every end of a segment from the first one, at these numbers of strains.
 fn integrated(line: &StraightLine, numbers: &[f64]) -> Vec<(Vector3<f64>, Rotation3<f64>)> {
     let (mut at, mut rotation) = (Vector3::zeros(), Rotation3::identity());
     let mut found = vec![(at, rotation)];
-    for (segment, ends) in line.nodes.windows(2).enumerate() {
+    for (segment, ends) in line.ends.windows(2).enumerate() {
         let step = (ends[1] - ends[0]) / STEPS as f64;
         for k in 0..STEPS {
             let part = (k as f64 + 0.5) / STEPS as f64;
@@ -86,8 +86,8 @@ fn places_are_those_of_finite_rotations_to_second_order() {
         .linear()
         .fixed_interface_modes(&[0, 2], 3)
         .expect("a basis");
-    let (model, nodes) = modes.in_basis(&basis);
-    assert_eq!(nodes.len(), 4);
+    let (model, drawn) = modes.in_basis(&basis);
+    assert_eq!(drawn.len(), 4);
     let n = basis.eigenvalues.len();
     let shape: Vec<f64> = (0..n)
         .map(|k| [0.9, -0.7, 0.5, 0.8][k % 4] / (1.0 + k as f64))
@@ -101,7 +101,7 @@ fn places_are_those_of_finite_rotations_to_second_order() {
         let numbers = columns * nalgebra::DVector::from_column_slice(&eta);
         let exact = integrated(&line, numbers.as_slice());
         let found = modelled(&model, &modes.axes, &eta);
-        let of = |way: &Vector3<f64>, node: usize| way.norm() - exact[node].0.norm();
+        let of = |way: &Vector3<f64>, at: usize| way.norm() - exact[at].0.norm();
         of(&found[0], 1).abs().max(of(&found[1], 3).abs())
     };
     let [coarse, fine] = [0.1, 0.05].map(missed);
@@ -150,7 +150,7 @@ fn strain_energy_and_static_shapes_are_those_of_the_line() {
 /// Deflection along the second axis of a unit force there at the last end of the clamped line: the work of section forces.
 fn quadrature(line: &StraightLine) -> f64 {
     let mut sum = 0.0;
-    for (sections, ends) in line.sections.iter().zip(line.nodes.windows(2)) {
+    for (sections, ends) in line.sections.iter().zip(line.ends.windows(2)) {
         for (section, point) in sections.iter().zip(GAUSS_5) {
             let length = ends[1] - ends[0];
             let arm = LENGTH - ends[0] - point.at * length;
