@@ -49,6 +49,13 @@ fn beams() -> Vec<Value> {
             scenes.push(scene);
         }
     }
+    // Reduced to modes.
+    scenes.push(json!({"name": "modes", "dimension": 3, "bodies": [{"name": "beam", "element": "rod", "model": "modal", "modes": 2,
+        "material": {"youngs_modulus": 1e7, "shear_modulus": 4e6, "density": 1000.0},
+        "section": {"area": 0.01, "second_moments": [1e-5, 2e-5], "torsion_constant": 2e-5},
+        "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0.0, "tip": 1.0}}],
+        "accuracy": {"relative_tolerance": 1e-6},
+        "outputs": [{"kind": "orientation", "marker": "beam.tip"}]}));
     // In the plane, thick.
     let section = json!({"area": 0.01, "second_moment": 1e-5, "shear_factor": 0.8});
     let stations = [0.0, 1.0].map(|at| json!({"at": at, "section": section}));
