@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use super::connectivity::{Cluster, ConnectivityRow, Dependent, Node, clusters, no_node};
 use super::layout::{
-    Entry, FreeRange, MultiplierConstraint, Tied, alone, components, entries, held, runs, vertices,
+    Entry, FreeRange, MultiplierConstraint, Tied, alone, components, entries, held, runs,
+    side_by_side, vertices,
 };
 use crate::math::sparse::{Cholesky, General, Matrix, Number, Pattern, Reach, Slot};
 
@@ -49,9 +50,9 @@ pub struct Assembly<const D: usize = 2> {
     /// Parts of the free coordinates without links between them.
     components: Vec<Range<usize>>,
     places: Vec<NodeCoordinates>,
-    /// Runs of nodes that are alone, with the place of the first; and those that are tied.
+    /// Runs of nodes that are alone, with the place of the first; and runs of those that are tied.
     alone: Vec<(Range<usize>, usize)>,
-    tied: Vec<usize>,
+    tied: Vec<Range<usize>>,
     vertices: Vec<usize>,
     clusters: Vec<Cluster>,
     /// Nonzero entries of all bases, and the range of entries of every node.
@@ -123,7 +124,7 @@ impl<const D: usize> Assembly<D> {
             diagonal,
             next,
             alone,
-            tied: clusters.iter().flat_map(|c| c.nodes.clone()).collect(),
+            tied: side_by_side((0..nodes).filter(|node| tied[*node].is_some())),
             places,
             vertices,
             clusters,
@@ -260,8 +261,8 @@ impl<const D: usize> Assembly<D> {
             let x = x[nodes.clone()].as_flattened_mut().as_flattened_mut();
             x.copy_from_slice(&y[*start..*start + x.len()]);
         }
-        for node in &self.tied {
-            x[*node] = no_node();
+        for run in &self.tied {
+            x[run.clone()].fill(no_node());
         }
         self.follow(y, x);
     }
@@ -275,8 +276,8 @@ impl<const D: usize> Assembly<D> {
                 *x = start + y;
             }
         }
-        for node in &self.tied {
-            x[*node] = start[*node];
+        for run in &self.tied {
+            x[run.clone()].copy_from_slice(&start[run.clone()]);
         }
         self.follow(y, x);
     }

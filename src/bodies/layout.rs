@@ -107,6 +107,18 @@ pub(super) fn components(pattern: &Pattern, sizes: &[usize]) -> Vec<Range<usize>
     pattern.components().iter().map(range).collect()
 }
 
+/// Runs of ascending numbers that follow each other.
+pub fn side_by_side(numbers: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for number in numbers {
+        match runs.last_mut() {
+            Some(run) if run.end == number => run.end += 1,
+            _ => runs.push(number..number + 1),
+        }
+    }
+    runs
+}
+
 /// A node's cluster and its first row in the basis, if it is tied.
 pub(super) type Tied = Option<(usize, usize)>;
 

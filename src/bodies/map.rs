@@ -100,6 +100,12 @@ impl<const D: usize> Bodies<D> {
         self.add_scaling_bias(motion, a);
     }
 
+    /// Completes nodal rates by what follows from rates of amplitudes of reduced bodies. Velocities and forces do not read it, derivatives do.
+    pub fn place_derived_rates(&self, x: &[Node<D>], v: &mut [Node<D>]) {
+        let bodies = self.reduced.iter();
+        bodies.for_each(|body| body.place_derived_rates(x, v));
+    }
+
     /// Adds to second derivatives of what follows from amplitudes of reduced bodies what follows from positions and rates alone. Accelerations
     /// of places do not read it, derivatives of these do.
     pub fn add_derived_bias<N: Number>(&self, motion: NodalMotion<'_, D, N>, a: &mut [Node<D, N>]) {

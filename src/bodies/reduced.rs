@@ -1,8 +1,8 @@
 //! Bodies of finite element models reduced to modes: a frame in mean axes, amplitudes of modes, and interfaces that follow from both.
 //!
 //! Nodes of a body, six numbers each: the centre of mass and the axes as of a rigid body (two nodes), place and axes of every interface
-//! (two nodes each), amplitudes of the modes, and what follows from these and is needed wherever forces are pulled back: the scale of
-//! spins `S^-1` and the couplings `h`. Coordinates are the first node and the amplitudes. Rates of constant mass are
+//! (two nodes each), amplitudes of the modes, and what follows from these: the scale of spins `S^-1` and all terms that are linear in the
+//! amplitudes (`elements/reduced/terms.rs`). Forces, rows and derivatives read them there. Coordinates are the first node and the amplitudes. Rates of constant mass are
 //! `nu = S w`, `zeta = eta' + h^T w` (`elements/reduced/inertia.rs`). Small rotations and changes of amplitudes are counted alike. A moment
 //! `t` along the axes and forces `Q` on modes are conjugate to them as `S^-T (t - h Q)` and `Q`.
 
@@ -18,7 +18,7 @@ use super::Elimination;
 use super::connectivity::Node;
 use super::frame::{Axes, RigidBodyFrame, combined, turned_back};
 use crate::elements::reduced::{
-    Interface, ModalStrain, ReducedModel, SPIN_SCALE, SpinScale, Symmetric,
+    Interface, ModalMatrix, ModalStrain, ModalTerms, ReducedModel, SPIN_SCALE, SpinScale, Symmetric,
 };
 use crate::math::jet::Number;
 use crate::math::space::{components, vector};
@@ -35,6 +35,7 @@ pub struct ReducedBody {
     pub(super) index: usize,
     pub(super) model: ReducedModel,
     strain: ModalStrain,
+    matrix: ModalMatrix,
     /// Damping by mode, `2 d sqrt(lambda)`, 1/s.
     damping: Vec<f64>,
     /// Where amplitudes are among the coordinates `q`, and how many of that make an amplitude of 1, `[n]`.
@@ -91,12 +92,14 @@ impl ReducedBody {
         let damping = roots
             .zip(damping_ratios)
             .map(|(root, ratio)| 2.0 * ratio * root);
+        let strain = ModalStrain::new(&model);
         Self {
             frame: RigidBodyFrame::new(node, model.mass, model.moments),
             index: 0,
             damping: damping.collect(),
             places: Vec::new(),
-            strain: ModalStrain::new(&model),
+            matrix: ModalMatrix::new(&model, &strain),
+            strain,
             model,
         }
     }
@@ -113,7 +116,10 @@ impl ReducedBody {
         }
         nodes.resize(nodes.len() + self.inner_nodes(), [[0.0; D]; 2]);
         let derived = self.derived() - self.frame.node;
-        numbers_mut(&mut nodes[derived..])[..SPIN_SCALE].copy_from_slice(&SpinScale::ONE.0);
+        let undeformed = self.matrix.undeformed();
+        let (scale, terms) = numbers_mut(&mut nodes[derived..]).split_at_mut(SPIN_SCALE);
+        scale.copy_from_slice(&SpinScale::ONE.0);
+        terms[..undeformed.len()].copy_from_slice(undeformed);
         nodes
     }
 
@@ -141,11 +147,13 @@ impl ReducedBody {
     /// Largest displacement of an interface against the axes, relative to the size of the body, and largest rotation of one, rad.
     pub fn deformation<const D: usize>(&self, x: &[Node<D>]) -> [f64; 2] {
         let (eta, interfaces) = (self.amplitudes(x), &self.model.interfaces);
+        let terms = self.terms(x);
         let reach = interfaces.iter().map(|of| of.position.norm());
         let size = 2.0 * reach.fold(self.frame.gyration(), f64::max);
         let moved = interfaces
             .iter()
-            .map(|of| (of.place(eta, self.model.paired) - of.position).norm());
+            .enumerate()
+            .map(|(index, of)| (of.place(eta, terms.shapes(index)) - of.position).norm());
         let rotated = interfaces.iter().map(|of| of.turn(eta).norm());
         [
             moved.fold(0.0, f64::max) / size,
@@ -159,10 +167,10 @@ impl ReducedBody {
         by_modes: &[Symmetric],
         x: &[Node<D, N>],
     ) -> Symmetric<N> {
-        let eta = self.amplitudes(x);
+        let (eta, terms) = (self.amplitudes(x), self.terms(x));
         let mut sum = [N::of(0.0); 6];
         for (m, by_mode) in by_modes.iter().enumerate() {
-            let strain = self.strain.of_mode(m, eta);
+            let strain = self.strain.of_mode(m, eta, terms);
             let parts = sum.iter_mut().zip(by_mode);
             parts.for_each(|(sum, part)| *sum += strain * N::of(*part));
         }
@@ -209,7 +217,7 @@ impl ReducedBody {
 
     /// Number of nodes with amplitudes and with what follows from them.
     fn inner_nodes(&self) -> usize {
-        let derived = SPIN_SCALE + 3 * self.model.modes();
+        let derived = SPIN_SCALE + self.matrix.undeformed().len();
         self.modal_nodes() + derived.div_ceil(NUMBERS)
     }
 
@@ -255,25 +263,34 @@ impl ReducedBody {
         &mut numbers_mut(&mut x[self.inner()..])[..self.model.modes()]
     }
 
-    /// Scale of spins, and couplings, three numbers a mode.
+    /// Scale of spins and terms, or their rates where `x` holds rates.
     #[inline(always)]
     fn derived_of<'a, const D: usize, N: Number>(
         &self,
         x: &'a [Node<D, N>],
-    ) -> (SpinScale<N>, &'a [N]) {
-        let all = numbers(&x[self.derived()..]);
-        let coupling = &all[SPIN_SCALE..SPIN_SCALE + 3 * self.model.modes()];
-        (SpinScale::of(all), coupling)
+    ) -> (SpinScale<N>, ModalTerms<'a, N>) {
+        (SpinScale::of(numbers(&x[self.derived()..])), self.terms(x))
+    }
+
+    /// Terms that are linear in the amplitudes, or their rates where `x` holds rates.
+    #[inline(always)]
+    fn terms<'a, const D: usize, N: Number>(&self, x: &'a [Node<D, N>]) -> ModalTerms<'a, N> {
+        self.matrix
+            .read(&numbers(&x[self.derived()..])[SPIN_SCALE..])
+    }
+
+    /// Mutable access to both.
+    #[inline(always)]
+    fn derived_mut<'a, const D: usize, N: Number>(
+        &self,
+        derived: &'a mut [Node<D, N>],
+    ) -> (&'a mut [N], &'a mut [N]) {
+        let (scale, terms) = numbers_mut(derived).split_at_mut(SPIN_SCALE);
+        (scale, &mut terms[..self.matrix.undeformed().len()])
     }
 
     /// Axes of its frame, or their rates where `x` holds rates.
     fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         self.frame.axes(x)
     }
-}
-
-/// Coupling of a mode.
-#[inline(always)]
-fn coupling_at<N: Number>(coupling: &[N], k: usize) -> Vector3<N> {
-    Vector3::new(coupling[3 * k], coupling[3 * k + 1], coupling[3 * k + 2])
 }

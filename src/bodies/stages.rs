@@ -25,6 +25,7 @@ use super::Tangent;
 use super::assembly::Assembly;
 use super::connectivity::{Cluster, Node, no_node};
 use super::elimination::Elimination;
+use super::layout::side_by_side;
 use crate::math::space::axis;
 use crate::math::sparse::{Matrix, Pattern};
 use sections::StageSections;
@@ -54,6 +55,8 @@ pub struct Stages<const D: usize> {
     knots: Vec<TiedCluster>,
     /// Whether nodes belong to cables.
     elastic: Vec<bool>,
+    /// Nodes whose vectors turn by themselves, side by side. Rigid bodies of space have coordinates that turn with them as it is.
+    turning: Vec<Range<usize>>,
     /// Beams turn with these.
     sections: StageSections,
     floating: Vec<Floating>,
@@ -101,8 +104,10 @@ impl<const D: usize> Stages<D> {
         rotating: &RotatingNodes,
     ) -> Self {
         let nodes = elimination.assembly.nodes();
-        let directions = || vec![SVector::zeros(); nodes];
+        let directions = || vec![axis(0); nodes];
+        let turns = |node: &usize| D == 2 || rotating.elastic[*node];
         Self {
+            turning: side_by_side((0..nodes).filter(turns)),
             floating: floating::<D>(elimination, grounded, &rotating.still),
             knots: knots(&elimination.assembly, &rotating.elastic),
             elastic: rotating.elastic.clone(),
@@ -115,7 +120,7 @@ impl<const D: usize> Stages<D> {
 
     /// The tangent is made at this configuration.
     pub fn set_base(&mut self, x: &[Node<D>]) {
-        unit_directions(x, &self.elastic, &mut self.base);
+        unit_directions(x, &self.turning, &mut self.base);
         self.sections.direct(&mut self.base);
         self.sections.set_base(x);
         for turned in &mut self.turned {
@@ -125,7 +130,7 @@ impl<const D: usize> Stages<D> {
 
     /// Sets the configuration of a stage.
     pub fn set(&mut self, assembly: &Assembly<D>, stage: usize, x: &[Node<D>]) {
-        unit_directions(x, &self.elastic, &mut self.turned[stage]);
+        unit_directions(x, &self.turning, &mut self.turned[stage]);
         self.sections.direct(&mut self.turned[stage]);
         self.sections.set(stage, x);
         let directions = (&self.base[..], &self.turned[stage][..]);
@@ -142,6 +147,9 @@ impl<const D: usize> Stages<D> {
         stage: usize,
         y: &mut [f64],
     ) {
+        if self.turning.is_empty() {
+            return;
+        }
         for f in &mut self.floating {
             f.remember(|f| &f.translation, y);
         }
@@ -150,7 +158,8 @@ impl<const D: usize> Stages<D> {
         }
         assembly.prolong(y, &mut self.nodes);
         self.weigh(assembly, stage);
-        rotate_all(&mut self.nodes, (&self.turned[stage], &self.base));
+        let directions = [&self.turned[stage][..], &self.base];
+        rotate_all(&mut self.nodes, &self.turning, directions);
         self.sections.rotate_to_tangent(stage, &mut self.nodes);
         assembly.restrict(&self.nodes, y);
         for f in &self.floating {
@@ -160,11 +169,15 @@ impl<const D: usize> Stages<D> {
 
     /// Turns displacements forth to a stage; their mean translation stays.
     pub(super) fn rotate_to_stage(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
+        if self.turning.is_empty() {
+            return;
+        }
         for f in &mut self.floating {
             f.remember(|f| &f.momentum, y);
         }
         assembly.prolong(y, &mut self.nodes);
-        rotate_all(&mut self.nodes, (&self.base, &self.turned[stage]));
+        let directions = [&self.base[..], &self.turned[stage]];
+        rotate_all(&mut self.nodes, &self.turning, directions);
         self.sections.rotate_to_stage(stage, &mut self.nodes);
         self.weigh(assembly, stage);
         assembly.restrict(&self.nodes, y);
@@ -453,24 +466,30 @@ impl<const D: usize> Tangent<D> {
     }
 }
 
-/// Directions that nodes turn with; rigid bodies of space have coordinates that turn with them as it is.
-fn unit_directions<const D: usize>(x: &[Node<D>], elastic: &[bool], units: &mut [SVector<f64, D>]) {
-    for ((x, unit), is_elastic) in x.iter().zip(units).zip(elastic) {
-        *unit = if D == 2 || *is_elastic {
-            SVector::from(x[1]).normalize()
-        } else {
-            axis(0)
-        };
+/// Directions that nodes turn with.
+fn unit_directions<const D: usize>(
+    x: &[Node<D>],
+    turning: &[Range<usize>],
+    units: &mut [SVector<f64, D>],
+) {
+    for run in turning {
+        for (x, unit) in x[run.clone()].iter().zip(&mut units[run.clone()]) {
+            *unit = SVector::from(x[1]).normalize();
+        }
     }
 }
 
-/// Turns the vectors of every node.
+/// Turns the vectors of nodes.
 fn rotate_all<const D: usize>(
     nodes: &mut [Node<D>],
-    (from, to): (&[SVector<f64, D>], &[SVector<f64, D>]),
+    turning: &[Range<usize>],
+    directions: [&[SVector<f64, D>]; 2],
 ) {
-    for (x, (from, to)) in nodes.iter_mut().zip(from.iter().zip(to)) {
-        turn(from, to, x);
+    for run in turning {
+        let [from, to] = directions.map(|of| &of[run.clone()]);
+        for (x, (from, to)) in nodes[run.clone()].iter_mut().zip(from.iter().zip(to)) {
+            turn(from, to, x);
+        }
     }
 }
 

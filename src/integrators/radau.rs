@@ -458,8 +458,8 @@ impl OneStepMethod for Radau {
             // The next error estimate starts from the acceleration at the end.
             self.start_a.copy_from_slice(&self.a);
             self.place(END, q, v);
-            dynamics.acceleration(time + h, &self.stage_q, &self.stage_v, &mut self.a);
-            self.powers[END] = dynamics.power();
+            let (q, v) = (&self.stage_q, &self.stage_v);
+            self.powers[END] = dynamics.acceleration_at_end(time + h, q, v, &mut self.a);
         } else {
             self.last = None;
             self.rejected = true;

@@ -5,6 +5,7 @@ use nalgebra::{ComplexField, RealField, convert};
 use num_dual::Dual2_64;
 
 use super::lanes::Real;
+use super::sums;
 
 /// A number with its first and second derivative by one variable.
 pub type Jet = Dual2_64;
@@ -25,6 +26,15 @@ pub trait Number: RealField + Real {
 
     /// A function of it: `value`, or from `derivatives`, value and first two derivatives.
     fn map(self, value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 3]) -> Self;
+
+    /// `out += sum of factors times columns`, which stand one after the other. Their length is a multiple of [`PACK`](super::lanes::PACK).
+    fn add_columns(columns: &[f64], factors: &[Self], out: &mut [Self]) {
+        for (column, factor) in columns.chunks_exact(out.len().max(1)).zip(factors) {
+            for (sum, entry) in out.iter_mut().zip(column) {
+                *sum += *factor * Self::of(*entry);
+            }
+        }
+    }
 }
 
 impl Number for f64 {
@@ -41,6 +51,10 @@ impl Number for f64 {
     #[inline(always)]
     fn map(self, value: impl Fn(f64) -> f64, _: impl Fn(f64) -> [f64; 3]) -> Self {
         value(self)
+    }
+
+    fn add_columns(columns: &[f64], factors: &[Self], out: &mut [Self]) {
+        sums::add_columns(columns, factors, out);
     }
 }
 

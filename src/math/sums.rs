@@ -1,6 +1,6 @@
 //! Weighted sums of long vectors, in lanes: what methods of integration make of their stages.
 
-use super::lanes::{Simd, Vectorized, vectorized_where};
+use super::lanes::{PACK, Simd, Vectorized, vectorized, vectorized_where};
 
 /// A weight and the vector that it belongs to.
 pub type Term<'a> = (f64, &'a [f64]);
@@ -114,6 +114,66 @@ fn mix_few(
     }
 }
 
+/// `out += sum of factors times columns`, which stand one after the other. Their length is a multiple of [`PACK`].
+pub fn add_columns(columns: &[f64], factors: &[f64], out: &mut [f64]) {
+    debug_assert_eq!(out.len() % PACK, 0);
+    vectorized(Columns {
+        columns,
+        factors,
+        out,
+    });
+}
+
+/// Vectors of lanes that [`add_columns`] sums at once.
+const AT_ONCE: usize = 4;
+
+/// [`add_columns`].
+struct Columns<'a> {
+    columns: &'a [f64],
+    factors: &'a [f64],
+    out: &'a mut [f64],
+}
+
+impl Vectorized for Columns<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let columns = S::as_simd_f64s(self.columns).0;
+        let out = S::as_mut_simd_f64s(self.out).0;
+        let size = out.len();
+        let (several, single) = out.as_chunks_mut::<AT_ONCE>();
+        let rest = AT_ONCE * several.len();
+        for (place, sums) in several.iter_mut().enumerate() {
+            add_parts(simd, (columns, size), AT_ONCE * place, self.factors, sums);
+        }
+        for (place, sum) in single.iter_mut().enumerate() {
+            let sum = std::array::from_mut(sum);
+            add_parts(simd, (columns, size), rest + place, self.factors, sum);
+        }
+    }
+}
+
+/// Adds factors times parts of columns of a size, from a place on.
+#[inline(always)]
+fn add_parts<S: Simd, const K: usize>(
+    simd: S,
+    (columns, size): (&[S::f64s], usize),
+    place: usize,
+    factors: &[f64],
+    sums: &mut [S::f64s; K],
+) {
+    let mut own = *sums;
+    for (column, factor) in columns.chunks_exact(size).zip(factors) {
+        let Some(part) = column[place..].first_chunk::<K>() else {
+            return;
+        };
+        let factor = simd.splat_f64s(*factor);
+        for k in 0..K {
+            own[k] = simd.mul_add_e_f64s(factor, part[k], own[k]);
+        }
+    }
+    *sums = own;
+}
+
 /// [`add`] where a sum is begun, [`sum`] where not.
 fn go_on(is_begun: bool, out: &mut [f64], terms: &[Term<'_>]) {
     if is_begun {
@@ -202,6 +262,22 @@ mod tests {
                     assert_eq!(*out, 2.0 * expected);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn columns_are_added_whatever_their_length() {
+        for n in (0..100_u32).step_by(PACK) {
+            let columns: Vec<f64> = (0..3 * n).map(f64::from).collect();
+            let factors = [2.0, -1.0, 4.0];
+            let mut out: Vec<f64> = (0..n).map(|i| f64::from(7 * i)).collect();
+            let mut expected = out.clone();
+            add_columns(&columns, &factors, &mut out);
+            for (k, factor) in factors.into_iter().enumerate() {
+                let n = n as usize;
+                add(&mut expected, &[(factor, &columns[n * k..n * (k + 1)])]);
+            }
+            assert_eq!(out, expected);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{ReducedBody, coupling_at};
+use super::ReducedBody;
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
@@ -75,7 +75,7 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
 
     fn place_rates(&self, x: &[Node<D>], rotations: &mut Rotations, v: &mut [Node<D>]) {
         self.frame.place_rates(x, rotations, v);
-        self.place_derived_rates(x, v);
+        self.place_velocity_terms(v);
         let spin = self.frame.spin(x, v);
         self.place_interface_rates(x, &spin, v);
     }
@@ -235,20 +235,21 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
         let (x, v) = motion.pair();
         let spin = self.frame.spin(x, v);
         let (eta, rates) = (self.amplitudes(x), self.amplitudes(v));
-        let (_, coupling) = self.derived_of(x);
-        let mut twice = spin.dot(&self.model.angular_momentum((eta, rates), &spin));
+        let terms = self.terms(x);
+        let momentum = (self.model).angular_momentum((eta, rates), terms, &spin);
+        let mut twice = spin.dot(&momentum);
         for (k, rate) in rates.iter().enumerate() {
-            twice += *rate * (*rate + coupling_at(coupling, k).dot(&spin));
+            twice += *rate * (*rate + terms.coupling(k).dot(&spin));
         }
         twice * N::of(0.5)
     }
 
     fn strain_energy<N: Number>(&self, _drives: &[[N; 3]], x: &[Node<D, N>]) -> N {
-        self.strain.energy(self.amplitudes(x))
+        self.strain.energy(self.amplitudes(x), self.terms(x))
     }
 
     fn for_each_strain_energy(&self, x: [&[Node<D>]; 2], call: &mut impl FnMut([f64; 2])) {
-        call(x.map(|x| self.strain.energy(self.amplitudes(x))));
+        call(x.map(|x| self.strain.energy(self.amplitudes(x), self.terms(x))));
     }
 
     fn dissipation<N: Number>(&self, motion: NodalMotion<'_, D, N>) -> N {
@@ -263,7 +264,8 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
         let [at, rate] = [x, v].map(|of| Vector::from(of[self.frame.node][0]));
         sum.add(at, rate * N::of(self.model.mass), true);
         let spin: Vector3<N> = self.frame.spin(x, v);
-        let own = (self.model).angular_momentum((self.amplitudes(x), self.amplitudes(v)), &spin);
+        let motion = (self.amplitudes(x), self.amplitudes(v));
+        let own = (self.model).angular_momentum(motion, self.terms(x), &spin);
         sum.angular += combined(&self.axes(x), &own);
     }
 

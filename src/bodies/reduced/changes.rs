@@ -2,13 +2,12 @@
 
 use nalgebra::Vector3;
 
-use super::{ModalState, ReducedBody, coupling_at, numbers_mut};
+use super::{ModalState, ReducedBody, numbers_mut};
 use crate::bodies::body::BodyPart;
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{
     Axes, along, axes_at, axis_rates, combined, set_axes_at, spin_of, turned_back,
 };
-use crate::elements::reduced::SPIN_SCALE;
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::math::space::{components, vector};
 
@@ -25,38 +24,38 @@ fn spin_bias<N: Number>(p: &Vector3<N>, rate: &Vector3<N>, of_body: &Vector3<N>)
 }
 
 impl ReducedBody {
-    /// Writes the numbers that follow from the amplitudes in `x` into `x` and into a state.
+    /// Writes the numbers that follow from the amplitudes in `x` into `x`, which holds them without deformation, and into a state.
     pub(super) fn place_derived<const D: usize>(&self, state: &mut ModalState, x: &mut [Node<D>]) {
         let (before, derived) = x.split_at_mut(self.derived());
-        let eta = self.amplitudes(before);
-        let derived = numbers_mut(derived);
-        let (scale, coupling) = derived.split_at_mut(SPIN_SCALE);
-        for (k, out) in state.coupling.iter_mut().enumerate() {
-            *out = self.model.coupling_of(k, eta);
-            coupling[3 * k..][..3].copy_from_slice(out.as_slice());
+        let (eta, (scale, terms)) = (self.amplitudes(before), self.derived_mut(derived));
+        self.matrix.deform(eta, terms);
+        let terms = self.matrix.read(terms);
+        for (out, coupling) in state.coupling.iter_mut().zip(terms.couplings()) {
+            *out = (*coupling).into();
         }
-        let coupling = &coupling[..3 * self.model.modes()];
-        state.scale = self.model.spin_scale(eta, coupling);
+        state.scale = self.model.spin_scale(eta, terms);
         scale.copy_from_slice(&state.scale.0);
     }
 
+    /// Writes the rates of terms that velocities and forces depend on. Derivatives ask for all: [`Self::place_derived_rates`].
+    pub(super) fn place_velocity_terms<const D: usize>(&self, v: &mut [Node<D>]) {
+        let (before, derived) = v.split_at_mut(self.derived());
+        let (rates, (_, term_rates)) = (self.amplitudes(before), self.derived_mut(derived));
+        self.matrix.rates_of_velocities(rates, term_rates);
+    }
+
     /// Writes the rates of the numbers that follow from amplitudes, whose rates stand in `v`.
-    pub(super) fn place_derived_rates<const D: usize, N: Number>(
+    pub(in crate::bodies) fn place_derived_rates<const D: usize, N: Number>(
         &self,
         x: &[Node<D, N>],
         v: &mut [Node<D, N>],
     ) {
         let (before, derived) = v.split_at_mut(self.derived());
-        let rates = self.amplitudes(before);
-        let (scale, coupling) = numbers_mut(derived).split_at_mut(SPIN_SCALE);
-        for k in 0..rates.len() {
-            let rate = self.model.coupling_of(k, rates);
-            coupling[3 * k..][..3].copy_from_slice(rate.as_slice());
-        }
-        let (at, h) = self.derived_of(x);
-        let pairs = [self.amplitudes(x), rates];
-        let couplings = [h, &coupling[..h.len()]];
-        let change = self.model.spin_scale_change(&at, pairs, couplings);
+        let (rates, (scale, term_rates)) = (self.amplitudes(before), self.derived_mut(derived));
+        self.matrix.rates(rates, term_rates);
+        let (at, terms) = self.derived_of(x);
+        let terms = [terms, self.matrix.read(term_rates)];
+        let change = self.model.spin_scale_change(&at, rates, terms);
         scale.copy_from_slice(&change.0);
     }
 
@@ -64,16 +63,15 @@ impl ReducedBody {
     pub(super) fn place_interfaces<const D: usize>(&self, x: &mut [Node<D>]) {
         let axes = self.axes(x);
         let center = Vector3::from(components(&x[self.frame.node][0].into()));
-        let (outer, inner) = x.split_at_mut(self.inner());
-        let eta = &super::numbers(inner)[..self.model.modes()];
         for (index, interface) in self.model.interfaces.iter().enumerate() {
-            let node = self.interface(index);
-            let at = center + combined(&axes, &interface.place(eta, self.model.paired));
-            let back = -interface.turn(eta);
-            let own =
-                [0, 1, 2].map(|k| combined(&axes, &turned_back(&back, &Vector3::ith(k, 1.0))));
-            set_axes_at(node, &own, outer);
-            outer[node][0] = vector::<D, f64>(at.into()).into();
+            let (node, eta) = (self.interface(index), self.amplitudes(x));
+            let place = interface.place(eta, self.terms(x).shapes(index));
+            let own = interface.rotation.as_ref().map_or(axes, |_| {
+                let back = -interface.turn(eta);
+                [0, 1, 2].map(|k| combined(&axes, &turned_back(&back, &Vector3::ith(k, 1.0))))
+            });
+            set_axes_at(node, &own, x);
+            x[node][0] = vector::<D, f64>((center + combined(&axes, &place)).into()).into();
         }
     }
 
@@ -84,19 +82,21 @@ impl ReducedBody {
         spin: &Vector3<N>,
         v: &mut [Node<D, N>],
     ) {
-        let axes = self.axes(x);
+        let (axes, eta, terms) = (self.axes(x), self.amplitudes(x), self.terms(x));
+        let of_points = axis_rates(&axes, spin);
         let velocity = Vector3::from(components(&v[self.frame.node][0].into()));
-        let (outer, inner) = v.split_at_mut(self.inner());
-        let rates = &super::numbers(inner)[..self.model.modes()];
         for (index, interface) in self.model.interfaces.iter().enumerate() {
-            let node = self.interface(index);
+            let (node, rates) = (self.interface(index), self.amplitudes(v));
             let arm = self.arm(node, &axes, x);
-            let moved =
-                velocity + combined(&axes, &(spin.cross(&arm) + self.moved(index, x, rates)));
-            let turn = interface.turn(self.amplitudes(x));
-            let own = turned_back(&turn, spin) + spin_of(&turn, &interface.turn(rates));
-            set_axes_at(node, &axis_rates(&axes_at(node, x), &own), outer);
-            outer[node][0] = vector::<D, N>(moved.into()).into();
+            let along = spin.cross(&arm) + terms.velocity(index, rates);
+            let moved = velocity + combined(&axes, &along);
+            let own = interface.rotation.as_ref().map_or(of_points, |_| {
+                let turn = interface.turn(eta);
+                let own = turned_back(&turn, spin) + spin_of(&turn, &interface.turn(rates));
+                axis_rates(&axes_at(node, x), &own)
+            });
+            set_axes_at(node, &own, v);
+            v[node][0] = vector::<D, N>(moved.into()).into();
         }
     }
 
@@ -106,26 +106,26 @@ impl ReducedBody {
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         a: &mut [Node<D, N>],
     ) {
-        let axes = self.axes(x);
-        let spin = self.frame.spin(x, v);
-        let rates = self.amplitudes(v);
+        let (axes, spin) = (self.axes(x), self.frame.spin(x, v));
+        let (eta, rates) = (self.amplitudes(x), self.amplitudes(v));
+        let (terms, term_rates) = (self.terms(x), self.terms(v));
+        let of_points = axis_rates(&self.axes(v), &spin);
         for (index, interface) in self.model.interfaces.iter().enumerate() {
             let node = self.interface(index);
             let arm = self.arm(node, &axes, x);
-            let moved = self.moved(index, x, rates) * N::of(2.0);
-            let along = spin.cross(&(spin.cross(&arm) + moved))
-                + interface.second_rate(rates, self.model.paired);
-            let bias = combined(&axes, &along);
-            let bias = vector::<D, N>(bias.into());
+            let moved = terms.velocity(index, rates) * N::of(2.0);
+            let along = spin.cross(&(spin.cross(&arm) + moved)) + term_rates.velocity(index, rates);
+            let bias = vector::<D, N>(combined(&axes, &along).into());
             a[node][0].iter_mut().zip(&bias).for_each(|(a, b)| *a += *b);
-            let turn = interface.turn(self.amplitudes(x));
-            let rate = interface.turn(rates);
-            let own = turned_back(&turn, &spin) + spin_of(&turn, &rate);
-            let by_rates = axis_rates(&axes_at(node, v), &own);
-            let by_bias = axis_rates(&axes_at(node, x), &spin_bias(&turn, &rate, &spin));
+            let own = interface.rotation.as_ref().map_or(of_points, |_| {
+                let (turn, rate) = (interface.turn(eta), interface.turn(rates));
+                let own = turned_back(&turn, &spin) + spin_of(&turn, &rate);
+                let by_rates = axis_rates(&axes_at(node, v), &own);
+                let by_bias = axis_rates(&axes_at(node, x), &spin_bias(&turn, &rate, &spin));
+                std::array::from_fn(|k| by_rates[k] + by_bias[k])
+            });
             let sum: Axes<N> = axes_at(node, a);
-            let sum = std::array::from_fn(|k| sum[k] + by_rates[k] + by_bias[k]);
-            set_axes_at(node, &sum, a);
+            set_axes_at(node, &std::array::from_fn(|k| sum[k] + own[k]), a);
         }
     }
 
@@ -141,20 +141,6 @@ impl ReducedBody {
         along(axes, &(at - center))
     }
 
-    /// Velocity of an interface against the axes at these rates of the amplitudes, m/s.
-    fn moved<const D: usize, N: Number>(
-        &self,
-        index: usize,
-        x: &[Node<D, N>],
-        rates: &[N],
-    ) -> Vector3<N> {
-        let (interface, eta) = (&self.model.interfaces[index], self.amplitudes(x));
-        let zero = Vector3::from_element(N::of(0.0));
-        rates.iter().enumerate().fold(zero, |sum, (k, rate)| {
-            sum + interface.shape(k, eta, self.model.paired) * *rate
-        })
-    }
-
     /// Spins and changes of amplitudes that belong to what is counted alike, in place: `w = S^-1 nu`, `eta' = zeta - h^T w`. Returns the
     /// spin.
     pub(super) fn resolve<const D: usize, N: Number>(
@@ -162,11 +148,12 @@ impl ReducedBody {
         x: &[Node<D, N>],
         change: &mut [Node<D, N>],
     ) -> Vector3<N> {
-        let (scale, coupling) = self.derived_of(x);
+        let (scale, terms) = self.derived_of(x);
         let counted = Vector3::from(components(&change[self.frame.node][1].into()));
         let spin = scale.times(&counted);
-        for (k, amplitude) in self.amplitudes_mut(change).iter_mut().enumerate() {
-            *amplitude -= coupling_at(coupling, k).dot(&spin);
+        let couplings = terms.couplings().iter();
+        for (amplitude, coupling) in self.amplitudes_mut(change).iter_mut().zip(couplings) {
+            *amplitude -= Vector3::from(*coupling).dot(&spin);
         }
         spin
     }
@@ -223,9 +210,9 @@ impl ReducedBody {
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         a: &mut [Node<D, N>],
     ) {
-        let ((scale, h), (_, h_rates)) = (self.derived_of(x), self.derived_of(v));
-        let pairs = [self.amplitudes(x), self.amplitudes(v)];
-        let bias = self.model.spin_scale_bias(&scale, pairs, [h, h_rates]);
+        let ((scale, terms), term_rates) = (self.derived_of(x), self.terms(v));
+        let (rates, terms) = (self.amplitudes(v), [terms, term_rates]);
+        let bias = self.model.spin_scale_bias(&scale, rates, terms);
         let sums = numbers_mut(&mut a[self.derived()..]).iter_mut();
         sums.zip(bias.0).for_each(|(sum, bias)| *sum += bias);
     }

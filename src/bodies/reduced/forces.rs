@@ -3,11 +3,11 @@
 use nalgebra::Vector3;
 
 use super::changes::force_of;
-use super::{ReducedBody, Site, coupling_at, numbers_mut};
+use super::{ReducedBody, Site, numbers, numbers_mut};
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{RigidBodyFrame, along, axes_at, turned_back};
 use crate::math::jet::Number;
-use crate::math::space::{is_nothing, vector};
+use crate::math::space::vector;
 
 impl ReducedBody {
     /// Takes a force in global components and a moment along the axes of a place of the body to what is integrated: passed to `term`, node
@@ -19,33 +19,39 @@ impl ReducedBody {
         x: &[Node<D, N>],
         term: &mut impl FnMut(usize, &Node<D, N>),
     ) {
-        let (scale, coupling) = self.derived_of(x);
+        let (scale, terms) = self.derived_of(x);
         let node = self.frame.node;
         let Site::Interface(index) = site else {
             let moment = scale.transposed_times(moment);
             return term(node, &[*force, vector::<D, N>(moment.into()).into()]);
         };
         let (axes, eta) = (self.axes(x), self.amplitudes(x));
-        let interface = &self.model.interfaces[index];
-        let (turn, local) = (interface.turn(eta), along(&axes, &(*force).into()));
-        let on_turn = force_of(&turn, moment);
-        let on_mode = |k: usize| {
-            let rotated = interface.rotation.as_ref().map(|rotation| &rotation[k]);
-            let shape = interface.shape(k, eta, self.model.paired);
-            let by_moment = rotated.map(|mode| mode.map(N::of).dot(&on_turn));
-            shape.dot(&local) + by_moment.unwrap_or(N::of(0.0))
-        };
+        let (interface, local) = (
+            &self.model.interfaces[index],
+            along(&axes, &(*force).into()),
+        );
         let arm = self.arm(self.interface(index), &axes, x);
-        let mut turning = arm.cross(&local) + turned_back(&-turn, moment);
-        let size = 2 * D;
+        let mut turning = arm.cross(&local);
+        let on_turn = interface.rotation.as_ref().map(|modes| {
+            let turn = interface.turn(eta);
+            turning += turned_back(&-turn, moment);
+            (modes, force_of(&turn, moment))
+        });
+        if on_turn.is_none() {
+            turning += moment;
+        }
+        let (shapes, couplings) = (terms.shapes(index), terms.couplings());
         for (at, modal) in self.modal().enumerate() {
             let mut part = [[N::of(0.0); D]; 2];
-            let numbers = part.as_flattened_mut().iter_mut().enumerate();
-            for (k, number) in numbers.map(|(place, number)| (size * at + place, number)) {
-                if k < self.model.modes() {
-                    *number = on_mode(k);
-                    turning -= coupling_at(coupling, k) * *number;
+            let first = 2 * D * at;
+            let of_modes = shapes[first..].iter().zip(&couplings[first..]).enumerate();
+            for (number, (k, (shape, coupling))) in part.as_flattened_mut().iter_mut().zip(of_modes)
+            {
+                *number = Vector3::from(*shape).dot(&local);
+                if let Some((modes, on_turn)) = &on_turn {
+                    *number += modes[first + k].map(N::of).dot(on_turn);
                 }
+                turning -= Vector3::from(*coupling) * *number;
             }
             term(modal, &part);
         }
@@ -64,24 +70,28 @@ impl ReducedBody {
         if let Some(v) = v {
             let spin = self.frame.spin(x, v);
             let motion = (self.amplitudes(x), self.amplitudes(v));
-            turning += self
-                .model
-                .add_inertial(motion, &spin, self.amplitudes_mut(f));
+            let terms = [self.terms(x), self.terms(v)];
+            let force = self.amplitudes_mut(f);
+            turning += self.model.add_inertial(motion, terms, &spin, force);
         }
-        let (scale, coupling) = self.derived_of(x);
-        for (k, force) in self.amplitudes(f).iter().enumerate() {
-            turning -= coupling_at(coupling, k) * *force;
+        let (scale, terms) = self.derived_of(x);
+        for (coupling, force) in terms.couplings().iter().zip(self.amplitudes(f)) {
+            turning -= Vector3::from(*coupling) * *force;
         }
         let moment = scale.transposed_times(&turning);
         f[node][1] = vector::<D, N>(moment.into()).into();
         f[node + 1] = [[N::of(0.0); D]; 2];
         for (node, site) in self.sites().skip(1) {
-            let force = f[node][0];
-            let moment = RigidBodyFrame::moment(&axes_at(node, x), &axes_at(node, f));
-            f[node..][..2].fill([[N::of(0.0); D]; 2]);
-            if is_nothing::<D, N>(&force.into()) && moment.iter().all(|m| m.largest() == 0.0) {
+            let on_node = &mut f[node..][..2];
+            if numbers(on_node)
+                .iter()
+                .all(|number| number.largest() == 0.0)
+            {
                 continue;
             }
+            let force = on_node[0][0];
+            let moment = RigidBodyFrame::moment(&axes_at(node, x), &axes_at(0, on_node));
+            on_node.fill([[N::of(0.0); D]; 2]);
             self.pull_marker(site, (&force, &moment), x, &mut |node, term| {
                 let sums = f[node].as_flattened_mut().iter_mut();
                 sums.zip(term.as_flattened())
@@ -97,7 +107,8 @@ impl ReducedBody {
         f: &mut [Node<D, N>],
     ) -> N {
         let force = self.amplitudes_mut(f);
-        self.strain.add_force(self.amplitudes(x), force);
+        self.strain
+            .add_force(self.amplitudes(x), self.terms(x), force);
         let mut power = N::of(0.0);
         for ((force, rate), damping) in force.iter_mut().zip(self.amplitudes(v)).zip(&self.damping)
         {
@@ -116,15 +127,15 @@ impl ReducedBody {
     ) {
         let spin = self.frame.spin(x, dx);
         let (eta, rates) = (self.amplitudes(x), self.amplitudes(dx));
-        let turning = self.model.angular_momentum((eta, rates), &spin);
+        let terms = self.terms(x);
+        let turning = self.model.angular_momentum((eta, rates), terms, &spin);
         let on_axes = RigidBodyFrame::on_axes(&self.axes(x), &turning);
         let mut sum = self.axes(momentum);
         (0..3).for_each(|k| sum[k] += on_axes[k]);
         self.frame.set_axes(&sum, momentum);
-        let (_, coupling) = self.derived_of(x);
         let of_modes = numbers_mut(&mut momentum[self.inner()..]);
         for (k, rate) in rates.iter().enumerate() {
-            of_modes[k] += rate + coupling_at(coupling, k).dot(&spin);
+            of_modes[k] += rate + terms.coupling(k).dot(&spin);
         }
     }
 }

@@ -49,14 +49,15 @@ impl ReducedBody {
         let force = self.amplitudes_mut(f);
         let negate = |force: &mut [N]| force.iter_mut().for_each(|force| *force = -*force);
         negate(force);
-        let own = self.model.add_inertial((eta, rates), &spin, force);
+        let (motion, terms) = ((eta, rates), [self.terms(x), self.terms(v)]);
+        let own = self.model.add_inertial(motion, terms, &spin, force);
         negate(force);
-        let whole = (self.model).add_inertial((eta, rates), &(spin + carried), force);
+        let whole = (self.model).add_inertial(motion, terms, &(spin + carried), force);
         let change = carried.cross(&spin);
         for (k, force) in force.iter_mut().enumerate() {
-            *force -= self.model.coupling_of(k, eta).dot(&change);
+            *force -= terms[0].coupling(k).dot(&change);
         }
-        let moment = whole - own - self.model.momentum_of_spin(eta, &change);
+        let moment = whole - own - self.model.momentum_of_spin(eta, terms[0], &change);
         // Forces on axes that have this moment, and no stiffness against small rotations.
         let half = moment * N::of(0.5);
         let [a, b, c] = axes;
@@ -99,7 +100,8 @@ impl ReducedBody {
         rotation: [f64; 3],
     ) -> N {
         let carried = along(&self.axes(x), &rotation.map(N::of).into());
-        let momentum = (self.model).momentum_of_spin(self.amplitudes(x), &carried);
+        let (eta, terms) = (self.amplitudes(x), self.terms(x));
+        let momentum = self.model.momentum_of_spin(eta, terms, &carried);
         momentum.dot(&carried) * N::of(0.5)
     }
 
@@ -113,6 +115,7 @@ impl ReducedBody {
         let stiffness = CentrifugalStiffness {
             model: &self.model,
             eta: self.amplitudes(x),
+            terms: self.terms(x),
             rotation: along(&self.axes(x), &rotation.into()),
         };
         self.blocks(&stiffness, x, add);

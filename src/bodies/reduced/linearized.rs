@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{ReducedBody, Site, coupling_at};
+use super::{ReducedBody, Site};
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{RigidBodyFrame, along, axes_at, geometric, rotation_block};
@@ -57,14 +57,14 @@ struct AtInterface<'a> {
     interface: &'a Interface,
     /// Along the axes of the body, N.
     force: Vector3<f64>,
-    eta: &'a [f64],
+    /// Derivatives of its place by the amplitudes, m, `[n]`.
+    shapes: &'a [[f64; 3]],
     paired: usize,
 }
 
 impl Stiffness for AtInterface<'_> {
     fn mixed(&self, k: usize) -> Vector3<f64> {
-        let shape = self.interface.shape(k, self.eta, self.paired);
-        self.force.cross(&shape)
+        self.force.cross(&Vector3::from(self.shapes[k]))
     }
 
     fn modal(&self, k: usize, l: usize) -> f64 {
@@ -83,17 +83,18 @@ impl ReducedBody {
         x: &[Node<D>],
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
-        let (scale, coupling) = self.derived_of(x);
+        let (scale, terms) = self.derived_of(x);
+        let couplings = terms.couplings();
         let (n, node, size) = (self.model.modes(), self.frame.node, 2 * D);
         let mut rotations = of.rotations();
         for (a, first) in self.modal().enumerate() {
             let mut mixed = no_block::<D>();
             for k in (size * a..n).take(size) {
-                let (coupled, by_mode) = (coupling_at(coupling, k), of.mixed(k));
+                let (coupled, by_mode) = (Vector3::from(couplings[k]), of.mixed(k));
                 let mut by_others = Vector3::zeros();
                 let others = if of.is_diagonal() { k..k + 1 } else { 0..n };
                 for l in others {
-                    by_others += coupling_at(coupling, l) * of.modal(k, l);
+                    by_others += Vector3::from(couplings[l]) * of.modal(k, l);
                 }
                 rotations +=
                     coupled * (by_others - by_mode).transpose() - by_mode * coupled.transpose();
@@ -127,8 +128,8 @@ impl ReducedBody {
         x: &[Node<D>],
         add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
-        let eta = self.amplitudes(x);
-        self.blocks(&self.strain.stiffness(eta), x, add);
+        let stiffness = self.strain.stiffness(self.amplitudes(x), self.terms(x));
+        self.blocks(&stiffness, x, add);
     }
 
     /// Calls with the damping of the modes.
@@ -150,7 +151,8 @@ impl ReducedBody {
         let (node, axes) = (self.frame.node, self.axes(x));
         // A force at an arm does as one on each axis, times the component of the arm.
         let mut on_axes = self.axes(forces);
-        for (interface, (node, _)) in self.model.interfaces.iter().zip(self.sites().skip(1)) {
+        for (index, interface) in self.model.interfaces.iter().enumerate() {
+            let node = self.interface(index);
             let force = Vector::from(forces[node][0]);
             let global = Vector3::from(components(&force));
             let arm = self.arm(node, &axes, x);
@@ -165,7 +167,7 @@ impl ReducedBody {
                 let at = AtInterface {
                     interface,
                     force: along(&axes, &force),
-                    eta: self.amplitudes(x),
+                    shapes: self.terms(x).shapes(index),
                     paired: self.model.paired,
                 };
                 self.blocks(&at, x, &mut *add);

@@ -8,8 +8,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::ReducedModel;
 use super::inertia::times;
+use super::{ModalTerms, ReducedModel};
 
 /// Second derivatives of the potential of centrifugal forces by small rotations and amplitudes.
 pub struct CentrifugalStiffness<'a> {
@@ -17,6 +17,8 @@ pub struct CentrifugalStiffness<'a> {
     pub model: &'a ReducedModel,
     /// Amplitudes of the modes.
     pub eta: &'a [f64],
+    /// Terms at these.
+    pub terms: ModalTerms<'a>,
     /// Rotation of the frame along the axes of the body, rad/s.
     pub rotation: Vector3<f64>,
 }
@@ -24,7 +26,7 @@ pub struct CentrifugalStiffness<'a> {
 impl CentrifugalStiffness<'_> {
     /// By rotations, N m: `-A^T J A - (W L^T + L W^T) / 2 + L.W I` with `A p = W x p` and `L = J W`.
     pub fn of_rotations(&self) -> Matrix3<f64> {
-        let (spin, inertia) = (self.rotation, self.model.inertia(self.eta));
+        let (spin, inertia) = (self.rotation, self.model.inertia(self.eta, self.terms));
         let momentum = times(inertia, &spin);
         let moved = Matrix3::from_columns(&[0, 1, 2].map(|k| {
             let across = spin.cross(&Vector3::ith(k, 1.0));
@@ -37,7 +39,7 @@ impl CentrifugalStiffness<'_> {
 
     /// By rotations and the amplitude of a mode: `W x J_k W`.
     pub fn of_rotation_and_mode(&self, k: usize) -> Vector3<f64> {
-        let by_mode = self.model.inertia_by_mode(k, self.eta);
+        let by_mode = self.terms.inertia()[k];
         self.rotation.cross(&times(by_mode, &self.rotation))
     }
 

@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{ReducedModel, Symmetric};
+use super::{ModalTerms, ReducedModel, Symmetric};
 use crate::math::jet::Number;
 
 /// Numbers of a [`SpinScale`].
@@ -100,120 +100,81 @@ impl<N: Number> SpinScale<N> {
 }
 
 impl ReducedModel {
-    /// `h_k = sum_l N_lk eta_l`; of rates it is the rate.
-    #[inline(always)]
-    pub fn coupling_of<N: Number>(&self, k: usize, eta: &[N]) -> Vector3<N> {
-        let n = self.modes();
-        let mut sum = [N::of(0.0); 3];
-        for (of, eta) in self.coupling[n * k..n * (k + 1)].iter().zip(eta) {
-            for (sum, part) in sum.iter_mut().zip(of) {
-                *sum -= *eta * N::of(*part);
-            }
-        }
-        sum.into()
-    }
-
-    /// `dJ / d eta_k = J1_k + 2 sum_l J2_kl eta_l`.
-    #[inline(always)]
-    pub fn inertia_by_mode<N: Number>(&self, k: usize, eta: &[N]) -> Symmetric<N> {
-        let n = self.modes();
-        let mut sum = [N::of(0.0); 6];
-        for (of, eta) in self.inertia_2[n * k..n * (k + 1)].iter().zip(eta) {
-            for (sum, part) in sum.iter_mut().zip(of) {
-                *sum += *eta * N::of(*part);
-            }
-        }
-        std::array::from_fn(|at| sum[at] * N::of(2.0) + N::of(self.inertia_1[k][at]))
-    }
-
     /// Inertia `J` about the centre of mass at amplitudes of the modes, kg m^2.
-    pub fn inertia<N: Number>(&self, eta: &[N]) -> Symmetric<N> {
-        let mut sum = self.undeformed();
-        for (k, amplitude) in eta.iter().enumerate() {
-            self.add_inertia_of(k, *amplitude, &self.inertia_by_mode(k, eta), &mut sum);
-        }
-        sum
-    }
-
-    fn undeformed<N: Number>(&self) -> Symmetric<N> {
+    pub fn inertia<N: Number>(&self, eta: &[N], terms: ModalTerms<'_, N>) -> Symmetric<N> {
         let mut sum = [N::of(0.0); 6];
-        sum.iter_mut()
-            .zip(self.moments)
-            .for_each(|(sum, j)| *sum = N::of(j));
+        for (sum, moment) in sum.iter_mut().zip(self.moments) {
+            *sum = N::of(moment);
+        }
+        let by_modes = self.inertia_1.iter().zip(terms.inertia());
+        for (amplitude, (linear, by_mode)) in eta.iter().zip(by_modes) {
+            let half = *amplitude * N::of(0.5);
+            for (at, sum) in sum.iter_mut().enumerate() {
+                *sum += (N::of(linear[at]) + by_mode[at]) * half;
+            }
+        }
         sum
     }
 
-    /// Adds the part of an amplitude to the inertia.
-    #[inline(always)]
-    fn add_inertia_of<N: Number>(
-        &self,
-        k: usize,
-        amplitude: N,
-        by_mode: &Symmetric<N>,
-        sum: &mut Symmetric<N>,
-    ) {
-        let half = amplitude * N::of(0.5);
-        let linear = self.inertia_1[k].map(N::of);
-        for (at, sum) in sum.iter_mut().enumerate() {
-            *sum += (linear[at] + by_mode[at]) * half;
-        }
-    }
-
-    /// Adds the forces of inertia that rates ask for to forces on modes. Returns the moment along the axes, N m:
+    /// Adds the forces of inertia that rates ask for to forces on modes, with the rates of the terms. Returns the moment along the axes, N m:
     /// `-J' w - w x (J w + h eta')`.
     #[inline(always)]
     pub fn add_inertial<N: Number>(
         &self,
         (eta, rates): (&[N], &[N]),
+        [terms, term_rates]: [ModalTerms<'_, N>; 2],
         spin: &Vector3<N>,
         force: &mut [N],
     ) -> Vector3<N> {
-        let zero = N::of(0.0);
-        let (mut inertia, mut rate) = (self.undeformed(), [zero; 6]);
-        let mut of_modes = Vector3::from_element(zero);
-        for k in 0..self.modes() {
-            let by_mode = self.inertia_by_mode(k, eta);
-            self.add_inertia_of(k, eta[k], &by_mode, &mut inertia);
-            add(&mut rate, rates[k], &by_mode);
-            of_modes += self.coupling_of(k, eta) * rates[k];
-            let turned =
-                times(by_mode, spin) * N::of(0.5) - self.coupling_of(k, rates) * N::of(2.0);
-            force[k] += spin.dot(&turned);
+        let mut rate = [N::of(0.0); 6];
+        let by_modes = terms.inertia().iter().zip(term_rates.couplings());
+        for ((force, eta_rate), (by_mode, coupling)) in force.iter_mut().zip(rates).zip(by_modes) {
+            add(&mut rate, *eta_rate, by_mode);
+            let coupling: Vector3<N> = (*coupling).into();
+            let turned = times(*by_mode, spin) * N::of(0.5) - coupling * N::of(2.0);
+            *force += spin.dot(&turned);
         }
-        let momentum = times(inertia, spin) + of_modes;
+        let momentum = self.angular_momentum((eta, rates), terms, spin);
         -times(rate, spin) - spin.cross(&momentum)
     }
 
     /// Angular momentum `J w` of a spin about the centre of mass along the axes, N m s.
-    pub fn momentum_of_spin<N: Number>(&self, eta: &[N], spin: &Vector3<N>) -> Vector3<N> {
-        times(self.inertia(eta), spin)
+    pub fn momentum_of_spin<N: Number>(
+        &self,
+        eta: &[N],
+        terms: ModalTerms<'_, N>,
+        spin: &Vector3<N>,
+    ) -> Vector3<N> {
+        times(self.inertia(eta, terms), spin)
     }
 
     /// Angular momentum `J w + h eta'` about the centre of mass along the axes, N m s.
+    #[inline(always)]
     pub fn angular_momentum<N: Number>(
         &self,
         (eta, rates): (&[N], &[N]),
+        terms: ModalTerms<'_, N>,
         spin: &Vector3<N>,
     ) -> Vector3<N> {
-        let momentum = self.momentum_of_spin(eta, spin);
-        rates.iter().enumerate().fold(momentum, |sum, (k, rate)| {
-            sum + self.coupling_of(k, eta) * *rate
-        })
-    }
-
-    /// `J - h h^T` at couplings `h`, `[n]`.
-    fn reduced_inertia<N: Number>(&self, eta: &[N], h: &[N]) -> Matrix3<N> {
-        let mut sum = full(self.inertia(eta));
-        for h in h.chunks_exact(3) {
-            let h = Vector3::new(h[0], h[1], h[2]);
-            sum -= h * h.transpose();
+        let mut momentum = self.momentum_of_spin(eta, terms, spin);
+        for (coupling, rate) in terms.couplings().iter().zip(rates) {
+            momentum += Vector3::from(*coupling) * *rate;
         }
-        sum
+        momentum
     }
 
-    /// Scale of spins at amplitudes `eta` and couplings `h`, three numbers a mode.
-    pub fn spin_scale<N: Number>(&self, eta: &[N], h: &[N]) -> SpinScale<N> {
-        let k = self.reduced_inertia(eta, h);
+    /// `J - h h^T`.
+    fn reduced_inertia<N: Number>(&self, eta: &[N], terms: ModalTerms<'_, N>) -> Matrix3<N> {
+        let mut sum = self.inertia(eta, terms);
+        for coupling in terms.couplings() {
+            add_square(&mut sum, N::of(-1.0), coupling);
+        }
+        full(sum)
+    }
+
+    /// Scale of spins at amplitudes of the modes.
+    pub fn spin_scale<N: Number>(&self, eta: &[N], terms: ModalTerms<'_, N>) -> SpinScale<N> {
+        let k = self.reduced_inertia(eta, terms);
         let a = k[(0, 0)].sqrt();
         let (b, c) = (k[(0, 1)] / a, k[(0, 2)] / a);
         let d = (k[(1, 1)] - b * b).sqrt();
@@ -244,34 +205,16 @@ impl ReducedModel {
         SpinScale::from_matrix(&Matrix3::from_fn(by_root))
     }
 
-    /// Change of `J - h h^T`.
-    fn reduced_inertia_change<N: Number>(
-        &self,
-        [eta, d_eta]: [&[N]; 2],
-        [h, d_h]: [&[N]; 2],
-    ) -> Matrix3<N> {
-        let mut change = [N::of(0.0); 6];
-        for (k, d_eta) in d_eta.iter().enumerate() {
-            add(&mut change, *d_eta, &self.inertia_by_mode(k, eta));
-        }
-        let mut change = full(change);
-        for (h, d_h) in h.chunks_exact(3).zip(d_h.chunks_exact(3)) {
-            let [h, d_h] = [h, d_h].map(|h| Vector3::new(h[0], h[1], h[2]));
-            change -= h * d_h.transpose() + d_h * h.transpose();
-        }
-        change
-    }
-
-    /// Change of the scale of spins with amplitudes and couplings: `-C^-1 Phi D`, where `D` are the roots of the moments of inertia and
-    /// `Phi = C' C^-1` is the upper half of `C^-T (J - h h^T)' C^-1`.
+    /// Change of the scale of spins with amplitudes, at changes of these and of the terms: `-C^-1 Phi D`, where `D` are the roots of the moments of
+    /// inertia and `Phi = C' C^-1` is the upper half of `C^-T (J - h h^T)' C^-1`.
     pub fn spin_scale_change<N: Number>(
         &self,
         scale: &SpinScale<N>,
-        eta: [&[N]; 2],
-        h: [&[N]; 2],
+        rates: &[N],
+        terms: [ModalTerms<'_, N>; 2],
     ) -> SpinScale<N> {
         let inverse = self.root_inverse(scale);
-        let change = self.reduced_inertia_change(eta, h);
+        let change = reduced_inertia_change(rates, terms);
         let phi = upper_half(&(inverse.transpose() * change * inverse));
         self.scaled(&-(inverse * phi))
     }
@@ -281,26 +224,54 @@ impl ReducedModel {
     pub fn spin_scale_bias<N: Number>(
         &self,
         scale: &SpinScale<N>,
-        [eta, rates]: [&[N]; 2],
-        [h, h_rates]: [&[N]; 2],
+        rates: &[N],
+        [terms, term_rates]: [ModalTerms<'_, N>; 2],
     ) -> SpinScale<N> {
         let inverse = self.root_inverse(scale);
-        let change = self.reduced_inertia_change([eta, rates], [h, h_rates]);
+        let change = reduced_inertia_change(rates, [terms, term_rates]);
         let phi = upper_half(&(inverse.transpose() * change * inverse));
         let mut second = [N::of(0.0); 6];
-        for (k, rate) in rates.iter().enumerate() {
-            add(&mut second, *rate, &self.inertia_by_mode(k, rates));
-            add(&mut second, -*rate, &self.inertia_1[k].map(N::of));
+        for (rate, by_mode) in rates.iter().zip(term_rates.inertia()) {
+            add(&mut second, *rate, by_mode);
         }
-        let mut second = full(second);
-        for h in h_rates.chunks_exact(3) {
-            let h = Vector3::new(h[0], h[1], h[2]);
-            second -= h * h.transpose() * N::of(2.0);
+        for coupling in term_rates.couplings() {
+            add_square(&mut second, N::of(-2.0), coupling);
         }
+        let second = full(second);
         let psi = inverse.transpose() * second * inverse - phi.transpose() * phi * N::of(2.0);
         let change = phi * phi * N::of(2.0) - upper_half(&psi);
         self.scaled(&(inverse * change))
     }
+}
+
+/// Change of `J - h h^T` with rates of the amplitudes and of the terms.
+fn reduced_inertia_change<N: Number>(
+    rates: &[N],
+    [terms, term_rates]: [ModalTerms<'_, N>; 2],
+) -> Matrix3<N> {
+    let mut change = [N::of(0.0); 6];
+    for (rate, by_mode) in rates.iter().zip(terms.inertia()) {
+        add(&mut change, *rate, by_mode);
+    }
+    let couplings = terms.couplings().iter().zip(term_rates.couplings());
+    for (&[x, y, z], &[dx, dy, dz]) in couplings {
+        let products = [
+            x * dx * N::of(2.0),
+            y * dy * N::of(2.0),
+            z * dz * N::of(2.0),
+            x * dy + y * dx,
+            x * dz + z * dx,
+            y * dz + z * dy,
+        ];
+        add(&mut change, N::of(-1.0), &products);
+    }
+    full(change)
+}
+
+/// `sum += factor * v v^T`.
+#[inline(always)]
+fn add_square<N: Number>(sum: &mut Symmetric<N>, factor: N, &[x, y, z]: &[N; 3]) {
+    add(sum, factor, &[x * x, y * y, z * z, x * y, x * z, y * z]);
 }
 
 /// A symmetric matrix as a whole.

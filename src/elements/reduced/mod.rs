@@ -13,6 +13,7 @@ mod centrifugal;
 mod inertia;
 mod line;
 mod strain;
+mod terms;
 
 #[cfg(test)]
 mod tests;
@@ -26,6 +27,7 @@ pub use centrifugal::CentrifugalStiffness;
 pub use inertia::{SPIN_SCALE, SpinScale};
 pub use line::{LineModes, LineSection, StraightLine};
 pub use strain::{ModalStiffness, ModalStrain};
+pub use terms::{ModalMatrix, ModalTerms};
 
 /// Most modes whose pairs have second-order displacements in a body that moves: pairs of stiff modes diverge.
 pub const PAIRED: usize = 10;
@@ -101,24 +103,12 @@ impl ReducedModel {
 }
 
 impl Interface {
-    /// Derivative of its place by the amplitude of a mode, m.
+    /// Place in the axes of the body at amplitudes of the modes and derivatives of it by them, m.
     #[inline(always)]
-    pub fn shape<N: Number>(&self, k: usize, eta: &[N], paired: usize) -> Vector3<N> {
-        let mut shape = self.modes[k].map(N::of);
-        if k < paired && !self.second.is_empty() {
-            for (l, eta) in eta.iter().enumerate().take(paired) {
-                shape += self.second[paired * k + l].map(N::of) * *eta;
-            }
-        }
-        shape
-    }
-
-    /// Place in the axes of the body at amplitudes of the modes, m.
-    pub fn place<N: Number>(&self, eta: &[N], paired: usize) -> Vector3<N> {
+    pub fn place<N: Number>(&self, eta: &[N], shapes: &[[N; 3]]) -> Vector3<N> {
         let mut place = self.position.map(N::of);
-        for (k, amplitude) in eta.iter().enumerate() {
-            let linear = self.modes[k].map(N::of);
-            place += (linear + self.shape(k, eta, paired)) * (*amplitude * N::of(0.5));
+        for ((mode, shape), amplitude) in self.modes.iter().zip(shapes).zip(eta) {
+            place += (mode.map(N::of) + Vector3::from(*shape)) * (*amplitude * N::of(0.5));
         }
         place
     }
@@ -131,19 +121,5 @@ impl Interface {
             .flatten()
             .zip(eta)
             .fold(none, |sum, (mode, eta)| sum + mode.map(N::of) * *eta)
-    }
-
-    /// Second derivative of its place by rates of the amplitudes: `sum u_kl eta_k' eta_l'`, m/s^2.
-    pub fn second_rate<N: Number>(&self, rates: &[N], paired: usize) -> Vector3<N> {
-        let mut sum = Vector3::from_element(N::of(0.0));
-        if self.second.is_empty() {
-            return sum;
-        }
-        for (k, a) in rates.iter().enumerate().take(paired) {
-            for (l, b) in rates.iter().enumerate().take(paired) {
-                sum += self.second[paired * k + l].map(N::of) * (*a * *b);
-            }
-        }
-        sum
     }
 }

@@ -4,7 +4,7 @@
 //! Source: S. R. Idelsohn, A. Cardona, A reduction method for nonlinear structural dynamic analysis, Comput. Methods Appl. Mech. Eng. 49
 //! (1985) 253-279 (derivatives of modes).
 
-use super::{PAIRED, ReducedModel};
+use super::{ModalTerms, PAIRED, ReducedModel};
 use crate::math::jet::Number;
 
 /// Strain energy over amplitudes of the modes.
@@ -37,58 +37,49 @@ impl ModalStrain {
         }
     }
 
-    /// `sum_l theta^m_kl eta_l`, of a pair of modes.
-    fn turned<N: Number>(&self, m: usize, k: usize, eta: &[N]) -> N {
-        let start = (m * self.paired + k) * self.paired;
-        let weights = self.pairs[start..start + self.paired].iter().zip(eta);
-        weights.fold(N::of(0.0), |sum, (weight, eta)| sum + *eta * N::of(*weight))
-    }
-
-    /// Strain `e_m` of a mode, and calls with every `sum_l theta^m_kl eta_l`.
-    fn strain<N: Number>(&self, m: usize, eta: &[N], mut by_pair: impl FnMut(usize, N)) -> N {
-        let mut strain = eta[m];
-        for k in 0..self.paired.min(m + 1) {
-            let turned = self.turned(m, k, eta);
-            strain -= eta[k] * turned * N::of(0.5);
-            by_pair(k, turned);
-        }
-        strain
+    /// `theta^m_kl`, `[n paired paired]`.
+    pub(super) fn weights(&self) -> &[f64] {
+        &self.pairs
     }
 
     /// Strain `e_m` of a mode at amplitudes of the modes: the amplitude without what pairs of others move without strain.
-    pub fn of_mode<N: Number>(&self, m: usize, eta: &[N]) -> N {
-        self.strain(m, eta, |_, _| {})
+    #[inline(always)]
+    pub fn of_mode<N: Number>(&self, m: usize, eta: &[N], terms: ModalTerms<'_, N>) -> N {
+        let pairs = terms.pairs(m).iter().take(m + 1).zip(eta);
+        let moved = pairs.fold(N::of(0.0), |sum, (turned, eta)| sum + *eta * *turned);
+        eta[m] - moved * N::of(0.5)
     }
 
     /// Energy at amplitudes of the modes, J.
-    pub fn energy<N: Number>(&self, eta: &[N]) -> N {
+    pub fn energy<N: Number>(&self, eta: &[N], terms: ModalTerms<'_, N>) -> N {
         let modes = self.eigenvalues.iter().enumerate();
         modes.fold(N::of(0.0), |energy, (m, eigenvalue)| {
-            let strain = self.of_mode(m, eta);
+            let strain = self.of_mode(m, eta, terms);
             energy + strain * strain * N::of(0.5 * eigenvalue)
         })
     }
 
     /// Adds elastic forces on the modes.
-    pub fn add_force<N: Number>(&self, eta: &[N], force: &mut [N]) {
+    pub fn add_force<N: Number>(&self, eta: &[N], terms: ModalTerms<'_, N>, force: &mut [N]) {
         for (m, eigenvalue) in self.eigenvalues.iter().enumerate() {
-            let mut turned = [N::of(0.0); PAIRED];
-            let strain = self.strain(m, eta, |k, by_pair| turned[k] = by_pair);
-            let pull = strain * N::of(*eigenvalue);
+            let pull = self.of_mode(m, eta, terms) * N::of(*eigenvalue);
             force[m] -= pull;
-            for (force, turned) in force.iter_mut().zip(&turned[..self.paired]) {
+            for (force, turned) in force.iter_mut().zip(terms.pairs(m).iter().take(m + 1)) {
                 *force += pull * *turned;
             }
         }
     }
 
     /// Second derivatives of the energy at amplitudes of the modes.
-    pub fn stiffness<'a>(&'a self, eta: &'a [f64]) -> ModalStiffness<'a> {
+    pub fn stiffness<'a>(&'a self, eta: &[f64], terms: ModalTerms<'a>) -> ModalStiffness<'a> {
         let mut pairs = [[0.0; PAIRED]; PAIRED];
         let paired = self.paired;
         for (m, eigenvalue) in self.eigenvalues.iter().enumerate() {
             let mut by = [0.0; PAIRED];
-            let strain = self.strain(m, eta, |k, turned| by[k] = -turned);
+            let strain = self.of_mode(m, eta, terms);
+            for (by, turned) in by.iter_mut().zip(terms.pairs(m)) {
+                *by = -turned;
+            }
             if m < paired {
                 by[m] += 1.0;
             }
@@ -101,7 +92,7 @@ impl ModalStrain {
         }
         ModalStiffness {
             strain: self,
-            eta,
+            terms,
             pairs,
         }
     }
@@ -111,7 +102,7 @@ impl ModalStrain {
 #[derive(Clone, Debug)]
 pub struct ModalStiffness<'a> {
     strain: &'a ModalStrain,
-    eta: &'a [f64],
+    terms: ModalTerms<'a>,
     /// Those by the amplitudes that form pairs.
     pairs: [[f64; PAIRED]; PAIRED],
 }
@@ -123,7 +114,7 @@ impl ModalStiffness<'_> {
         let eigenvalue = self.strain.eigenvalues[high];
         match (low < self.strain.paired, high < self.strain.paired) {
             (true, true) => self.pairs[k][l],
-            (true, false) => -eigenvalue * self.strain.turned(high, low, self.eta),
+            (true, false) => -eigenvalue * self.terms.pairs(high)[low],
             _ if low == high => eigenvalue,
             _ => 0.0,
         }

@@ -4,7 +4,9 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
-use super::{CentrifugalStiffness, ModalStrain, PAIRED, ReducedModel, Symmetric};
+use super::{
+    CentrifugalStiffness, ModalMatrix, ModalStrain, PAIRED, ReducedModel, Symmetric,
+};
 
 mod basis;
 
@@ -178,9 +180,14 @@ fn motion() -> (Vec<f64>, Vec<f64>, Vector3<f64>) {
     (some(0.3), some(2.0), Vector3::new(1.1, -0.7, 2.3))
 }
 
-fn couplings(model: &ReducedModel, eta: &[f64]) -> Vec<f64> {
-    let all = (0..MODES).flat_map(|k| <[f64; 3]>::from(model.coupling_of(k, eta)));
-    all.collect()
+/// The matrix of terms that are linear in the amplitudes, with the terms at amplitudes and their rates.
+fn terms(model: &ReducedModel, eta: &[f64], rates: &[f64]) -> (ModalMatrix, [Vec<f64>; 2]) {
+    let matrix = ModalMatrix::new(model, &ModalStrain::new(model));
+    let mut at = matrix.undeformed().to_vec();
+    matrix.deform(eta, &mut at);
+    let mut by_rates = vec![f64::NAN; at.len()];
+    matrix.rates(rates, &mut by_rates);
+    (matrix, [at, by_rates])
 }
 
 #[test]
@@ -192,14 +199,15 @@ fn mass_in_the_counted_rates_is_that_of_all_points() {
         let columns = points.columns(i, &eta);
         sum + columns.transpose() * columns * points.masses[i]
     });
-    let h = couplings(&model, &eta);
-    let scale = model.spin_scale(&eta, &h);
+    let (matrix, [terms, _]) = terms(&model, &eta, &eta);
+    let terms = matrix.read(&terms);
+    let (scale, h) = (model.spin_scale(&eta, terms), terms.couplings());
     // nu = S w, zeta = eta' + h^T w.
     let inverse = scale.matrix().try_inverse().expect("a scale");
     let counted = DMatrix::from_fn(3 + MODES, 3 + MODES, |r, c| match (r, c) {
         (0..3, 0..3) => inverse[(r, c)],
         (0..3, _) => 0.0,
-        (_, 0..3) => h[3 * (r - 3) + c],
+        (_, 0..3) => h[r - 3][c],
         _ => f64::from(u8::from(r == c)),
     });
     let constant = DVector::from_fn(3 + MODES, |r, _| if r < 3 { model.moments[r] } else { 1.0 });
@@ -221,7 +229,9 @@ fn forces_of_inertia_are_those_of_all_points() {
         asked += points.columns(i, &eta).transpose() * force;
     }
     let mut force = [0.0; MODES];
-    let moment = model.add_inertial((&eta, &rates), &spin, &mut force);
+    let (matrix, terms) = terms(&model, &eta, &rates);
+    let terms = terms.each_ref().map(|terms| matrix.read(terms));
+    let moment = model.add_inertial((&eta, &rates), terms, &spin, &mut force);
     let found = moment.iter().chain(&force);
     for (found, asked) in found.zip(&asked) {
         assert!(
@@ -241,13 +251,14 @@ fn changes_of_the_scale_of_spins_are_differences() {
             .zip(&rates)
             .map(|(eta, rate)| eta + t * rate)
             .collect();
-        model.spin_scale(&eta, &couplings(&model, &eta)).0
+        let (matrix, [terms, _]) = terms(&model, &eta, &rates);
+        model.spin_scale(&eta, matrix.read(&terms)).0
     };
-    let (h, h_rates) = (couplings(&model, &eta), couplings(&model, &rates));
-    let (pairs, couplings) = ([&eta[..], &rates], [&h[..], &h_rates]);
-    let scale = model.spin_scale(&eta, &h);
-    let first = model.spin_scale_change(&scale, pairs, couplings).0;
-    let second = model.spin_scale_bias(&scale, pairs, couplings).0;
+    let (matrix, terms) = terms(&model, &eta, &rates);
+    let terms = terms.each_ref().map(|terms| matrix.read(terms));
+    let scale = model.spin_scale(&eta, terms[0]);
+    let first = model.spin_scale_change(&scale, &rates, terms).0;
+    let second = model.spin_scale_bias(&scale, &rates, terms).0;
     let step = 1e-3;
     let [before, now, after] = [at(-step), at(0.0), at(step)];
     for k in 0..6 {
@@ -279,18 +290,25 @@ fn elastic_forces_and_stiffness_derive_from_the_energy() {
     };
     let force_at = |eta: &[f64]| {
         let mut force = [0.0; MODES];
-        strain.add_force(eta, &mut force);
+        let (matrix, [terms, _]) = terms(&model, eta, eta);
+        strain.add_force(eta, matrix.read(&terms), &mut force);
         force
     };
+    let energy = |eta: &[f64]| {
+        let (matrix, [terms, _]) = terms(&model, eta, eta);
+        strain.energy(eta, matrix.read(&terms))
+    };
+    let (matrix, [at, _]) = terms(&model, &eta, &eta);
+    let stiffness = strain.stiffness(&eta, matrix.read(&at));
     let force = force_at(&eta);
     for k in 0..MODES {
         let (more, less) = (moved(k, step), moved(k, -step));
-        let difference = (strain.energy(&less) - strain.energy(&more)) / (2.0 * step);
+        let difference = (energy(&less) - energy(&more)) / (2.0 * step);
         assert!((force[k] - difference).abs() < 1e-6 * force[k].abs().max(1.0));
         let (more, less) = (force_at(&more), force_at(&less));
         for l in 0..MODES {
             let difference = (less[l] - more[l]) / (2.0 * step);
-            let second = strain.stiffness(&eta).at(k, l);
+            let second = stiffness.at(k, l);
             assert!(
                 (second - difference).abs() < 1e-6 * second.abs().max(400.0),
                 "{k} {l}"

@@ -16,6 +16,12 @@ pub trait Dynamics {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]);
     /// Computes the power that came in from outside and that was dissipated at the last acceleration, W.
     fn power(&mut self) -> [f64; 2];
+    /// Computes the acceleration at the end of a step, and returns the power there, W. It may leave the acceleration out where
+    /// [`Dynamics::accepted`] moves every state, but counts it.
+    fn acceleration_at_end(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> [f64; 2] {
+        self.acceleration(time, q, v, a);
+        self.power()
+    }
     /// How many steps of length `h` (s) add up in a time (s), at least 1, where functions of time drive the
     /// system; 1 elsewhere. Explicit methods see the error of integrating a function of time in one step, but
     /// hardly in its acceleration: faster than the rest of the scene, it takes many steps that err alike.
@@ -383,6 +389,17 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
         } else {
             [0.0; 2]
         }
+    }
+
+    fn acceleration_at_end(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> [f64; 2] {
+        let system = self.system;
+        // A search for a slide begins at what it found.
+        if system.is_projected() && !system.tracks_work && system.slides.is_empty() {
+            self.operations += 1.0;
+            return [0.0; 2];
+        }
+        self.acceleration(time, q, v, a);
+        self.power()
     }
 
     fn steps_in(&self, time: f64, h: f64) -> f64 {

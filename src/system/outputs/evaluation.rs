@@ -91,6 +91,7 @@ impl<const D: usize> Evaluation<D> {
         system.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
         self.x.copy_from_slice(&work.kinematics.x);
         self.v.copy_from_slice(&work.kinematics.v);
+        system.bodies.place_derived_rates(&self.x, &mut self.v);
         self.angles.copy_from_slice(&work.kinematics.angles);
         self.travel.copy_from_slice(&work.kinematics.travel);
         self.drives.copy_from_slice(&work.kinematics.drives);

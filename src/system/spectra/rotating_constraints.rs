@@ -83,7 +83,9 @@ impl<const D: usize> System<D> {
 
     /// Rates of some rows of the Jacobian, in `q`.
     fn rotating_rows(&self, work: &Workspace<D>, rows: &[usize]) -> Vec<Vec<f64>> {
-        let pairs = work.kinematics.x.iter().zip(&work.kinematics.v);
+        let mut rates = work.kinematics.v.clone();
+        (self.bodies).place_derived_rates(&work.kinematics.x, &mut rates);
+        let pairs = work.kinematics.x.iter().zip(&rates);
         let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
         let v = work.kinematics.v.iter().map(|v| map_node(v, Jet::from_re));
         let v: Vec<Node<D, Jet>> = v.collect();

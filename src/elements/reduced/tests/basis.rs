@@ -4,7 +4,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use super::{MODES, Points, Random};
+use super::{MODES, Points, Random, terms};
 use crate::elements::reduced::{Interface, ModalBasis, ReducedModel};
 
 /// Two points of the body that are held.
@@ -125,10 +125,10 @@ fn combined_modes_are_the_same_body() {
     };
     assert!(difference(&inertia(&model, &eta), &inertia(&combined, &own)) < 1e-12);
     let places = |model: &ReducedModel, eta: &DVector<f64>| -> Vec<f64> {
-        let places = model
-            .interfaces
-            .iter()
-            .map(|of| of.place(eta.as_slice(), MODES));
+        let (matrix, [terms, _]) = terms(model, eta.as_slice(), eta.as_slice());
+        let terms = matrix.read(&terms);
+        let places = (model.interfaces.iter().enumerate())
+            .map(|(index, of)| of.place(eta.as_slice(), terms.shapes(index)));
         places.flat_map(<[f64; 3]>::from).collect()
     };
     assert!(difference(&places(&model, &eta), &places(&combined, &own)) < 1e-12);
