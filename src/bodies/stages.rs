@@ -140,6 +140,11 @@ impl<const D: usize> Stages<D> {
         }
     }
 
+    /// Whether no node turns, by itself or with a section.
+    fn is_still(&self) -> bool {
+        self.turning.is_empty() && self.sections.is_empty()
+    }
+
     /// Turns the forces on a stage back to where the tangent was made; their sum stays.
     pub(super) fn rotate_to_tangent(
         &mut self,
@@ -147,7 +152,7 @@ impl<const D: usize> Stages<D> {
         stage: usize,
         y: &mut [f64],
     ) {
-        if self.turning.is_empty() {
+        if self.is_still() {
             return;
         }
         for f in &mut self.floating {
@@ -169,7 +174,7 @@ impl<const D: usize> Stages<D> {
 
     /// Turns displacements forth to a stage; their mean translation stays.
     pub(super) fn rotate_to_stage(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
-        if self.turning.is_empty() {
+        if self.is_still() {
             return;
         }
         for f in &mut self.floating {

@@ -4,7 +4,7 @@
 use nalgebra::{ComplexField, RealField, convert};
 use num_dual::Dual2_64;
 
-use super::lanes::Real;
+use super::lanes::{AlignedPack, PACK, Real};
 use super::sums;
 
 /// A number with its first and second derivative by one variable.
@@ -27,12 +27,13 @@ pub trait Number: RealField + Real {
     /// A function of it: `value`, or from `derivatives`, value and first two derivatives.
     fn map(self, value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 3]) -> Self;
 
-    /// `out += sum of factors times columns`, which stand one after the other. Their length is a multiple of [`PACK`](super::lanes::PACK).
-    fn add_columns(columns: &[f64], factors: &[Self], out: &mut [Self]) {
+    /// `out += sum of factors times columns`, which stand one after the other. All are whole packs.
+    fn add_columns(columns: &[AlignedPack], factors: &[Self], out: &mut [Self]) {
+        let out = out.as_chunks_mut::<PACK>().0;
         for (column, factor) in columns.chunks_exact(out.len().max(1)).zip(factors) {
-            for (sum, entry) in out.iter_mut().zip(column) {
-                *sum += *factor * Self::of(*entry);
-            }
+            let entries = column.iter().flat_map(|pack| pack.0);
+            let sums = out.as_flattened_mut().iter_mut().zip(entries);
+            sums.for_each(|(sum, entry)| *sum += *factor * Self::of(entry));
         }
     }
 }
@@ -53,7 +54,7 @@ impl Number for f64 {
         value(self)
     }
 
-    fn add_columns(columns: &[f64], factors: &[Self], out: &mut [Self]) {
+    fn add_columns(columns: &[AlignedPack], factors: &[Self], out: &mut [Self]) {
         sums::add_columns(columns, factors, out);
     }
 }

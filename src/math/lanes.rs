@@ -9,6 +9,11 @@ pub use pulp::Simd;
 /// Elements that are computed together; a multiple of the lanes of every processor.
 pub const PACK: usize = 8;
 
+/// Numbers of a pack at an address from which lanes are read fastest.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct AlignedPack(pub [f64; PACK]);
+
 /// Arithmetic that formulas use on numbers: on `f64` and [`Lanes`].
 pub trait Real:
     Copy

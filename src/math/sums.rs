@@ -1,6 +1,6 @@
 //! Weighted sums of long vectors, in lanes: what methods of integration make of their stages.
 
-use super::lanes::{PACK, Simd, Vectorized, vectorized, vectorized_where};
+use super::lanes::{AlignedPack, PACK, Simd, Vectorized, vectorized, vectorized_where};
 
 /// A weight and the vector that it belongs to.
 pub type Term<'a> = (f64, &'a [f64]);
@@ -114,64 +114,74 @@ fn mix_few(
     }
 }
 
-/// `out += sum of factors times columns`, which stand one after the other. Their length is a multiple of [`PACK`].
-pub fn add_columns(columns: &[f64], factors: &[f64], out: &mut [f64]) {
-    debug_assert_eq!(out.len() % PACK, 0);
-    vectorized(Columns {
+/// `out += sum of factors times columns`, which stand one after the other. All are whole packs.
+pub fn add_columns(columns: &[AlignedPack], factors: &[f64], out: &mut [f64]) {
+    vectorized(AddColumns {
         columns,
         factors,
-        out,
+        out: out.as_chunks_mut().0,
     });
 }
 
-/// Vectors of lanes that [`add_columns`] sums at once.
-const AT_ONCE: usize = 4;
+/// Packs that [`add_columns`] sums at once.
+const AT_ONCE: usize = 2;
 
 /// [`add_columns`].
-struct Columns<'a> {
-    columns: &'a [f64],
+struct AddColumns<'a> {
+    columns: &'a [AlignedPack],
     factors: &'a [f64],
-    out: &'a mut [f64],
+    out: &'a mut [[f64; PACK]],
 }
 
-impl Vectorized for Columns<'_> {
+impl Vectorized for AddColumns<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let columns = S::as_simd_f64s(self.columns).0;
-        let out = S::as_mut_simd_f64s(self.out).0;
-        let size = out.len();
-        let (several, single) = out.as_chunks_mut::<AT_ONCE>();
-        let rest = AT_ONCE * several.len();
+        let columns = (self.columns, self.out.len());
+        let (several, last) = self.out.as_chunks_mut::<AT_ONCE>();
+        let begun = AT_ONCE * several.len();
         for (place, sums) in several.iter_mut().enumerate() {
-            add_parts(simd, (columns, size), AT_ONCE * place, self.factors, sums);
+            add_parts(simd, columns, AT_ONCE * place, self.factors, sums);
         }
-        for (place, sum) in single.iter_mut().enumerate() {
+        for (place, sum) in last.iter_mut().enumerate() {
             let sum = std::array::from_mut(sum);
-            add_parts(simd, (columns, size), rest + place, self.factors, sum);
+            add_parts(simd, columns, begun + place, self.factors, sum);
         }
     }
 }
 
-/// Adds factors times parts of columns of a size, from a place on.
+/// Adds factors times parts of columns of a size, from a pack on.
 #[inline(always)]
 fn add_parts<S: Simd, const K: usize>(
     simd: S,
-    (columns, size): (&[S::f64s], usize),
+    (columns, size): (&[AlignedPack], usize),
     place: usize,
     factors: &[f64],
-    sums: &mut [S::f64s; K],
+    sums: &mut [[f64; PACK]; K],
 ) {
-    let mut own = *sums;
+    let groups = PACK / S::F64_LANES;
+    let mut own = [[simd.splat_f64s(0.0); PACK]; K];
+    for k in 0..K {
+        for group in 0..groups {
+            own[k][group] = S::as_simd_f64s(&sums[k]).0[group];
+        }
+    }
     for (column, factor) in columns.chunks_exact(size).zip(factors) {
         let Some(part) = column[place..].first_chunk::<K>() else {
             return;
         };
         let factor = simd.splat_f64s(*factor);
         for k in 0..K {
-            own[k] = simd.mul_add_e_f64s(factor, part[k], own[k]);
+            for group in 0..groups {
+                let entries = S::as_simd_f64s(&part[k].0).0[group];
+                own[k][group] = simd.mul_add_e_f64s(factor, entries, own[k][group]);
+            }
         }
     }
-    *sums = own;
+    for k in 0..K {
+        for group in 0..groups {
+            S::as_mut_simd_f64s(&mut sums[k]).0[group] = own[k][group];
+        }
+    }
 }
 
 /// [`add`] where a sum is begun, [`sum`] where not.
@@ -267,15 +277,18 @@ mod tests {
 
     #[test]
     fn columns_are_added_whatever_their_length() {
-        for n in (0..100_u32).step_by(PACK) {
-            let columns: Vec<f64> = (0..3 * n).map(f64::from).collect();
-            let factors = [2.0, -1.0, 4.0];
-            let mut out: Vec<f64> = (0..n).map(|i| f64::from(7 * i)).collect();
+        let factors = [2.0, -1.0, 4.0];
+        for packs in 0..8 {
+            let number = |i: usize| f64::from(u32::try_from(i).expect("a small number"));
+            let pack = |i: usize| AlignedPack(std::array::from_fn(|k| number(PACK * i + k)));
+            let columns: Vec<AlignedPack> = (0..3 * packs).map(pack).collect();
+            let mut out: Vec<f64> = (0..PACK * packs).map(|i| 7.0 * number(i)).collect();
             let mut expected = out.clone();
             add_columns(&columns, &factors, &mut out);
             for (k, factor) in factors.into_iter().enumerate() {
-                let n = n as usize;
-                add(&mut expected, &[(factor, &columns[n * k..n * (k + 1)])]);
+                let column = columns[packs * k..packs * (k + 1)].iter();
+                let column: Vec<f64> = column.flat_map(|pack| pack.0).collect();
+                add(&mut expected, &[(factor, &column)]);
             }
             assert_eq!(out, expected);
         }

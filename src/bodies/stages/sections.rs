@@ -26,6 +26,10 @@ impl StageSections {
         }
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
     /// In the plane, the unit directions of lines are those of their sections.
     pub fn direct<const D: usize>(&self, units: &mut [SVector<f64, D>]) {
         for (line, section) in self.nodes.iter().filter(|_| D == 2) {

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use super::{ModalStrain, ReducedModel, Symmetric};
 use crate::math::jet::Number;
-use crate::math::lanes::PACK;
+use crate::math::lanes::{AlignedPack, PACK};
 
 /// The matrix, in blocks of terms.
 #[derive(Clone, Debug)]
@@ -20,7 +20,7 @@ pub struct ModalMatrix {
     /// Terms of every block.
     rows: [Range<usize>; 4],
     /// Columns of every block, by amplitudes of all modes or of those that form pairs.
-    columns: [Vec<f64>; 4],
+    columns: [Vec<AlignedPack>; 4],
 }
 
 /// Blocks of terms that velocities depend on: couplings and places.
@@ -57,7 +57,7 @@ impl ModalMatrix {
         places.for_each(|(out, shape)| *out = *shape);
         let inertias = undeformed[rows[2].start..].iter_mut().zip(inertia);
         inertias.for_each(|(out, inertia)| *out = *inertia);
-        let mut columns = [const { Vec::new() }; 4];
+        let mut columns = [const { Vec::<f64>::new() }; 4];
         for l in 0..n {
             let coupling = |k: usize| <[f64; 3]>::from(-model.coupling[n * k + l]);
             columns[0].extend((0..n).flat_map(coupling));
@@ -85,7 +85,10 @@ impl ModalMatrix {
             },
             undeformed,
             rows,
-            columns,
+            columns: columns.map(|columns| {
+                let packs = columns.as_chunks().0.iter();
+                packs.map(|pack| AlignedPack(*pack)).collect()
+            }),
         }
     }
 
