@@ -123,7 +123,7 @@ impl ReducedBody {
         nodes
     }
 
-    /// Place of a point of the body that deforms as an interface does, m, and directions that are along these axes without deformation,
+    /// Place of a point of a line that deforms as an interface does, m, and directions that are along these axes without deformation,
     /// given in the axes of the body.
     pub fn directed<const D: usize>(
         &self,
@@ -133,7 +133,7 @@ impl ReducedBody {
     ) -> ([f64; 3], [[f64; 3]; 3]) {
         let (eta, of_body) = (self.amplitudes(x), self.axes(x));
         let center = Vector3::from(components(&x[self.frame.node][0].into()));
-        let at = center + combined(&of_body, &point.place(eta, self.model.paired));
+        let at = center + combined(&of_body, &point.deformed(eta));
         let back = -point.turn(eta);
         let turned = |axis: &Vector3<f64>| combined(&of_body, &turned_back(&back, axis)).into();
         (at.into(), axes.each_ref().map(turned))

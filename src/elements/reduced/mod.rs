@@ -113,6 +113,17 @@ impl Interface {
         place
     }
 
+    /// Place at amplitudes of the modes, all of which form pairs or none, m.
+    pub fn deformed(&self, eta: &[f64]) -> Vector3<f64> {
+        let shape = |k: usize| {
+            let pairs = self.second.iter().skip(k * eta.len()).zip(eta);
+            let second = pairs.map(|(second, eta)| second * *eta);
+            (self.modes[k] + second.sum::<Vector3<f64>>()).into()
+        };
+        let shapes: Vec<[f64; 3]> = (0..eta.len()).map(shape).collect();
+        self.place(eta, &shapes)
+    }
+
     /// Rotation vector of its frame in the axes of the body, rad.
     pub fn turn<N: Number>(&self, eta: &[N]) -> Vector3<N> {
         let none = Vector3::from_element(N::of(0.0));

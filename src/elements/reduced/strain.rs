@@ -37,6 +37,11 @@ impl ModalStrain {
         }
     }
 
+    /// Number of first modes whose pairs change strains.
+    pub(super) fn paired(&self) -> usize {
+        self.paired
+    }
+
     /// `theta^m_kl`, `[n paired paired]`.
     pub(super) fn weights(&self) -> &[f64] {
         &self.pairs

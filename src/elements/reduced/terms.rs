@@ -26,12 +26,13 @@ pub struct ModalMatrix {
 /// Blocks of terms that velocities depend on: couplings and places.
 const OF_VELOCITIES: usize = 2;
 
-/// Where terms stand: `3 n` numbers of couplings, `3 n` an interface of places, `6 n` of the inertia, `n paired` of pairs. Blocks are padded to
+/// Where terms stand: `3 n` numbers of couplings, `3 n` an interface of places, `6 n` of the inertia, `n strained` of pairs. Blocks are padded to
 /// whole packs.
 #[derive(Clone, Copy, Debug)]
 struct Layout {
     modes: usize,
-    paired: usize,
+    /// Number of first modes whose pairs change strains.
+    strained: usize,
     /// First numbers of blocks.
     places: usize,
     inertia: usize,
@@ -41,8 +42,8 @@ struct Layout {
 impl ModalMatrix {
     /// Matrix of a model and its strain energy.
     pub fn new(model: &ReducedModel, strain: &ModalStrain) -> Self {
-        let (n, paired) = (model.modes(), model.paired);
-        let sizes = [3 * n, 3 * n * model.interfaces.len(), 6 * n, n * paired];
+        let (n, paired, strained) = (model.modes(), model.paired, strain.paired());
+        let sizes = [3 * n, 3 * n * model.interfaces.len(), 6 * n, n * strained];
         let mut end = 0;
         let rows = sizes.map(|size| {
             let start = end;
@@ -69,7 +70,10 @@ impl ModalMatrix {
                     let shape = |k: usize| <[f64; 3]>::from(second(k).unwrap_or_default());
                     columns[1].extend((0..n).flat_map(shape));
                 }
-                columns[3].extend((0..n * paired).map(|at| strain.weights()[at * paired + l]));
+            }
+            if l < strained {
+                let weights = strain.weights();
+                columns[3].extend((0..n * strained).map(|at| weights[at * strained + l]));
             }
             for (columns, rows) in columns.iter_mut().zip(&rows) {
                 columns.resize(columns.len().next_multiple_of(rows.len().max(1)), 0.0);
@@ -78,7 +82,7 @@ impl ModalMatrix {
         Self {
             layout: Layout {
                 modes: n,
-                paired,
+                strained,
                 places: rows[1].start,
                 inertia: rows[2].start,
                 pairs: rows[3].start,
@@ -162,11 +166,11 @@ impl<'a, N: Number> ModalTerms<'a, N> {
         self.numbers[inertia..inertia + 6 * modes].as_chunks().0
     }
 
-    /// `sum_l theta^m_kl eta_l` of the pairs of a mode `m` of a strain, `[paired]`.
+    /// `sum_l theta^m_kl eta_l` of the pairs of a mode `m` of a strain, `[strained]`.
     #[inline(always)]
     pub fn pairs(self, m: usize) -> &'a [N] {
-        let paired = self.layout.paired;
-        &self.numbers[self.layout.pairs + m * paired..][..paired]
+        let strained = self.layout.strained;
+        &self.numbers[self.layout.pairs + m * strained..][..strained]
     }
 
     /// Derivatives of the place of an interface by the amplitudes, m, `[n]`.

@@ -4,9 +4,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
-use super::{
-    CentrifugalStiffness, ModalMatrix, ModalStrain, PAIRED, ReducedModel, Symmetric,
-};
+use super::{CentrifugalStiffness, ModalMatrix, ModalStrain, PAIRED, ReducedModel, Symmetric};
 
 mod basis;
 
@@ -326,11 +324,14 @@ fn centrifugal_stiffness_is_that_of_the_potential() {
     let rotation = random.vector();
     let potential = |turn: &Vector3<f64>, eta: &[f64]| {
         let carried = Rotation3::new(-turn) * rotation;
-        -0.5 * carried.dot(&model.momentum_of_spin(eta, &carried))
+        let (matrix, [terms, _]) = terms(&model, eta, &[0.0; MODES]);
+        -0.5 * carried.dot(&model.momentum_of_spin(eta, matrix.read(&terms), &carried))
     };
+    let (matrix, [deformed, _]) = terms(&model, &eta, &[0.0; MODES]);
     let stiffness = CentrifugalStiffness {
         model: &model,
         eta: &eta,
+        terms: matrix.read(&deformed),
         rotation,
     };
     for _ in 0..8 {

@@ -98,8 +98,7 @@ impl ModalLine {
     /// Largest distance of a node from where it is without deformation, against the axes of the body, m.
     pub fn deflection<const D: usize>(&self, body: &ReducedBody, x: &[Node<D>]) -> f64 {
         let eta = body.amplitudes(x);
-        let moved =
-            |node: &Interface| (node.place(eta, body.model().paired) - node.position).norm();
+        let moved = |node: &Interface| (node.deformed(eta) - node.position).norm();
         self.nodes.iter().map(moved).fold(0.0, f64::max)
     }
 

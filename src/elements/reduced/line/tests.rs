@@ -73,7 +73,7 @@ fn integrated(line: &StraightLine, numbers: &[f64]) -> Vec<(Vector3<f64>, Rotati
 
 /// Ways between markers in the frame of the first one, from the model: second-order places, rotations to first order.
 fn modelled(model: &ReducedModel, axes: &Matrix3<f64>, eta: &[f64]) -> Vec<Vector3<f64>> {
-    let place = |k: usize| model.interfaces[k].place(eta, model.paired);
+    let place = |k: usize| model.interfaces[k].deformed(eta);
     let ways = [1, 2].map(|k| axes * (place(k) - place(0)));
     ways.to_vec()
 }
