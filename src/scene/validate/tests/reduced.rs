@@ -447,6 +447,10 @@ fn what_needs_no_axes_is_taken_at_points() {
             "/ports/-",
             json!({"name": "a", "kind": "force", "marker": "bracket.tip"}),
         ),
+        (
+            "/outputs/-",
+            json!({"kind": "deflection", "marker": "bracket.tip", "from": "bracket.left"}),
+        ),
     ];
     for (pointer, value) in allowed {
         assert_eq!(told(pointer, value), "accepted");
@@ -489,8 +493,8 @@ fn what_belongs_to_lines_and_rigid_bodies_is_refused() {
         ),
         (
             "/outputs/-",
-            json!({"kind": "deflection", "marker": "bracket.left"}),
-            "outputs[4].marker: expected a marker of a cable",
+            json!({"kind": "deflection", "marker": "bracket.left", "from": "bracket.tip"}),
+            "outputs[4].from: expected an interface with rotations",
         ),
     ];
     for (pointer, value, expected) in cases {
