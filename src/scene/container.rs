@@ -328,6 +328,7 @@ impl ModelReader<'_> {
             modes: self.ways(&modes),
             rotation: rotation.map(|rotation| self.ways(&rotation)),
             second: self.ways(&second),
+            second_rotation: Vec::new(),
         })
     }
 

@@ -9,6 +9,8 @@ use super::resolved::{Cable, InputKind, OutputTarget, Place, Resolved, ResolvedM
 pub(super) const SHORTEST: f64 = 1e-3;
 /// Segments of a line that is reduced to modes, between which strains are of degree 2: its first three frequencies are exact to 1e-4.
 const SEGMENTS: usize = 6;
+/// Most segments of such a line: all pairs of their strains are combined.
+const MOST_SEGMENTS: usize = 24;
 /// Part of the shortest segment, and of the length of a body, by which roundoff moves a marker.
 const ROUNDOFF: f64 = 1e-9;
 
@@ -24,6 +26,13 @@ impl<'a> Resolved<'a> {
         let stations = cable.body.stations.iter().map(|station| station.at);
         if cable.is_modal() {
             let least = corners(&path, 1, &held)?.len() - 1;
+            if least > MOST_SEGMENTS {
+                let message = format!(
+                    "expected markers and stations of a line that is reduced to modes at less than {MOST_SEGMENTS} places between its ends, found {}",
+                    least - 1
+                );
+                return Err(Error::new(format!("{path}.markers"), message));
+            }
             return nodes(&path, least.max(SEGMENTS), &held, stations.count());
         }
         let Some(elements) = cable.body.elements else {

@@ -92,7 +92,8 @@ impl ReducedBody {
             let moved = velocity + combined(&axes, &along);
             let own = interface.rotation.as_ref().map_or(of_points, |_| {
                 let turn = interface.turn(eta);
-                let own = turned_back(&turn, spin) + spin_of(&turn, &interface.turn(rates));
+                let own =
+                    turned_back(&turn, spin) + spin_of(&turn, &interface.turn_rate(eta, rates));
                 axis_rates(&axes_at(node, x), &own)
             });
             set_axes_at(node, &own, v);
@@ -118,10 +119,12 @@ impl ReducedBody {
             let bias = vector::<D, N>(combined(&axes, &along).into());
             a[node][0].iter_mut().zip(&bias).for_each(|(a, b)| *a += *b);
             let own = interface.rotation.as_ref().map_or(of_points, |_| {
-                let (turn, rate) = (interface.turn(eta), interface.turn(rates));
+                let (turn, rate) = (interface.turn(eta), interface.turn_rate(eta, rates));
                 let own = turned_back(&turn, &spin) + spin_of(&turn, &rate);
                 let by_rates = axis_rates(&axes_at(node, v), &own);
-                let by_bias = axis_rates(&axes_at(node, x), &spin_bias(&turn, &rate, &spin));
+                let second = spin_of(&turn, &interface.turn_bias(rates));
+                let bias = spin_bias(&turn, &rate, &spin) + second;
+                let by_bias = axis_rates(&axes_at(node, x), &bias);
                 std::array::from_fn(|k| by_rates[k] + by_bias[k])
             });
             let sum: Axes<N> = axes_at(node, a);

@@ -32,10 +32,10 @@ impl ReducedBody {
         );
         let arm = self.arm(self.interface(index), &axes, x);
         let mut turning = arm.cross(&local);
-        let on_turn = interface.rotation.as_ref().map(|modes| {
+        let on_turn = interface.rotation.as_ref().map(|_| {
             let turn = interface.turn(eta);
             turning += turned_back(&-turn, moment);
-            (modes, force_of(&turn, moment))
+            force_of(&turn, moment)
         });
         if on_turn.is_none() {
             turning += moment;
@@ -48,8 +48,8 @@ impl ReducedBody {
             for (number, (k, (shape, coupling))) in part.as_flattened_mut().iter_mut().zip(of_modes)
             {
                 *number = Vector3::from(*shape).dot(&local);
-                if let Some((modes, on_turn)) = &on_turn {
-                    *number += modes[first + k].map(N::of).dot(on_turn);
+                if let Some(on_turn) = &on_turn {
+                    *number += interface.rotation_shape(first + k, eta).dot(on_turn);
                 }
                 turning -= Vector3::from(*coupling) * *number;
             }

@@ -5,7 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::{ReducedBody, Site};
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{RigidBodyFrame, along, axes_at, geometric, rotation_block};
+use crate::bodies::frame::{
+    Axes, RigidBodyFrame, along, axes_at, geometric, rotation_block, spin_of, turned_back,
+};
 use crate::elements::reduced::{Interface, ModalStiffness, SpinScale};
 use crate::math::space::{Vector, components};
 
@@ -60,18 +62,52 @@ struct AtInterface<'a> {
     /// Derivatives of its place by the amplitudes, m, `[n]`.
     shapes: &'a [[f64; 3]],
     paired: usize,
+    eta: &'a [f64],
+    /// Rotation vector of its frame, rad.
+    turn: Vector3<f64>,
+    /// Its axes along those of the body.
+    own: Axes,
+    /// Forces on them along the axes of the body, N m; none where no moment acts.
+    on_own: Option<Axes>,
+}
+
+impl AtInterface<'_> {
+    /// Rotation of its axes along those of the body by the amplitude of a mode, rad.
+    fn rotated(&self, by_mode: &Vector3<f64>) -> Vector3<f64> {
+        turned_back(&-self.turn, &spin_of(&self.turn, by_mode))
+    }
+
+    fn spin(&self, k: usize) -> Vector3<f64> {
+        self.rotated(&self.interface.rotation_shape(k, self.eta))
+    }
 }
 
 impl Stiffness for AtInterface<'_> {
     fn mixed(&self, k: usize) -> Vector3<f64> {
-        self.force.cross(&Vector3::from(self.shapes[k]))
+        let mut mixed = self.force.cross(&Vector3::from(self.shapes[k]));
+        if let Some(on_own) = &self.on_own {
+            let spin = self.spin(k);
+            for (axis, force) in self.own.iter().zip(on_own) {
+                mixed += force.cross(&spin.cross(axis));
+            }
+        }
+        mixed
     }
 
     fn modal(&self, k: usize, l: usize) -> f64 {
         let has_pair = k < self.paired && l < self.paired;
         let second = self.interface.second.get(self.paired * k + l);
         let second = second.filter(|_| has_pair);
-        -second.map_or(0.0, |second| second.dot(&self.force))
+        let mut modal = -second.map_or(0.0, |second| second.dot(&self.force));
+        if let Some(on_own) = &self.on_own {
+            let [a, b] = [k, l].map(|k| self.spin(k));
+            let second = self.rotated(&self.interface.second_turn(k, l));
+            for (axis, force) in self.own.iter().zip(on_own) {
+                let turned = a.cross(&b.cross(axis)) + b.cross(&a.cross(axis));
+                modal -= force.dot(&(turned * 0.5 + second.cross(axis)));
+            }
+        }
+        modal
     }
 }
 
@@ -163,12 +199,20 @@ impl ReducedBody {
                     on_axes[k] += on_axis * axis.dot(&axes[k]);
                 }
             }
-            if force != Vector::<D>::zeros() {
+            let of_body = |of: &Axes| of.each_ref().map(|axis| along_body(&axes, axis));
+            let has_moment = on_own.iter().any(|force| *force != Vector3::zeros());
+            let has_moment = has_moment && interface.rotation.is_some();
+            if force != Vector::<D>::zeros() || has_moment {
+                let eta = self.amplitudes(x);
                 let at = AtInterface {
                     interface,
                     force: along(&axes, &force),
                     shapes: self.terms(x).shapes(index),
                     paired: self.model.paired,
+                    eta,
+                    turn: interface.turn(eta),
+                    own: of_body(&own),
+                    on_own: has_moment.then(|| of_body(&on_own)),
                 };
                 self.blocks(&at, x, &mut *add);
             }
@@ -228,6 +272,11 @@ impl ReducedBody {
             Site::Interface(index) => self.interface(index),
         }
     }
+}
+
+/// Components of a direction along the axes of a body.
+fn along_body(axes: &Axes, direction: &Vector3<f64>) -> Vector3<f64> {
+    Vector3::from_fn(|k, _| axes[k].dot(direction))
 }
 
 /// A block over small rotations of the frame, counted as spins are.

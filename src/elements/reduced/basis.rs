@@ -189,6 +189,7 @@ impl ReducedModel {
                 rotation: (of.rotation.as_ref())
                     .map(|rotation| (0..n).map(|a| combined(&|k| rotation[k], a)).collect()),
                 second: self.second_in(of, &modes, basis, &cubic),
+                second_rotation: Vec::new(),
                 modes,
             }
         };

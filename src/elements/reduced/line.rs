@@ -445,6 +445,10 @@ impl LineModes {
             modes: modes.iter().map(|of| of.field.ends[end].at).collect(),
             rotation: Some(rotation.collect()),
             second: pairs.iter().map(|of| of.ends[end].at).collect(),
+            second_rotation: pairs
+                .iter()
+                .map(|of| rotation_of(&of.ends[end].by))
+                .collect(),
         }
     }
 
@@ -520,9 +524,10 @@ fn axial(of: &Matrix3<f64>) -> Vector3<f64> {
     )
 }
 
-/// Rotation vector of the skew matrix of a small rotation.
+/// Rotation vector of the skew part of a matrix: of a small rotation, or of second order, where its symmetric part is the square of the first.
 fn rotation_of(of: &Matrix3<f64>) -> Vector3<f64> {
-    Vector3::new(of[(2, 1)], of[(0, 2)], of[(1, 0)])
+    let skew = (of - of.transpose()) * 0.5;
+    Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)])
 }
 
 /// `2 f tr A I - f (A + A^T)`: change of the inertia with products `A` of places.

@@ -73,6 +73,8 @@ pub struct Interface {
     pub rotation: Option<Vec<Vector3<f64>>>,
     /// Second-order displacements, `[paired paired]`, m.
     pub second: Vec<Vector3<f64>>,
+    /// Second-order parts of the rotation vector, `[n n]`, rad; none of interfaces of files.
+    pub second_rotation: Vec<Vector3<f64>>,
 }
 
 impl ReducedModel {
@@ -126,11 +128,42 @@ impl Interface {
 
     /// Rotation vector of its frame in the axes of the body, rad.
     pub fn turn<N: Number>(&self, eta: &[N]) -> Vector3<N> {
+        let linear = self.turn_rate(eta, eta);
+        linear - self.turn_bias(eta) * N::of(0.5)
+    }
+
+    /// Derivative of the rotation vector by the amplitude of a mode, rad.
+    #[inline(always)]
+    pub fn rotation_shape<N: Number>(&self, k: usize, eta: &[N]) -> Vector3<N> {
+        let mode = self.rotation.as_ref().map(|modes| modes[k].map(N::of));
+        let linear = mode.unwrap_or_else(|| Vector3::from_element(N::of(0.0)));
+        let pairs = self.second_rotation.iter().skip(k * eta.len()).zip(eta);
+        pairs.fold(linear, |sum, (second, eta)| sum + second.map(N::of) * *eta)
+    }
+
+    /// Rate of the rotation vector at rates of the amplitudes, rad/s.
+    pub fn turn_rate<N: Number>(&self, eta: &[N], rates: &[N]) -> Vector3<N> {
         let none = Vector3::from_element(N::of(0.0));
-        self.rotation
-            .iter()
-            .flatten()
-            .zip(eta)
-            .fold(none, |sum, (mode, eta)| sum + mode.map(N::of) * *eta)
+        let rates = rates.iter().enumerate();
+        rates.fold(none, |sum, (k, rate)| {
+            sum + self.rotation_shape(k, eta) * *rate
+        })
+    }
+
+    /// Second derivative of the rotation vector that rates of the amplitudes ask for alone, rad/s^2.
+    pub fn turn_bias<N: Number>(&self, rates: &[N]) -> Vector3<N> {
+        let mut sum = Vector3::from_element(N::of(0.0));
+        for (at, second) in self.second_rotation.iter().enumerate() {
+            let (k, l) = (at / rates.len(), at % rates.len());
+            sum += second.map(N::of) * (rates[k] * rates[l]);
+        }
+        sum
+    }
+
+    /// Second derivative of the rotation vector by the amplitudes of two modes, rad.
+    pub fn second_turn(&self, k: usize, l: usize) -> Vector3<f64> {
+        let modes = self.modes.len();
+        let second = self.second_rotation.get(modes * k + l).copied();
+        second.unwrap_or_default()
     }
 }

@@ -27,7 +27,7 @@ use checks::{expected, name, positive, scene_name, sentence, spin, vector};
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
 pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
 /// Natural modes of a line that is reduced to them.
-pub const LINE_MODES: RangeInclusive<u32> = 0..=32;
+pub const LINE_MODES: RangeInclusive<u32> = 0..=12;
 /// Elements of all bodies together: what a computer of today holds.
 const ALL_ELEMENTS: u64 = 1_000_000;
 /// Relative tolerances. Below, the error of a step drowns in roundoff whatever moves. Above, it is none at all.

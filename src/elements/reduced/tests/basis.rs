@@ -39,6 +39,7 @@ fn model() -> ReducedModel {
                 position: points.places[i],
                 modes: points.modes.iter().map(|mode| mode[i]).collect(),
                 rotation: None,
+                second_rotation: Vec::new(),
                 second: (0..MODES * MODES)
                     .map(|at| Vector3::from_fn(|c, _| components[c][at]))
                     .collect(),
