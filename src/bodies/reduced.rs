@@ -75,6 +75,13 @@ pub(super) enum Site {
     Interface(usize),
 }
 
+/// Axes that rotate with an interface, from those of the body now and those given in them without deformation.
+fn rotated_axes(interface: &Interface, eta: &[f64], of_body: &Axes, axes: &Axes) -> Axes {
+    let back = -interface.turn(eta);
+    axes.each_ref()
+        .map(|axis| combined(of_body, &turned_back(&back, axis)))
+}
+
 /// Numbers that nodes hold one after the other.
 fn numbers<const D: usize, N>(nodes: &[Node<D, N>]) -> &[N] {
     nodes.as_flattened().as_flattened()
@@ -134,9 +141,8 @@ impl ReducedBody {
         let (eta, of_body) = (self.amplitudes(x), self.axes(x));
         let center = Vector3::from(components(&x[self.frame.node][0].into()));
         let at = center + combined(&of_body, &point.deformed(eta));
-        let back = -point.turn(eta);
-        let turned = |axis: &Vector3<f64>| combined(&of_body, &turned_back(&back, axis)).into();
-        (at.into(), axes.each_ref().map(turned))
+        let axes = rotated_axes(point, eta, &of_body, axes);
+        (at.into(), axes.map(Into::into))
     }
 
     /// First node of the frame of an interface, by its index.

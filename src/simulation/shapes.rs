@@ -210,8 +210,9 @@ impl<const D: usize> Engine<D> {
         let of = |body: usize| {
             let bends = bodies.line(body);
             let bends = bends.map(|chain| values.elastic_displacement(system, chain, nodes));
-            let modal = assembled.modal_line(body).zip(assembled.reduced(body));
-            let modal = modal.map(|(line, body)| line.deflection(body, &values.x));
+            let modal = assembled
+                .modal_line(body)
+                .map(|(line, body)| line.deflection(body, &values.x));
             (bends.or(modal)).or(bodies.is_along_line(body).then_some(0.0))
         };
         (0..bodies.ranges.len()).filter_map(of).collect()
@@ -291,7 +292,7 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     let first = bodies.ranges[body].start;
     let [position, slope] = [0, 1].map(|part| components(&Vector::from(x[first][part])));
     let reduced = assembled.reduced(body);
-    if let (Some(line), Some(body)) = (assembled.modal_line(body), reduced) {
+    if let Some((line, body)) = assembled.modal_line(body) {
         return modal_pose(line, body, x);
     }
     if bodies.rigid_at(first).is_none() && reduced.is_none() {
@@ -327,7 +328,7 @@ fn outlines<const D: usize>(
     parts: &dyn Fn(usize) -> u32,
 ) -> Vec<Vec<[f64; 3]>> {
     let bodies = assembled.system.bodies();
-    let of = |body: usize| match assembled.modal_line(body).zip(assembled.reduced(body)) {
+    let of = |body: usize| match assembled.modal_line(body) {
         Some((line, body)) => line
             .sections(body, x)
             .into_iter()

@@ -28,6 +28,18 @@ fn clamped(element: &str, modes: u32) -> Value {
             {"kind": "deflection", "marker": "rod.tip", "from": "rod.root"}, {"kind": "deflection", "marker": "rod.tip"}, {"kind": "reaction", "joint": "clamp"}]})
 }
 
+/// A clamped rod along the first axis of the scene, with these keys of its model.
+fn along_x(model: &Value) -> Value {
+    let mut scene = clamped("rod", 0);
+    let body = &mut scene["bodies"][0];
+    body.as_object_mut().expect("a body").remove("modes");
+    for (key, value) in model.as_object().into_iter().flatten() {
+        body[key] = value.clone();
+    }
+    body["shape"] = json!({"line": {"from": [0, 0, 0], "to": [LENGTH, 0, 0]}});
+    scene
+}
+
 /// Second moments about the width and the height, m^4.
 fn second_moments() -> [f64; 2] {
     [WIDTH * HEIGHT.powi(3), HEIGHT * WIDTH.powi(3)].map(|of| of / 12.0)
@@ -168,13 +180,8 @@ fn centrifugal_forces_stiffen_a_cantilever() {
 #[test]
 fn a_blade_that_rotates_has_the_frequencies_of_elements() {
     let frequencies = |model: Value| -> [f64; 5] {
-        let mut scene = clamped("rod", 0);
+        let mut scene = along_x(&model);
         let body = &mut scene["bodies"][0];
-        body.as_object_mut().expect("a body").remove("modes");
-        for (key, value) in model.as_object().into_iter().flatten() {
-            body[key] = value.clone();
-        }
-        body["shape"] = json!({"line": {"from": [0, 0, 0], "to": [LENGTH, 0, 0]}});
         (
             body["material"]["youngs_modulus"],
             body["material"]["shear_modulus"],
@@ -252,13 +259,7 @@ fn a_swinging_beam_keeps_its_energy() {
 #[test]
 fn moments_about_two_axes_act_to_second_order() {
     let place = |model: Value| -> [f64; 3] {
-        let mut scene = clamped("rod", 0);
-        let body = &mut scene["bodies"][0];
-        body.as_object_mut().expect("a body").remove("modes");
-        for (key, value) in model.as_object().into_iter().flatten() {
-            body[key] = value.clone();
-        }
-        body["shape"] = json!({"line": {"from": [0, 0, 0], "to": [LENGTH, 0, 0]}});
+        let mut scene = along_x(&model);
         scene["loads"] =
             json!([{"name": "twist", "kind": "moment", "marker": "rod.tip", "value": [1, 0.3, 0]}]);
         scene["initial"] = json!("static_equilibrium");

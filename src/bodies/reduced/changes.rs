@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{ModalState, ReducedBody, numbers_mut};
+use super::{ModalState, ReducedBody, numbers_mut, rotated_axes};
 use crate::bodies::body::BodyPart;
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{
@@ -67,8 +67,8 @@ impl ReducedBody {
             let (node, eta) = (self.interface(index), self.amplitudes(x));
             let place = interface.place(eta, self.terms(x).shapes(index));
             let own = interface.rotation.as_ref().map_or(axes, |_| {
-                let back = -interface.turn(eta);
-                [0, 1, 2].map(|k| combined(&axes, &turned_back(&back, &Vector3::ith(k, 1.0))))
+                let unit = [0, 1, 2].map(|k| Vector3::ith(k, 1.0));
+                rotated_axes(interface, eta, &axes, &unit)
             });
             set_axes_at(node, &own, x);
             x[node][0] = vector::<D, f64>((center + combined(&axes, &place)).into()).into();

@@ -63,33 +63,45 @@ struct AtInterface<'a> {
     shapes: &'a [[f64; 3]],
     paired: usize,
     eta: &'a [f64],
-    /// Rotation vector of its frame, rad.
-    turn: Vector3<f64>,
-    /// Its axes along those of the body.
-    own: Axes,
-    /// Forces on them along the axes of the body, N m; none where no moment acts.
-    on_own: Option<Axes>,
+    /// Moment on it; none where none acts.
+    moment: Option<AtMoment>,
 }
 
-impl AtInterface<'_> {
-    /// Rotation of its axes along those of the body by the amplitude of a mode, rad.
-    fn rotated(&self, by_mode: &Vector3<f64>) -> Vector3<f64> {
-        turned_back(&-self.turn, &spin_of(&self.turn, by_mode))
-    }
+/// What forces on the axes of an interface add where these rotate by modes. Over rotations of the body and rotation vectors of the axes all of it is
+/// constant.
+struct AtMoment {
+    /// Over rotations of the body and rotation vectors, N m.
+    mixed: Matrix3<f64>,
+    /// Over two rotation vectors, N m.
+    turned: Matrix3<f64>,
+    /// Moment on a second-order rotation vector, N m.
+    moment: Vector3<f64>,
+}
 
-    fn spin(&self, k: usize) -> Vector3<f64> {
-        self.rotated(&self.interface.rotation_shape(k, self.eta))
+impl AtMoment {
+    /// For axes that stand along those of a body after a rotation vector, and forces on them along those of the body, N m.
+    fn new(turn: &Vector3<f64>, own: &Axes, on_own: &Axes) -> Self {
+        let pairs = || own.iter().zip(on_own);
+        let products: Matrix3<f64> = pairs().map(|(axis, force)| axis * force.transpose()).sum();
+        let moment: Vector3<f64> = pairs().map(|(axis, force)| axis.cross(force)).sum();
+        // Rotation of the axes along those of the body by changes of the rotation vector.
+        let spins = [0, 1, 2].map(|k| turned_back(&-turn, &spin_of(turn, &Vector3::ith(k, 1.0))));
+        let spins = Matrix3::from_columns(&spins);
+        let traces = Matrix3::from_diagonal_element(products.trace());
+        let symmetric = (products + products.transpose()) * 0.5;
+        Self {
+            mixed: (traces - products) * spins,
+            turned: spins.transpose() * (symmetric - traces) * spins,
+            moment: spins.tr_mul(&moment),
+        }
     }
 }
 
 impl Stiffness for AtInterface<'_> {
     fn mixed(&self, k: usize) -> Vector3<f64> {
         let mut mixed = self.force.cross(&Vector3::from(self.shapes[k]));
-        if let Some(on_own) = &self.on_own {
-            let spin = self.spin(k);
-            for (axis, force) in self.own.iter().zip(on_own) {
-                mixed += force.cross(&spin.cross(axis));
-            }
+        if let Some(moment) = &self.moment {
+            mixed += moment.mixed * self.interface.rotation_shape(k, self.eta);
         }
         mixed
     }
@@ -99,13 +111,10 @@ impl Stiffness for AtInterface<'_> {
         let second = self.interface.second.get(self.paired * k + l);
         let second = second.filter(|_| has_pair);
         let mut modal = -second.map_or(0.0, |second| second.dot(&self.force));
-        if let Some(on_own) = &self.on_own {
-            let [a, b] = [k, l].map(|k| self.spin(k));
-            let second = self.rotated(&self.interface.second_turn(k, l));
-            for (axis, force) in self.own.iter().zip(on_own) {
-                let turned = a.cross(&b.cross(axis)) + b.cross(&a.cross(axis));
-                modal -= force.dot(&(turned * 0.5 + second.cross(axis)));
-            }
+        if let Some(moment) = &self.moment {
+            let [a, b] = [k, l].map(|k| self.interface.rotation_shape(k, self.eta));
+            let second = self.interface.second_turn(k, l);
+            modal -= a.dot(&(moment.turned * b)) + second.dot(&moment.moment);
         }
         modal
     }
@@ -199,7 +208,7 @@ impl ReducedBody {
                     on_axes[k] += on_axis * axis.dot(&axes[k]);
                 }
             }
-            let of_body = |of: &Axes| of.each_ref().map(|axis| along_body(&axes, axis));
+            let of_body = |of: &Axes| of.each_ref().map(|axis| along(&axes, axis));
             let has_moment = on_own.iter().any(|force| *force != Vector3::zeros());
             let has_moment = has_moment && interface.rotation.is_some();
             if force != Vector::<D>::zeros() || has_moment {
@@ -210,9 +219,9 @@ impl ReducedBody {
                     shapes: self.terms(x).shapes(index),
                     paired: self.model.paired,
                     eta,
-                    turn: interface.turn(eta),
-                    own: of_body(&own),
-                    on_own: has_moment.then(|| of_body(&on_own)),
+                    moment: has_moment.then(|| {
+                        AtMoment::new(&interface.turn(eta), &of_body(&own), &of_body(&on_own))
+                    }),
                 };
                 self.blocks(&at, x, &mut *add);
             }
@@ -272,11 +281,6 @@ impl ReducedBody {
             Site::Interface(index) => self.interface(index),
         }
     }
-}
-
-/// Components of a direction along the axes of a body.
-fn along_body(axes: &Axes, direction: &Vector3<f64>) -> Vector3<f64> {
-    Vector3::from_fn(|k, _| axes[k].dot(direction))
 }
 
 /// A block over small rotations of the frame, counted as spins are.

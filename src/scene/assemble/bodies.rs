@@ -11,6 +11,7 @@ use crate::bodies::{
 use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam};
 use crate::elements::cable::{self, Inertia, LineOf};
+use crate::elements::reduced::ReducedModel;
 use crate::elements::rod::{self, Rod as RodElement};
 use crate::elements::section::{SectionElement, SpinInertia, planar_inertia, rod_at, spin_inertia};
 use crate::elements::{self, ElementPolynomial, Nodal};
@@ -40,7 +41,7 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn body(&mut self, index: usize) -> Result<(), Error> {
         let first = self.parts.bodies.reference.len();
         let motion = self.resolved.scene.bodies[index].motion();
-        let (mut arm, mut axes, mut still) = ([0.0; 3], Vec::new(), None);
+        let (mut arm, mut axes, mut still, mut reduced) = ([0.0; 3], Vec::new(), None, None);
         match self.resolved.bodies[index] {
             BodyReference::Cable(cable) => match cable.id.form {
                 Form::Chain(_) => self.chain(cable, first)?,
@@ -48,9 +49,7 @@ impl<const D: usize> Builder<'_, D> {
                 Form::Modal => {
                     let body;
                     (body, arm) = self.modal(cable)?;
-                    axes.extend(body.axes_nodes());
-                    still = Some(body.inner());
-                    self.parts.bodies.add_reduced(body);
+                    reduced = Some(body);
                 }
             },
             BodyReference::Rigid(rigid) => {
@@ -62,12 +61,14 @@ impl<const D: usize> Builder<'_, D> {
             }
             BodyReference::Reduced(of) if of.body.is_rigid() => arm = self.rigid_model(of),
             BodyReference::Reduced(of) => {
-                let body = self.reduced(of)?;
+                reduced = Some(self.reduced(of)?);
                 arm = of.body.contained().from_center();
-                axes.extend(body.axes_nodes());
-                still = Some(body.inner());
-                self.parts.bodies.add_reduced(body);
             }
+        }
+        if let Some(body) = reduced {
+            axes.extend(body.axes_nodes());
+            still = Some(body.inner());
+            self.parts.bodies.add_reduced(body);
         }
         let nodes = first..self.parts.bodies.reference.len();
         axes.extend((self.parts.bodies.rigid().last()).map(|frame| frame.node + 1));
@@ -154,16 +155,26 @@ impl<const D: usize> Builder<'_, D> {
     fn reduced(&mut self, reduced: Reduced<'_>) -> Result<bodies::ReducedBody, Error> {
         let container = reduced.body.contained();
         let axes = reduced.body.axes() * container.axes;
-        let axes = std::array::from_fn(|k| axes.column(k).into_owned());
-        let node = self.parts.bodies.reference.len();
-        let (model, ratios) = self.resolved.model_of(reduced)?;
-        let count = model.interfaces.len();
-        let body = bodies::ReducedBody::new(node, model, &ratios);
-        let nodes = body.reference::<D>(reduced.body.center(), &axes);
-        self.parts.bodies.reference.extend(nodes);
+        let made = self.resolved.model_of(reduced)?;
+        let count = made.0.interfaces.len();
+        let body = self.modal_body(made, reduced.body.center(), &axes);
         let interfaces = (0..count).map(|index| body.interface(index)).collect();
         self.interfaces.insert(reduced.id.index(), interfaces);
         Ok(body)
+    }
+
+    /// A body of a model with damping ratios of its modes, its centre of mass (m) and, as columns, principal axes at the start, with its nodes.
+    pub(super) fn modal_body(
+        &mut self,
+        (model, ratios): (ReducedModel, Vec<f64>),
+        center: [f64; 3],
+        axes: &Matrix3<f64>,
+    ) -> bodies::ReducedBody {
+        let axes = std::array::from_fn(|k| axes.column(k).into_owned());
+        let body = bodies::ReducedBody::new(self.parts.bodies.reference.len(), model, &ratios);
+        let nodes = body.reference::<D>(center, &axes);
+        self.parts.bodies.reference.extend(nodes);
+        body
     }
 
     /// An interface of a reduced body, with the first of the file's axes as direction.

@@ -112,9 +112,9 @@ impl<const D: usize> Assembled<D> {
         }
     }
 
-    /// A line that is reduced to modes, by its place among all bodies; none of another one.
-    pub fn modal_line(&self, body: usize) -> Option<&ModalLine> {
-        self.lines.get(&body)
+    /// A line that is reduced to modes and its body, by its place among all bodies; none of another one.
+    pub fn modal_line(&self, body: usize) -> Option<(&ModalLine, &ReducedBody)> {
+        self.lines.get(&body).zip(self.reduced(body))
     }
 
     /// A reduced body, by its place among all bodies; none of another one.

@@ -54,10 +54,7 @@ impl<const D: usize> Builder<'_, D> {
         let sections = Matrix3::from_columns(&[axis(0), axis(1), axis(2)]);
         let center = Vector3::from(cable.body.shape.point(0.0)) + sections * modes.center;
         let axes = sections * modes.axes;
-        let columns = std::array::from_fn(|k| axes.column(k).into_owned());
-        let body = ReducedBody::new(self.parts.bodies.reference.len(), model, &ratios);
-        let reference = body.reference::<D>(center.into(), &columns);
-        self.parts.bodies.reference.extend(reference);
+        let body = self.modal_body((model, ratios), center.into(), &axes);
         let markers = cable.body.markers.values().enumerate();
         let line = ModalLine {
             axes: modes.axes,

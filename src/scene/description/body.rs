@@ -136,6 +136,13 @@ pub enum Model {
     Modal,
 }
 
+impl Model {
+    /// Whether a line of this model is one of elements that bend.
+    pub fn has_elements(self) -> bool {
+        matches!(self, Self::Auto | Self::Flexible)
+    }
+}
+
 /// A rigid body; without inertia, a particle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -4,7 +4,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
-use super::body::{Body, InitialMotion, LineBody, LineModel, Model, RigidBody};
+use super::body::{Body, InitialMotion, LineBody, LineModel, RigidBody};
 use super::reduced::FileBody;
 use super::section::Section;
 use super::strict::{Strict, at, typed};
@@ -94,8 +94,7 @@ impl Body {
 
     /// The body if it is a cable of elements that bend.
     pub fn flexible(&self) -> Option<&LineBody> {
-        let has_elements = |cable: &&LineBody| ![Model::Rigid, Model::Modal].contains(&cable.model);
-        self.cable().filter(has_elements)
+        self.cable().filter(|cable| cable.model.has_elements())
     }
 
     /// The body, to be changed, if it is a cable or a rod.

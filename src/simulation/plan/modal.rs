@@ -1,7 +1,7 @@
 //! Rods and beams that bend little, as modes.
 
 use super::ladder::Choice;
-use super::outputs::{Difference, are_kept};
+use super::outputs::Difference;
 use super::search::{OF_SPACE, Search, cables};
 use crate::scene::{LineBody, Model, Scene};
 
@@ -52,7 +52,6 @@ impl Search<'_, '_> {
         if self.is_cut || !may_be.contains(&true) || !self.refine(&mut closer) {
             return found;
         }
-        let limits = self.equal(OF_SPACE);
         let closer = self.with_more_modes(&closer);
         let mut before = f64::INFINITY;
         let mut count = 1;
@@ -61,11 +60,7 @@ impl Search<'_, '_> {
             let Ok(now) = self.compare(&tried, &closer, self.error) else {
                 return found;
             };
-            if are_kept(
-                &now,
-                &limits.iter().map(|_| Difference::NONE).collect::<Vec<_>>(),
-                &limits,
-            ) {
+            if now.iter().all(|of| of.largest <= OF_SPACE * self.error) {
                 let works = [&tried, choice].map(|made| self.known(made).map(|run| run.work));
                 let is_cheaper = works[0] < works[1].map(|work| CHEAPER * work);
                 if is_cheaper {

@@ -233,9 +233,7 @@ impl<'a, 'p> Search<'a, 'p> {
     /// Whether the number of elements or modes of a body is left to the planner, by its place among those that have one.
     pub fn is_free(&self, counted_body: usize) -> bool {
         match cables(self.scene).nth(counted_body) {
-            Some((_, line)) => {
-                line.elements.is_none() && [Model::Auto, Model::Flexible].contains(&line.model)
-            }
+            Some((_, line)) => line.elements.is_none() && line.model.has_elements(),
             None => self.most_modes(counted_body).is_some(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::given::TrialConditions;
 use super::search::{cables, fewest, open_reduced, with_counts};
-use crate::scene::{Accuracy, Error, Model, Scene};
+use crate::scene::{Accuracy, Error, Scene};
 use crate::simulation::{Error as Reason, InputTable, Simulation};
 
 /// How many times as fine as the coarsest a mesh is tried where the mesh is hardly the reason.
@@ -20,9 +20,7 @@ const TOLERANCE: f64 = 1e-4;
 pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), Error> {
     let coarsest = fewest(scene)?;
     let is_free: Vec<bool> = cables(scene)
-        .map(|(_, cable)| {
-            cable.elements.is_none() && [Model::Auto, Model::Flexible].contains(&cable.model)
-        })
+        .map(|(_, cable)| cable.elements.is_none() && cable.model.has_elements())
         .chain(open_reduced(scene).map(|_| false))
         .collect();
     let most = ELEMENTS.max(FINER * coarsest.iter().sum::<u32>());
