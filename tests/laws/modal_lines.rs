@@ -273,6 +273,33 @@ fn moments_about_two_axes_act_to_second_order() {
     }
 }
 
+/// A shaft under a quarter of its critical torque bends at a frequency that is 2.2 % below that without torque: moments at interfaces have
+/// stiffness.
+#[test]
+fn torque_softens_a_shaft() {
+    let frequency = |model: Value, torque: f64| {
+        let mut scene = along_x(&model);
+        scene["bodies"][0]["section"] =
+            json!({"area": 5e-5, "second_moments": [2e-10, 2e-10], "torsion_constant": 4e-8});
+        scene["bodies"][0]["shape"] = json!({"line": {"from": [0, 0, 0], "to": [1.5, 0, 0]}});
+        let bearing = json!({"name": "bearing", "kind": "cylindrical", "direction": [1, 0, 0], "markers": ["ground", "rod.tip"]});
+        scene["joints"]
+            .as_array_mut()
+            .expect("joints")
+            .push(bearing);
+        scene["loads"] =
+            json!([{"name": "drive", "kind": "torque", "joint": "bearing", "value": torque}]);
+        scene["outputs"] = json!([{"kind": "natural_frequency", "count": 2}]);
+        scene["initial"] = json!("static_equilibrium");
+        Run::started(&scene).read("natural_frequency[1]")
+    };
+    let modal = || json!({"model": "modal", "modes": 8});
+    let exact = frequency(json!({"model": "flexible", "elements": 16}), 20.0);
+    let found = frequency(modal(), 20.0);
+    assert!((found / exact - 1.0).abs() < 3e-3, "{found} {exact}");
+    assert!(found < 0.985 * frequency(modal(), 0.0), "{found}");
+}
+
 /// An initial load alone holds its marker: its static shape is there.
 #[test]
 fn initial_loads_have_static_shapes() {
