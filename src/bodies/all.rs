@@ -40,10 +40,10 @@ pub struct Bodies<const D: usize = 2> {
 }
 
 impl<const D: usize> Bodies<D> {
-    /// Whether nothing has axes of its own, no rigid body of space and no rod: known when compiling for the plane.
+    /// Whether nothing has axes of its own: no rigid body of space, no rod and no reduced body.
     #[inline(always)]
     pub fn has_no_frames(&self) -> bool {
-        D == 2 || self.frame_count == 0
+        self.frame_count == 0
     }
 
     /// Whether nodal coordinates are those that are integrated: no rotations and no cable of changing length.

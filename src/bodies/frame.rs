@@ -81,7 +81,7 @@ pub fn axis_rates<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> 
     ]
 }
 
-/// The axes in a node and the one after it, or their rates where `x` holds rates.
+/// The axes in a node and the one after it, or their rates where `x` holds rates; the third one is zero in the plane, see [`completed`].
 pub fn axes_at<const D: usize, N: Number>(node: usize, x: &[Node<D, N>]) -> Axes<N> {
     let [[_, a], [b, c]] = [&x[node], &x[node + 1]];
     [a, b, c].map(|axis| components(&(*axis).into()).into())
@@ -95,6 +95,39 @@ pub fn spin_at<const D: usize, N: Number>(
 ) -> Vector3<N> {
     let ([a, b, c], [ra, rb, rc]) = (axes_at(node, x), axes_at(node, v));
     Vector3::new(c.dot(&rb), a.dot(&rc), b.dot(&ra))
+}
+
+/// Axes whose third one nodes of the plane do not hold: there it is across the plane.
+#[inline(always)]
+pub fn completed<const D: usize, N: Number>(mut axes: Axes<N>) -> Axes<N> {
+    if D == 2 {
+        axes[2] = Vector3::z().map(N::of);
+    }
+    axes
+}
+
+/// Numbers of a node that count rotations, with the axes of these: in the plane the first one, about the third axis.
+pub(super) fn rotation_axes<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
+    (0..3).skip(if D == 2 { 2 } else { 0 }).enumerate()
+}
+
+/// A rotation, spin or moment along the axes of a body, from the numbers of a node.
+#[inline(always)]
+pub(super) fn rotation_of<const D: usize, N: Number>(numbers: &[N; D]) -> Vector3<N> {
+    if D == 2 {
+        let zero = N::of(0.0);
+        return Vector3::new(zero, zero, numbers[0]);
+    }
+    components(&(*numbers).into()).into()
+}
+
+/// Numbers of a node for a rotation, spin or moment along the axes of a body.
+#[inline(always)]
+pub(super) fn rotation_numbers<const D: usize, N: Number>(rotation: &Vector3<N>) -> [N; D] {
+    if D == 2 {
+        return std::array::from_fn(|k| if k == 0 { rotation[2] } else { N::of(0.0) });
+    }
+    vector::<D, N>((*rotation).into()).into()
 }
 
 /// Sets them.

@@ -42,7 +42,7 @@ pub use drawn::LineStance;
 pub use elimination::Elimination;
 pub use frame::{
     AngularAccelerations, Axes, AxisMotion, Derivative, RENEWED, RigidBodyFrame, SectionFrame,
-    axes_at, axis_rates, combined, rotation_block, spin_at,
+    axes_at, axis_rates, combined, completed, rotation_block, spin_at,
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use linearized::{ElementTangent, LinearTerms, LinearizationPoint};

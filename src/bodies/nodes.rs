@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::body::{BodyPart, NodalMotion, each};
 use super::connectivity::{Node, add_node, no_node};
-use super::frame::{along, axes_at};
+use super::frame::{along, axes_at, completed, rotation_axes};
 use super::marker::Marker;
 use super::reduced::Site;
 use super::{Bodies, Elimination, RodChain};
@@ -21,6 +21,8 @@ pub enum NodeKind {
     Axes,
     /// Neither: numbers inside an element.
     Inner,
+    /// Neither: amplitudes of modes, or what follows from them.
+    Modal,
 }
 
 /// Owner of a node.
@@ -91,7 +93,8 @@ impl<const D: usize> Bodies<D> {
             | NodeOwner::Rigid(_, true)
             | NodeOwner::Section(.., true)
             | NodeOwner::Reduced(.., true) => NodeKind::Axes,
-            NodeOwner::Inner | NodeOwner::Modal => NodeKind::Inner,
+            NodeOwner::Inner => NodeKind::Inner,
+            NodeOwner::Modal => NodeKind::Modal,
         }
     }
 
@@ -194,7 +197,7 @@ impl<const D: usize> Bodies<D> {
         let nodes = self.frames().map(|frame| frame.node);
         let nodes = nodes.chain(self.section_frames().map(|frame| frame.node));
         for (node, at) in nodes.zip(frames) {
-            *at = normalized(quaternion(&axes_at(node, x)));
+            *at = normalized(quaternion(&completed::<D, _>(axes_at(node, x))));
         }
     }
 
@@ -237,8 +240,11 @@ impl<const D: usize> Bodies<D> {
         };
         let rigid = self.rigid.iter_mut();
         for frame in rigid.chain(self.reduced.iter_mut().map(|body| &mut body.frame)) {
-            for axis in (0..3).filter(|axis| frame.moments[*axis] > 0.0) {
-                let unit = turned(axis, frame.moments[axis]);
+            for (number, axis) in rotation_axes::<D>() {
+                if frame.moments[axis] <= 0.0 {
+                    continue;
+                }
+                let unit = turned(number, frame.moments[axis]);
                 let moved = elimination.reduce_node(frame.node, &unit, &mut y);
                 frame.places[axis] = moved.first().copied();
             }

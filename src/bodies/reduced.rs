@@ -1,6 +1,6 @@
 //! Bodies of finite element models reduced to modes: a frame in mean axes, amplitudes of modes, and interfaces that follow from both.
 //!
-//! Nodes of a body, six numbers each: the centre of mass and the axes as of a rigid body (two nodes), place and axes of every interface
+//! Nodes of a body, six numbers each, four in the plane: the centre of mass and the axes as of a rigid body (two nodes), place and axes of every interface
 //! (two nodes each), amplitudes of the modes, and what follows from these: the scale of spins `S^-1` and all terms that are linear in the
 //! amplitudes (`elements/reduced/terms.rs`). Forces, rows and derivatives read them there. Coordinates are the first node and the amplitudes. Rates of constant mass are
 //! `nu = S w`, `zeta = eta' + h^T w` (`elements/reduced/inertia.rs`). Small rotations and changes of amplitudes are counted alike. A moment
@@ -16,15 +16,12 @@ use nalgebra::Vector3;
 
 use super::Elimination;
 use super::connectivity::Node;
-use super::frame::{Axes, RigidBodyFrame, combined, turned_back};
+use super::frame::{Axes, RigidBodyFrame, combined, completed, turned_back};
 use crate::elements::reduced::{
     Interface, ModalMatrix, ModalStrain, ModalTerms, ReducedModel, SPIN_SCALE, SpinScale, Symmetric,
 };
 use crate::math::jet::Number;
 use crate::math::space::{components, vector};
-
-/// Numbers in a node of space.
-const NUMBERS: usize = 6;
 
 /// A finite element model reduced to modes, as a body.
 #[derive(Clone, Debug)]
@@ -33,6 +30,8 @@ pub struct ReducedBody {
     pub(super) frame: RigidBodyFrame,
     /// Index among the reduced bodies.
     pub(super) index: usize,
+    /// Numbers in a node.
+    numbers: usize,
     pub(super) model: ReducedModel,
     strain: ModalStrain,
     matrix: ModalMatrix,
@@ -94,7 +93,7 @@ fn numbers_mut<const D: usize, N>(nodes: &mut [Node<D, N>]) -> &mut [N] {
 
 impl ReducedBody {
     /// A body with its first node and the damping ratio of each of its modes, `[n]`. A system finds where its coordinates are.
-    pub fn new(node: usize, model: ReducedModel, damping_ratios: &[f64]) -> Self {
+    pub fn new<const D: usize>(node: usize, model: ReducedModel, damping_ratios: &[f64]) -> Self {
         let roots = model.eigenvalues.iter().map(|lambda| lambda.sqrt());
         let damping = roots
             .zip(damping_ratios)
@@ -103,6 +102,7 @@ impl ReducedBody {
         Self {
             frame: RigidBodyFrame::new(node, model.mass, model.moments),
             index: 0,
+            numbers: 2 * D,
             damping: damping.collect(),
             places: Vec::new(),
             matrix: ModalMatrix::new(&model, &strain),
@@ -138,7 +138,7 @@ impl ReducedBody {
         axes: &Axes,
         x: &[Node<D>],
     ) -> ([f64; 3], [[f64; 3]; 3]) {
-        let (eta, of_body) = (self.amplitudes(x), self.axes(x));
+        let (eta, of_body) = (self.amplitudes(x), completed::<D, _>(self.axes(x)));
         let center = Vector3::from(components(&x[self.frame.node][0].into()));
         let at = center + combined(&of_body, &point.deformed(eta));
         let axes = rotated_axes(point, eta, &of_body, axes);
@@ -218,18 +218,23 @@ impl ReducedBody {
 
     /// Number of nodes with amplitudes.
     fn modal_nodes(&self) -> usize {
-        self.model.modes().div_ceil(NUMBERS)
+        self.model.modes().div_ceil(self.numbers)
     }
 
     /// Number of nodes with amplitudes and with what follows from them.
     fn inner_nodes(&self) -> usize {
         let derived = SPIN_SCALE + self.matrix.undeformed().len();
-        self.modal_nodes() + derived.div_ceil(NUMBERS)
+        self.modal_nodes() + derived.div_ceil(self.numbers)
     }
 
     /// First node with what follows from amplitudes.
     fn derived(&self) -> usize {
         self.inner() + self.modal_nodes()
+    }
+
+    /// Number of rotations that are counted: three in space, one in the plane.
+    fn rotations(&self) -> usize {
+        if self.numbers == 4 { 1 } else { 3 }
     }
 
     /// Nodes with amplitudes.
@@ -295,7 +300,7 @@ impl ReducedBody {
         (scale, &mut terms[..self.matrix.undeformed().len()])
     }
 
-    /// Axes of its frame, or their rates where `x` holds rates.
+    /// Axes of its frame, or their rates where `x` holds rates; the third one is zero in the plane.
     fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
         self.frame.axes(x)
     }

@@ -117,6 +117,7 @@ impl<const D: usize> Bodies<D> {
         let none = vec![false; self.reference.len()];
         let mut rotating = RotatingNodes {
             elastic: none.clone(),
+            modal: none.clone(),
             still: none,
             sections: Vec::new(),
         };

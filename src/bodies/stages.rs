@@ -40,6 +40,8 @@ pub struct RotatingNodes {
     pub elastic: Vec<bool>,
     /// Nodes of sections and of what is inside elements, which do not rotate on their own, `[nodes]`.
     pub still: Vec<bool>,
+    /// Nodes of reduced bodies, whose coordinates turn with them as it is, `[nodes]`.
+    pub modal: Vec<bool>,
     /// Nodes of lines with those of the sections that they rotate with.
     pub sections: Vec<(usize, usize)>,
 }
@@ -105,7 +107,7 @@ impl<const D: usize> Stages<D> {
     ) -> Self {
         let nodes = elimination.assembly.nodes();
         let directions = || vec![axis(0); nodes];
-        let turns = |node: &usize| D == 2 || rotating.elastic[*node];
+        let turns = |node: &usize| rotating.elastic[*node] || D == 2 && !rotating.modal[*node];
         Self {
             turning: side_by_side((0..nodes).filter(turns)),
             floating: floating::<D>(elimination, grounded, &rotating.still),

@@ -97,6 +97,31 @@ impl Container {
         })
     }
 
+    /// Returns what a scene of the plane takes of the file: the model in the plane of the file's first two axes, along these, with modes
+    /// that the plane excites.
+    #[must_use]
+    pub fn in_plane(&self) -> Self {
+        let projected = self.model.in_plane(&self.axes);
+        let modes = projected.excited_in_plane();
+        let rows = self.details.modes.chunks_exact(self.model.modes());
+        let rows = rows.flat_map(|row| modes.iter().map(|mode| row[*mode]));
+        let stresses = self.details.stresses.iter().map(|(name, by_modes)| {
+            let kept = modes.iter().map(|mode| by_modes[*mode]);
+            (name.clone(), kept.collect())
+        });
+        Self {
+            model: projected.of_modes(&modes),
+            axes: Matrix3::identity(),
+            center: Vector3::new(self.center.x, self.center.y, 0.0),
+            details: Details {
+                modes: rows.collect(),
+                stresses: stresses.collect(),
+                ..self.details.clone()
+            },
+            ..self.clone()
+        }
+    }
+
     /// The file.
     pub fn bytes(&self) -> &Arc<[u8]> {
         &self.bytes

@@ -35,10 +35,6 @@ impl Scene {
     /// # Errors
     /// A name that is none of a file beside the scene, a file that cannot be read or is not valid, or one with another digest than that given.
     pub(super) fn read_files(&mut self, files: Files<'_>) -> Result<(), Error> {
-        // In the plane such bodies are refused whatever their files hold.
-        if self.dimension != 3 {
-            return Ok(());
-        }
         let mut read: BTreeMap<String, Arc<Container>> = BTreeMap::new();
         for (index, body) in self.bodies.iter_mut().enumerate() {
             let Body::Reduced(body) = body else {
@@ -48,7 +44,11 @@ impl Scene {
             let container = match read.get(&body.file) {
                 Some(container) => container.clone(),
                 None => {
-                    let container = Arc::new(body.read(&format!("{path}.file"), files)?);
+                    let container = body.read(&format!("{path}.file"), files)?;
+                    let container = Arc::new(match self.dimension {
+                        2 => container.in_plane(),
+                        _ => container,
+                    });
                     read.insert(body.file.clone(), container.clone());
                     container
                 }

@@ -6,7 +6,7 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::bodies::{LineStance, Marker, Node, ReducedBody, axes_at, combined};
+use crate::bodies::{LineStance, Marker, Node, ReducedBody, axes_at, combined, completed};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId, ModalLine};
 use crate::system::{Evaluation, State};
@@ -301,7 +301,8 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
             ..Pose::default()
         };
     }
-    let (principal, within) = (axes_at(first, x), assembled.frame(body));
+    let principal = completed::<D, _>(axes_at(first, x));
+    let within = assembled.frame(body);
     let axes: [Vector3<f64>; 3] =
         std::array::from_fn(|k| combined(&principal, &within.row(k).transpose()));
     let origin = Vector3::from(position) - combined(&axes, assembled.center(body));

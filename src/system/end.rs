@@ -79,7 +79,12 @@ impl<const D: usize, N: Number> Attachment<D, N> {
         self.marker().is_none_or(|m| m.element.is_none())
     }
 
-    /// Whether it belongs to a rigid body of space that turns: its axes are no coordinates.
+    /// Whether its direction keeps its length and is linear in what is integrated: that of the ground or of a rigid body in the plane.
+    pub fn has_linear_direction(&self) -> bool {
+        self.is_rigid() && !self.is_framed()
+    }
+
+    /// Whether it belongs to a rigid body of space that turns, or to a reduced body: its axes are no coordinates.
     pub fn is_framed(&self) -> bool {
         self.marker().is_some_and(Marker::is_framed)
     }

@@ -224,9 +224,7 @@ impl<const D: usize> Workspace<D> {
     /// Takes over the parts of a state that are needed beside `q`; motions that inputs drive stand as they are.
     pub fn resume(&mut self, state: &State) {
         let kinematics = &mut self.kinematics;
-        if D > 2 {
-            kinematics.frames.copy_from_slice(&state.frames);
-        }
+        kinematics.frames.copy_from_slice(&state.frames);
         kinematics.angles.copy_from_slice(&state.angles);
         kinematics.travel.copy_from_slice(&state.travel);
         kinematics.release(state);

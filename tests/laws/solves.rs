@@ -308,6 +308,7 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         let body = &system.bodies().lines()[0];
         let rotating = RotatingNodes {
             elastic: vec![true; x.len()],
+            modal: vec![false; x.len()],
             still: vec![false; x.len()],
             sections: Vec::new(),
         };

@@ -162,6 +162,7 @@ impl Case {
     fn tangent(&self, x: &[Node<3>]) -> Tangent<3> {
         let rotating = RotatingNodes {
             elastic: vec![true; x.len()],
+            modal: vec![false; x.len()],
             still: vec![false; x.len()],
             sections: Vec::new(),
         };

@@ -3,7 +3,9 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::tangent::transformed;
-use super::{Derivative, RigidBodyFrame, axis_rates, part_block, rotation_block};
+use super::{
+    Derivative, RigidBodyFrame, axis_rates, part_block, rotation_axes, rotation_block, rotation_of,
+};
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
@@ -45,8 +47,12 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
             let numbers = vector.iter().enumerate();
             fixed.extend(numbers.map(|(axis, value)| ((self.node + 1, part, axis), *value)));
         }
-        let without = (0..D).filter(|axis| self.moments[*axis] <= 0.0);
-        fixed.extend(without.map(|axis| ((self.node, 1, axis), 0.0)));
+        let counted: Vec<usize> = rotation_axes::<D>()
+            .filter(|(_, axis)| self.moments[*axis] > 0.0)
+            .map(|(number, _)| number)
+            .collect();
+        let without = (0..D).filter(|number| !counted.contains(number));
+        fixed.extend(without.map(|number| ((self.node, 1, number), 0.0)));
     }
 
     fn frame_count(&self) -> usize {
@@ -55,13 +61,13 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
 
     fn place(&self, from: &[Quaternion], rotations: &mut Rotations, x: &mut [Node<D>]) {
         let turn = &mut rotations.rigid[self.index];
-        turn.rotation = components(&x[self.node][1].into()).into();
+        turn.rotation = rotation_of(&x[self.node][1]);
         self.set_axes(&axes(&turn.quaternion(&from[self.index])), x);
     }
 
     fn place_rates(&self, x: &[Node<D>], rotations: &mut Rotations, v: &mut [Node<D>]) {
         let turn = &mut rotations.rigid[self.index];
-        turn.rate = components(&v[self.node][1].into()).into();
+        turn.rate = rotation_of(&v[self.node][1]);
         turn.spin = turn.spin_of(&turn.rate);
         self.set_axes(&axis_rates(&self.axes(x), &turn.spin), v);
     }
@@ -137,7 +143,9 @@ impl<const D: usize> BodyPart<D> for RigidBodyFrame {
         let mut block = no_block();
         for axis in 0..D {
             block[0][axis][0][axis] = self.mass;
-            block[1][axis][1][axis] = self.moments[axis];
+        }
+        for (number, axis) in rotation_axes::<D>() {
+            block[1][number][1][number] = self.moments[axis];
         }
         assembly.add(self.node, self.node, &block, mass);
     }

@@ -11,6 +11,10 @@ use crate::bodies::nodes::NodeOwner;
 
 /// The block of a node whose second vector stands for a rotation.
 pub fn rotation_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
+    if D == 2 {
+        let about = |i: usize, j: usize| if i + j == 0 { matrix[(2, 2)] } else { 0.0 };
+        return part_block(1, about);
+    }
     part_block(1, |i, j| matrix[(i, j)])
 }
 

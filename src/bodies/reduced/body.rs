@@ -6,7 +6,7 @@ use super::ReducedBody;
 use crate::bodies::assembly::{Assembly, Links, NodeBlock, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{Derivative, combined, part_block, unplaced};
+use crate::bodies::frame::{Derivative, combined, completed, part_block, unplaced};
 use crate::bodies::linearized::{LinearTerms, LinearizationPoint};
 use crate::bodies::map::Rotations;
 use crate::bodies::setup::NodeNumber;
@@ -61,6 +61,7 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
 
     fn mark_rotating(&self, rotating: &mut RotatingNodes) {
         rotating.still[self.interface(0)..self.all().end].fill(true);
+        rotating.modal[self.all()].fill(true);
     }
 
     fn frame_count(&self) -> usize {
@@ -266,7 +267,7 @@ impl<const D: usize> BodyPart<D> for ReducedBody {
         let spin: Vector3<N> = self.frame.spin(x, v);
         let motion = (self.amplitudes(x), self.amplitudes(v));
         let own = (self.model).angular_momentum(motion, self.terms(x), &spin);
-        sum.angular += combined(&self.axes(x), &own);
+        sum.angular += combined(&completed::<D, N>(self.axes(x)), &own);
     }
 
     fn add_center<N: Number>(

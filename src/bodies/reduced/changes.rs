@@ -6,7 +6,7 @@ use super::{ModalState, ReducedBody, numbers_mut, rotated_axes};
 use crate::bodies::body::BodyPart;
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{
-    Axes, along, axes_at, axis_rates, combined, set_axes_at, spin_of, turned_back,
+    Axes, along, axes_at, axis_rates, combined, rotation_of, set_axes_at, spin_of, turned_back,
 };
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::math::space::{components, vector};
@@ -152,7 +152,7 @@ impl ReducedBody {
         change: &mut [Node<D, N>],
     ) -> Vector3<N> {
         let (scale, terms) = self.derived_of(x);
-        let counted = Vector3::from(components(&change[self.frame.node][1].into()));
+        let counted = rotation_of(&change[self.frame.node][1]);
         let spin = scale.times(&counted);
         let couplings = terms.couplings().iter();
         for (amplitude, coupling) in self.amplitudes_mut(change).iter_mut().zip(couplings) {
@@ -163,7 +163,7 @@ impl ReducedBody {
 
     /// Number of what is counted besides the centre of mass: spins and rates of amplitudes.
     pub(in crate::bodies) fn count(&self) -> usize {
-        3 + self.model.modes()
+        self.rotations() + self.model.modes()
     }
 
     /// Iterates over all that is counted besides the centre of mass, which stands in the places of rotations and amplitudes.
@@ -171,7 +171,7 @@ impl ReducedBody {
         &self,
         found: &'a [Node<D>],
     ) -> impl Iterator<Item = &'a f64> {
-        found[self.frame.node][1]
+        found[self.frame.node][1][..self.rotations()]
             .iter()
             .chain(self.amplitudes(found))
     }
@@ -185,7 +185,7 @@ impl ReducedBody {
         acceleration: &mut [Node<D, Jet>],
     ) {
         let center = acceleration[self.frame.node][0];
-        let (spins, amplitudes) = counted.split_at(3);
+        let (spins, amplitudes) = counted.split_at(self.rotations());
         for (to, from) in acceleration[self.frame.node][1].iter_mut().zip(spins) {
             *to = *from;
         }

@@ -5,9 +5,8 @@ use nalgebra::Vector3;
 use super::changes::force_of;
 use super::{ReducedBody, Site, numbers, numbers_mut};
 use crate::bodies::connectivity::Node;
-use crate::bodies::frame::{RigidBodyFrame, along, axes_at, turned_back};
+use crate::bodies::frame::{RigidBodyFrame, along, axes_at, rotation_numbers, turned_back};
 use crate::math::jet::Number;
-use crate::math::space::vector;
 
 impl ReducedBody {
     /// Takes a force in global components and a moment along the axes of a place of the body to what is integrated: passed to `term`, node
@@ -23,7 +22,7 @@ impl ReducedBody {
         let node = self.frame.node;
         let Site::Interface(index) = site else {
             let moment = scale.transposed_times(moment);
-            return term(node, &[*force, vector::<D, N>(moment.into()).into()]);
+            return term(node, &[*force, rotation_numbers(&moment)]);
         };
         let (axes, eta) = (self.axes(x), self.amplitudes(x));
         let (interface, local) = (
@@ -56,7 +55,7 @@ impl ReducedBody {
             term(modal, &part);
         }
         let moment = scale.transposed_times(&turning);
-        term(node, &[*force, vector::<D, N>(moment.into()).into()]);
+        term(node, &[*force, rotation_numbers(&moment)]);
     }
 
     /// Takes forces over the nodes to what is integrated, with the forces of inertia that rates ask for.
@@ -79,7 +78,7 @@ impl ReducedBody {
             turning -= Vector3::from(*coupling) * *force;
         }
         let moment = scale.transposed_times(&turning);
-        f[node][1] = vector::<D, N>(moment.into()).into();
+        f[node][1] = rotation_numbers(&moment);
         f[node + 1] = [[N::of(0.0); D]; 2];
         for (node, site) in self.sites().skip(1) {
             let on_node = &mut f[node..][..2];

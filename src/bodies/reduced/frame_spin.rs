@@ -14,7 +14,7 @@ use super::linearized::Stiffness;
 use crate::bodies::assembly::NodeBlock;
 use crate::bodies::body::BodyPart;
 use crate::bodies::connectivity::{Node, map_node};
-use crate::bodies::frame::along;
+use crate::bodies::frame::{along, completed};
 use crate::bodies::linearized::{LinearTerms, LinearizationPoint};
 use crate::bodies::probe::Nodes;
 use crate::elements::reduced::CentrifugalStiffness;
@@ -43,7 +43,7 @@ impl ReducedBody {
         rotation: [f64; 3],
         f: &mut [Node<D, N>],
     ) {
-        let (axes, spin) = (self.axes(x), self.frame.spin(x, v));
+        let (axes, spin) = (completed::<D, N>(self.axes(x)), self.frame.spin(x, v));
         let carried = along(&axes, &rotation.map(N::of).into());
         let (eta, rates) = (self.amplitudes(x), self.amplitudes(v));
         let force = self.amplitudes_mut(f);
@@ -99,7 +99,8 @@ impl ReducedBody {
         x: &[Node<D, N>],
         rotation: [f64; 3],
     ) -> N {
-        let carried = along(&self.axes(x), &rotation.map(N::of).into());
+        let axes = completed::<D, N>(self.axes(x));
+        let carried = along(&axes, &rotation.map(N::of).into());
         let (eta, terms) = (self.amplitudes(x), self.terms(x));
         let momentum = self.model.momentum_of_spin(eta, terms, &carried);
         momentum.dot(&carried) * N::of(0.5)
@@ -116,7 +117,7 @@ impl ReducedBody {
             model: &self.model,
             eta: self.amplitudes(x),
             terms: self.terms(x),
-            rotation: along(&self.axes(x), &rotation.into()),
+            rotation: along(&completed::<D, _>(self.axes(x)), &rotation.into()),
         };
         self.blocks(&stiffness, x, add);
     }

@@ -6,7 +6,8 @@ use super::{ReducedBody, Site};
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{
-    Axes, RigidBodyFrame, along, axes_at, geometric, rotation_block, spin_of, turned_back,
+    Axes, RigidBodyFrame, along, axes_at, geometric, rotation_block, rotation_numbers, spin_of,
+    turned_back,
 };
 use crate::elements::reduced::{Interface, ModalStiffness, SpinScale};
 use crate::math::space::{Vector, components};
@@ -145,8 +146,9 @@ impl ReducedBody {
                     coupled * (by_others - by_mode).transpose() - by_mode * coupled.transpose();
                 let column = scale.transposed_times(&(by_mode - by_others));
                 let place = k - size * a;
-                for axis in 0..D {
-                    mixed[1][axis][place / D][place % D] = column[axis];
+                let column: [f64; D] = rotation_numbers(&column);
+                for (row, entry) in mixed[1].iter_mut().zip(column) {
+                    row[place / D][place % D] = entry;
                 }
             }
             add(node, first, &mixed);

@@ -12,6 +12,7 @@ mod basis;
 mod centrifugal;
 mod inertia;
 mod line;
+mod plane;
 mod strain;
 mod terms;
 

@@ -76,11 +76,13 @@ impl<const D: usize> Builder<'_, D> {
         axes.extend(sections.into_iter().flat_map(RodChain::axes_nodes));
         axes.retain(|node| nodes.contains(node));
         let inner = sections.map(|rod| rod.inner().start);
-        let still = still.or(inner).unwrap_or(nodes.end);
+        let angles = inner.unwrap_or(nodes.end);
+        let still = still.unwrap_or(angles);
         let of_body = BodyNodes {
             all: nodes.clone(),
             axes,
             still,
+            angles,
         };
         self.motions.push(of_body, motion, arm);
         if let (BodyReference::Cable(cable), Some(field)) =
@@ -126,7 +128,19 @@ impl<const D: usize> Builder<'_, D> {
         let container = reduced.body.contained();
         let inertia = (container.model.mass, container.model.moments);
         let axes = reduced.body.axes() * container.axes;
-        self.add_frame(inertia, reduced.body.center(), &axes);
+        let center = reduced.body.center();
+        if D == 2 {
+            let lump = Lump {
+                position: center,
+                angle: axes[(1, 0)].atan2(axes[(0, 0)]),
+                mass: container.model.mass,
+                added: 0.0,
+                inertia: container.model.moments[2],
+            };
+            self.lump(reduced.id.index(), &lump);
+        } else {
+            self.add_frame(inertia, center, &axes);
+        }
         container.from_center()
     }
 
@@ -171,7 +185,7 @@ impl<const D: usize> Builder<'_, D> {
         axes: &Matrix3<f64>,
     ) -> bodies::ReducedBody {
         let axes = std::array::from_fn(|k| axes.column(k).into_owned());
-        let body = bodies::ReducedBody::new(self.parts.bodies.reference.len(), model, &ratios);
+        let body = bodies::ReducedBody::new::<D>(self.parts.bodies.reference.len(), model, &ratios);
         let nodes = body.reference::<D>(center, &axes);
         self.parts.bodies.reference.extend(nodes);
         body
@@ -186,6 +200,9 @@ impl<const D: usize> Builder<'_, D> {
             None => {
                 let node = self.parts.bodies.ranges[index].start;
                 let place = container.model.interfaces[interface].position;
+                if D == 2 {
+                    return Marker::rigid(index, node, [place.x, place.y]);
+                }
                 Marker::framed(index, node, place.into(), direction)
             }
         }

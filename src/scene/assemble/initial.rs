@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::bodies::{Node, add_node, no_node, rotate_inner};
 use crate::math::expression::Expression;
-use crate::math::space::{Vector, components, spun, vector};
+use crate::math::space::{Vector, components, perpendicular, spun, vector};
 use crate::scene::{Error, InitialMotion};
 
 /// Nodes of a body.
@@ -15,8 +15,10 @@ pub(super) struct BodyNodes {
     pub all: Range<usize>,
     /// Nodes that hold axes only.
     pub axes: Vec<usize>,
-    /// From which node on they hold numbers that do not move; in the plane angles, which turn.
+    /// From which node on they hold numbers that do not move.
     pub still: usize,
+    /// From which node on these are angles of sections in the plane, which turn.
+    pub angles: usize,
 }
 
 /// Motion of a body at the start.
@@ -100,6 +102,7 @@ impl<const D: usize> Motions<D> {
                     all: nodes,
                     axes,
                     still,
+                    angles,
                 },
             velocity,
             arm,
@@ -108,13 +111,16 @@ impl<const D: usize> Motions<D> {
         {
             let [first, along] = x[nodes.start];
             let mut origin: [f64; D] = std::array::from_fn(|k| first[k] + arm[0] * along[k]);
-            if arm[1..] != [0.0; 2] {
+            if D == 2 {
+                let second = perpendicular(Vector::from(along));
+                (0..D).for_each(|k| origin[k] += arm[1] * second[k]);
+            } else if arm[1..] != [0.0; 2] {
                 let [second, third] = x[nodes.start + 1];
                 for k in 0..D {
                     origin[k] += arm[1] * second[k] + arm[2] * third[k];
                 }
             }
-            for node in *still..nodes.end {
+            for node in *angles..nodes.end {
                 rotate_inner(&mut rates[node], spin[2]);
             }
             let moved = nodes.start..*still;

@@ -13,6 +13,9 @@ use crate::scene::{Error, Inertia, LineBody};
 /// Strains of a rod and of a beam: without shear, and with it.
 const OF_ROD: &[usize] = &[0, 3, 4, 5];
 const OF_BEAM: &[usize] = &[0, 1, 2, 3, 4, 5];
+/// Strains of a cable and of a beam in the plane, whose first axis is across it.
+const OF_PLANAR_CABLE: &[usize] = &[0, 4];
+const OF_PLANAR_BEAM: &[usize] = &[0, 2, 4];
 
 /// A line that is reduced to modes, in the system.
 #[derive(Clone, Debug)]
@@ -50,8 +53,14 @@ impl<const D: usize> Builder<'_, D> {
         let time = cable.body.material.damping_time;
         let ratios = damping_ratios(&basis, true, |eigenvalue| 0.5 * time * eigenvalue.sqrt());
         let (model, nodes) = modes.in_basis(&basis);
-        let axis = |k: usize| cable.body.directed(0.0, Vector3::ith(k, 1.0).into()).into();
-        let sections = Matrix3::from_columns(&[axis(0), axis(1), axis(2)]);
+        let (model, sections) = if D == 2 {
+            let [along, left] = planar_line_axes(cable.body.shape.tangent(0.0));
+            let sections = Matrix3::from_columns(&[along, -Vector3::z(), left]);
+            (model.in_plane(&Matrix3::identity()), sections)
+        } else {
+            let axis = |k: usize| cable.body.directed(0.0, Vector3::ith(k, 1.0).into()).into();
+            (model, Matrix3::from_columns(&[axis(0), axis(1), axis(2)]))
+        };
         let center = Vector3::from(cable.body.shape.point(0.0)) + sections * modes.center;
         let axes = sections * modes.axes;
         let body = self.modal_body((model, ratios), center.into(), &axes);
@@ -128,13 +137,31 @@ impl Resolved<'_> {
         let line = StraightLine {
             ends: mesh.iter().map(|s| s * length).collect(),
             sections: mesh.windows(2).map(|ends| sections(body, ends)).collect(),
-            strains: if body.is_beam() { OF_BEAM } else { OF_ROD },
+            strains: match (self.scene.dimension, body.is_beam()) {
+                (2, false) => OF_PLANAR_CABLE,
+                (2, true) => OF_PLANAR_BEAM,
+                (_, false) => OF_ROD,
+                (_, true) => OF_BEAM,
+            },
             markers: markers
                 .map(|(name, s)| (name.clone(), node(*s).unwrap_or_default()))
                 .collect(),
         };
-        LineModes::new(line, |rows| Inertia::Tensor(rows).principal())
+        LineModes::new(line, |rows| {
+            if self.scene.dimension == 2 {
+                // Axes along the line, to its left, and across the plane.
+                let axes = Matrix3::from_columns(&[Vector3::x(), Vector3::z(), -Vector3::y()]);
+                return ([rows[1][1]; 3], axes);
+            }
+            Inertia::Tensor(rows).principal()
+        })
     }
+}
+
+/// Unit vectors along a line in the plane, and to its left.
+fn planar_line_axes(tangent: [f64; 3]) -> [Vector3<f64>; 2] {
+    let along = Vector3::from(tangent).normalize();
+    [along, Vector3::z().cross(&along)]
 }
 
 /// Sections at the points of a segment.
@@ -143,7 +170,9 @@ fn sections(body: &LineBody, ends: &[f64]) -> [LineSection; GAUSS_5.len()] {
     GAUSS_5.map(|point| {
         let section = numbers(ends[0] + point.at * (ends[1] - ends[0])).0;
         let mut rotary = body.rotary_inertia_of(&section);
-        if !body.is_beam() {
+        if !body.is_rod() {
+            rotary = Matrix3::zeros();
+        } else if !body.is_beam() {
             // Sections of rods have inertia about the line alone.
             let about_line = rotary[(0, 0)];
             rotary = Matrix3::zeros();

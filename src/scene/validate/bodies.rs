@@ -142,7 +142,7 @@ impl LineBody {
         Ok(())
     }
 
-    /// A rigid rod is a body of the plane, one of modes of space; both are straight and undeformed.
+    /// A rigid rod is a body of the plane; one of modes has axes in space, and bends. Both are straight and undeformed.
     fn validate_model(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let wanted = "\"auto\" or \"flexible\"";
         let model = match self.model {
@@ -157,10 +157,7 @@ impl LineBody {
         };
         if self.model == Model::Rigid {
             planar(path, dimension, wanted, model)?;
-        } else if dimension == 2 {
-            let wanted = format!("{wanted} in the plane");
-            return Err(expected(path, &wanted, model));
-        } else if !self.is_rod() {
+        } else if dimension == 3 && !self.is_rod() {
             let wanted = format!("{wanted} of a cable, which has no axes (a rod or a beam does)");
             return Err(expected(path, &wanted, model));
         }

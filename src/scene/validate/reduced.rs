@@ -6,17 +6,16 @@ use super::checks::{expected, finite, name, not_negative, positive, quoted, unkn
 use crate::scene::description::{DampingRatio, FixedInterfaceModes, Modes, ModesUpTo};
 use crate::scene::{Container, Error, FileBody};
 
+/// What the third axis of a body in the plane may lack of 1 along that of the scene.
+const TILTED: f64 = 1e-9;
+
 impl FileBody {
     /// Checks a reduced body on its own.
     ///
     /// # Errors
-    /// A scene of the plane, a file that was not read, or a key that is out of range or names nothing of the file.
+    /// A file that was not read, a key that is out of range or names nothing of the file, or an orientation that leaves the plane.
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
-        if dimension == 2 {
-            let wanted = "a body of the plane (reduced bodies are of space, \"dimension\": 3)";
-            return Err(expected(&at("element"), wanted, "\"reduced\""));
-        }
         let Some(container) = &self.container else {
             let wanted = "a file that is read with the scene";
             return Err(expected(&at("file"), wanted, quoted(&self.file)));
@@ -26,6 +25,10 @@ impl FileBody {
         vector(&at("position"), dimension, &self.position)?;
         if let Some(orientation) = &self.orientation {
             orientation.validate(&at("orientation"))?;
+            if dimension == 2 && self.axes()[(2, 2)] < 1.0 - TILTED {
+                let wanted = "a rotation about the third axis in the plane";
+                return Err(expected(&at("orientation"), wanted, "another one"));
+            }
         }
         if self.motion.deformation.is_some() {
             let place = at("motion.deformation");

@@ -1,8 +1,8 @@
 //! The direction of the second end keeps its angle from that of the first.
 //!
 //! Where both ends keep the length of their directions (rigid bodies, the ground), the second is the
-//! first one turned: linear. A cable's slope may stretch: against the ground only the component across
-//! is held, which is linear too; otherwise the cross product vanishes, which is not.
+//! first one turned: linear. A cable's slope may stretch, and directions of reduced bodies are no coordinates: against the ground only the
+//! component across is held, which is linear in directions too; otherwise the cross product vanishes, which is not.
 
 use nalgebra::SMatrix;
 
@@ -30,14 +30,14 @@ pub(super) fn hold<const D: usize>(
     let none = Vector::zeros();
     let direction: Vector<D> = turned(axis(0), angle.sin_cos());
     let [first, second] = rows.ends;
-    match (first, second.is_rigid()) {
+    match (first, second.has_linear_direction()) {
         (Attachment::Ground(_), true) => {
             for (k, value) in direction.iter().enumerate() {
                 rows.push([none; 2], [none, axis(k)], Target::Fixed(*value));
             }
         }
         (Attachment::Ground(_), false) => return clamp(rows, &direction),
-        (Attachment::Body(_), true) if first.is_rigid() => {
+        (Attachment::Body(_), true) if first.has_linear_direction() => {
             for k in 0..D {
                 let back = turned(axis(k), (-angle).sin_cos());
                 rows.push([none, back], [none, axis(k)], Target::Fixed(0.0));

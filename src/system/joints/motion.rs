@@ -37,7 +37,7 @@ pub(super) fn direction<const D: usize>(
 ) -> Option<ConstraintKind<D>> {
     let none = Vector::zeros();
     let [first, second] = rows.ends;
-    if matches!(first, Attachment::Ground(_)) && second.is_rigid() {
+    if matches!(first, Attachment::Ground(_)) && second.has_linear_direction() {
         rows.push([none; 2], [none, axis(0)], Target::Cosine(drive));
         rows.push([none; 2], [none, axis(1)], Target::Sine(drive));
         return None;

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::bodies::{Marker, NodalMotion, Node, axes_at, combined, spin_at};
+use crate::bodies::{Marker, NodalMotion, Node, axes_at, combined, completed, spin_at};
 use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::math::rotation::{NO_ROTATION, Quaternion};
@@ -172,7 +172,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             return [N::of(0.0), N::of(0.0), spin];
         }
         let spin = spin_at(node, &self.x, &self.v);
-        combined(&axes_at(node, &self.x), &spin).into()
+        combined(&completed::<D, N>(axes_at(node, &self.x)), &spin).into()
     }
 
     /// Angular acceleration at a marker, rad/s^2.

@@ -40,6 +40,7 @@ impl<const D: usize> System<D> {
                     rotate_inner(&mut x[node], turn[2]);
                     continue;
                 }
+                NodeKind::Modal => continue,
             };
             x[node] = [p.into(), rotated(d, turn).into()];
         }

@@ -116,6 +116,7 @@ impl<const D: usize> System<D> {
             match self.bodies.kind(node) {
                 NodeKind::Point => {}
                 NodeKind::Axes => *rate = x[node].map(|axis| spun(steady.rate, axis.into()).into()),
+                NodeKind::Modal => *rate = no_node(),
                 NodeKind::Inner => {
                     *rate = no_node();
                     rotate_inner(rate, steady.rate[2]);
