@@ -37,6 +37,7 @@ mod overbent;
 mod pinned;
 mod planar;
 mod planar_beams;
+mod planar_files;
 mod planar_modes;
 mod ports;
 mod projection;
