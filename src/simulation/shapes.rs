@@ -296,8 +296,16 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
         return modal_pose(line, body, x);
     }
     if bodies.rigid_at(first).is_none() && reduced.is_none() {
+        // The frame of a body without modes in the plane begins at the origin of its file.
+        let [x, y, _] = <[f64; 3]>::from(*assembled.center(body));
+        let way = [
+            x * slope[0] - y * slope[1],
+            x * slope[1] + y * slope[0],
+            0.0,
+        ];
+        let origin = std::array::from_fn(|k| position[k] - way[k]);
         return Pose {
-            nodes: vec![[position, slope]],
+            nodes: vec![[origin, slope]],
             ..Pose::default()
         };
     }
@@ -308,7 +316,11 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
     let origin = Vector3::from(position) - combined(&axes, assembled.center(body));
     Pose {
         nodes: vec![[origin.into(), axes[0].into()]],
-        axes: vec![axes.map(Into::into)],
+        axes: if D == 2 {
+            Vec::new()
+        } else {
+            vec![axes.map(Into::into)]
+        },
         amplitudes: reduced.map_or_else(Vec::new, |reduced| reduced.file_amplitudes(x)),
     }
 }
@@ -318,7 +330,9 @@ fn modal_pose<const D: usize>(line: &ModalLine, body: &ReducedBody, x: &[Node<D>
     let sections = line.sections(body, x);
     Pose {
         nodes: sections.iter().map(|(at, axes)| [*at, axes[0]]).collect(),
-        axes: sections.into_iter().map(|(_, axes)| axes).collect(),
+        axes: (sections.into_iter().filter(|_| D > 2))
+            .map(|(_, axes)| axes)
+            .collect(),
         amplitudes: Vec::new(),
     }
 }

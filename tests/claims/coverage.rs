@@ -19,8 +19,7 @@ const SINGLE: [&str; 4] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 14] = [
-    "bodies{cable}.modes",
+const REFUSED: [&str; 13] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -48,14 +47,15 @@ const TOGETHER: [&str; 7] = [
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
 /// whose element is chosen says is what the element says that it becomes (`elements.rs`). What needs a file has its claims in `reduced.rs`,
-/// what reduces lines to modes in `tests/laws/modal_lines.rs`.
-const OWN: [&str; 15] = [
+/// what reduces lines to modes in `tests/laws/modal_lines.rs` and `planar_modes.rs`.
+const OWN: [&str; 16] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
     "accuracy.input_profiles.",
     "bodies{cable}.elements=auto",
     "bodies{cable}.model=",
+    "bodies{cable}.modes",
     "bodies{rod}.elements",
     "bodies{rod}.model",
     "bodies{rod}.modes",

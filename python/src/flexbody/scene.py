@@ -666,7 +666,7 @@ the error wanted: then it says `rigid` or `modal` here.
 force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
 along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
 - `modal`: Reduced to `modes`: it moves freely, and deflections are exact to second order (beyond a tenth of its length a run says so). Of
-straight rods and beams in space that are not twisted at rest. Strains, section forces and stresses are not read of it, and nothing
+straight lines that are not twisted at rest: rods and beams, in the plane cables that resist bending and beams. Strains, section forces and stresses are not read of it, and nothing
 acts or slides along it but gravity. Static shapes far above the natural modes are critically damped. Elements have no effect.
 """
 
@@ -2910,7 +2910,7 @@ class RigidBody(Part):
 
 class ReducedBody(Part):
     """
-    Finite element model reduced to modes, from a file; in space. It moves freely, with small deformations.
+    Finite element model reduced to modes, from a file. It moves freely, with small deformations.
     """
 
     element: Literal["reduced"] = "reduced"
@@ -2954,7 +2954,7 @@ class ReducedBody(Part):
     """
     orientation: Orientation | None = None
     """
-    How the file's axes stand at the start; along the global axes where nothing is said.
+    How the file's axes stand at the start; along the global axes where nothing is said. In the plane a rotation about the third axis.
     """
     sha256: StrictStr | None = None
     """

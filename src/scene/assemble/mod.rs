@@ -234,10 +234,10 @@ impl Resolved<'_> {
         }
     }
 
-    /// Principal axes of a body in its frame, and the centre of all its mass, m.
+    /// Principal axes of a body in its frame, and the centre of all its mass, m; of bodies of the plane that are described their frame.
     fn principal(&self, body: &resolved::BodyReference<'_>) -> (Matrix3<f64>, Vector3<f64>) {
         match body {
-            resolved::BodyReference::Rigid(rigid) => {
+            resolved::BodyReference::Rigid(rigid) if self.scene.dimension == 3 => {
                 let solid = self.solid(*rigid);
                 (solid.axes, solid.center)
             }
@@ -245,7 +245,9 @@ impl Resolved<'_> {
                 let container = reduced.body.contained();
                 (container.axes, container.center)
             }
-            resolved::BodyReference::Cable(_) => (Matrix3::identity(), Vector3::zeros()),
+            resolved::BodyReference::Cable(_) | resolved::BodyReference::Rigid(_) => {
+                (Matrix3::identity(), Vector3::zeros())
+            }
         }
     }
 

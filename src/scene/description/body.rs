@@ -35,7 +35,7 @@ pub enum Body {
     /// Rigid.
     #[schemars(title = "RigidBody")]
     Rigid(RigidBody),
-    /// Finite element model reduced to modes, from a file; in space. It moves freely, with small deformations.
+    /// Finite element model reduced to modes, from a file. It moves freely, with small deformations.
     #[schemars(title = "ReducedBody")]
     Reduced(FileBody),
 }
@@ -131,7 +131,7 @@ pub enum Model {
     /// along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
     Rigid,
     /// Reduced to `modes`: it moves freely, and deflections are exact to second order (beyond a tenth of its length a run says so). Of
-    /// straight rods and beams in space that are not twisted at rest. Strains, section forces and stresses are not read of it, and nothing
+    /// straight lines that are not twisted at rest: rods and beams, in the plane cables that resist bending and beams. Strains, section forces and stresses are not read of it, and nothing
     /// acts or slides along it but gravity. Static shapes far above the natural modes are critically damped. Elements have no effect.
     Modal,
 }

@@ -15,7 +15,8 @@ use super::strict::{Strict, typed};
 use super::{Orientation, SceneVector};
 use crate::scene::container::Container;
 
-/// Finite element model reduced to modes, from a file.
+/// Finite element model reduced to modes, from a file. In the plane of a scene lie the first two axes of the file, and the body moves and
+/// rotates in it alone: interfaces are where they are seen from across, and modes that nothing in the plane excites do not count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FileBody {
@@ -39,7 +40,7 @@ pub struct FileBody {
     pub damping_ratio: DampingRatio,
     /// Place of the origin of the file's axes at the start, m.
     pub position: SceneVector,
-    /// How the file's axes stand at the start; along the global axes where nothing is said.
+    /// How the file's axes stand at the start; along the global axes where nothing is said. In the plane a rotation about the third axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<Orientation>,
     /// Motion at the start; velocity of the origin of the file's axes.

@@ -157,7 +157,12 @@ impl LineBody {
         };
         if self.model == Model::Rigid {
             planar(path, dimension, wanted, model)?;
-        } else if dimension == 3 && !self.is_rod() {
+        } else if !self.is_rod() && dimension == 2 {
+            if self.bending_stiffness() <= 0.0 {
+                let wanted = format!("{wanted} of a cable that does not resist bending");
+                return Err(expected(path, &wanted, model));
+            }
+        } else if !self.is_rod() {
             let wanted = format!("{wanted} of a cable, which has no axes (a rod or a beam does)");
             return Err(expected(path, &wanted, model));
         }

@@ -125,7 +125,8 @@ impl LineBody {
     fn validate_rod(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
         if dimension == 2 && !self.is_beam() {
-            let wanted = "\"cable\", \"beam\" or \"rigid\" in the plane, where nothing twists";
+            let wanted =
+                "\"cable\", \"beam\", \"rigid\" or \"reduced\" in the plane, where nothing twists";
             let found = format!("{:?}", self.sections.element());
             return Err(expected(&at("element"), wanted, found));
         }

@@ -33,7 +33,7 @@ fn a_planar_beam_has_one_second_moment_and_one_shear_factor() {
         numbers,
         r#"
         /name | "beam" | accepted
-        /bodies/0/element | "rod" | bodies[0].element: expected "cable", "beam" or "rigid" in the plane, where nothing twists, found "rod"
+        /bodies/0/element | "rod" | bodies[0].element: expected "cable", "beam", "rigid" or "reduced" in the plane, where nothing twists, found "rod"
         /bodies/0/axis | [0, 1] | bodies[0].axis: expected nothing in the plane, which the first axis of sections is across, found an axis
         /bodies/0/material/shear_modulus | null | bodies[0].material.shear_modulus: expected a value, found nothing
         /bodies/0/section/second_moment | 0 | bodies[0].section.second_moment

@@ -171,7 +171,7 @@ fn values_of_reduced_bodies_are_checked() {
         (
             "/dimension",
             json!(2),
-            "bodies[0].element: expected a body of the plane",
+            "bodies[0].position: expected 2 components",
         ),
         (
             "/rotation",
