@@ -91,6 +91,9 @@ fn words(container: &Container) -> String {
     }
     let pairs = match model.paired {
         0 => "none".into(),
+        count if count < model.modes() => format!(
+            "of pairs of the first {count} modes; a basis that combines others lacks theirs"
+        ),
         count => format!("of pairs of the first {count} modes"),
     };
     line("second-order terms", pairs);
