@@ -100,7 +100,14 @@ fn words(container: &Container) -> String {
     let details = &container.details;
     let surface = match (details.points.len(), details.triangles.len()) {
         (0, _) => "none".into(),
-        (points, triangles) => format!("{points} points, {triangles} triangles"),
+        (points, triangles) => {
+            let stress = if details.point_stresses.is_empty() {
+                ""
+            } else {
+                ", with stress"
+            };
+            format!("{points} points, {triangles} triangles{stress}")
+        }
     };
     line("surface", surface);
     let stresses: Vec<&str> = details.stresses.keys().map(String::as_str).collect();
