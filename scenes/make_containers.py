@@ -29,7 +29,8 @@ class Part:
     """A solid with its interfaces, before it is reduced.
 
     mesh: hexahedra. material: arguments of `Solid`. interfaces: `Interface` by name. modes: number of natural modes with
-    held interfaces. stress: points [3] by name where stress is wanted, m.
+    held interfaces. stress: points [3] by name where stress is wanted, m. A part with such points has stress on its
+    surface.
     """
 
     name: str
@@ -54,6 +55,7 @@ class Part:
             quadratic_force=self.solid.quadratic_force,
             triangles=self.triangles(),
             stress={name: self.stress_rows(point) for name, point in self.stress.items()},
+            nodal_stress=self.solid.nodal_stress() if self.stress else None,
             source=f"{self.name} of scenes/make_containers.py",
         )
 

@@ -262,6 +262,13 @@ impl ReducedBody {
         self.model.file_amplitudes(self.amplitudes(x))
     }
 
+    /// Strains of the modes of the file, `[modes of the file]`: stresses by these modes times them are those of the body.
+    pub fn file_strains<const D: usize>(&self, x: &[Node<D>]) -> Vec<f64> {
+        let (eta, terms) = (self.amplitudes(x), self.terms(x));
+        let strains = (0..eta.len()).map(|m| self.strain.of_mode(m, eta, terms));
+        self.model.file_amplitudes(&strains.collect::<Vec<_>>())
+    }
+
     /// Amplitudes of the modes, or their rates where `x` holds rates, `[n]`.
     #[inline(always)]
     pub fn amplitudes<'a, const D: usize, N>(&self, x: &'a [Node<D, N>]) -> &'a [N] {

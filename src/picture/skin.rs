@@ -94,6 +94,17 @@ impl<'a> Skin<'a> {
         self.container.details.modes[modes * self.points[point] + mode].cast()
     }
 
+    /// Whether the file has stresses at its points.
+    pub fn has_stress(&self) -> bool {
+        !self.container.details.point_stresses.is_empty()
+    }
+
+    /// Stress at a point by the strain of a mode, `xx yy zz xy xz yz` in the file's axes, Pa, where the file has stresses.
+    pub fn stress(&self, point: usize, mode: usize) -> [f64; 6] {
+        let modes = self.container.model.modes();
+        self.container.details.point_stresses[modes * self.points[point] + mode].map(f64::from)
+    }
+
     /// Edges that are drawn, by the indices of their ends: those of one triangle alone, and creases; seen along a direction also those
     /// between a triangle that faces the viewer and one that does not.
     pub fn edges(&self, seen_along: Option<Vector3<f64>>) -> Vec<[usize; 2]> {

@@ -62,6 +62,8 @@ pub struct Details {
     pub modes: Vec<Vector3<f32>>,
     /// Triangles by the numbers of their points.
     pub triangles: Vec<[u32; 3]>,
+    /// Stresses at these points by modes, `xx yy zz xy xz yz` in the file's axes, `[points modes]`, Pa; empty where the file has none.
+    pub point_stresses: Vec<[f32; 6]>,
     /// Stresses by modes and name, `xx yy zz xy xz yz` in the file's axes, `[modes]`, Pa.
     pub stresses: BTreeMap<String, Vec<[f64; 6]>>,
 }
@@ -383,6 +385,13 @@ impl ModelReader<'_> {
         for of_point in modes.chunks_exact(3 * n) {
             let mode = |k: usize| Vector3::new(of_point[k], of_point[n + k], of_point[2 * n + k]);
             details.modes.extend((0..n).map(mode));
+        }
+        if self.arrays.shape("surface.stress").is_ok() {
+            let stresses = self.arrays.singles("surface.stress", &[points, 6, n])?;
+            for of_point in stresses.chunks_exact(6 * n) {
+                let stress = |k: usize| std::array::from_fn(|c| of_point[n * c + k]);
+                details.point_stresses.extend((0..n).map(stress));
+            }
         }
         if let Ok(shape) = self.arrays.shape("surface.triangles") {
             let count = shape.first().copied().unwrap_or_default();

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::{Body, LineBody, RigidBody, Scene};
+use super::resolved::BodyReference;
+use super::{Body, FileBody, LineBody, RigidBody, Scene};
 
 /// Young's modulus below which hardly any solid is, Pa.
 const SOFTEST: f64 = 1e6;
@@ -15,23 +16,57 @@ const LENGTHS: [f64; 2] = [1e-3, 1e3];
 /// First frequency above which hardly any body is, Hz.
 const FASTEST: f64 = 1e6;
 
-/// Lists probable mistakes of units in a scene, and reduced bodies with fewer modes than their files have, in words, with their places. Each kind of mistake is listed once,
-/// whatever the number of bodies.
+/// Lists probable mistakes of units in a scene, and reduced bodies with fewer modes or second-order displacements than they need, in words,
+/// with their places. Each kind of mistake is listed once, whatever the number of bodies.
 pub fn remarks(scene: &Scene) -> Vec<String> {
     let kinds: [fn(&Body) -> Option<String>; 5] =
         [softness, lightness, length, frequency, left_out];
-    let told = |slip: &fn(&Body) -> Option<String>| {
-        let bodies = scene.bodies.iter().enumerate();
-        let mut found = bodies.filter_map(|(index, body)| Some((index, slip(body)?)));
-        let (index, words) = found.next()?;
-        let others = match found.count() {
-            0 => String::new(),
-            1 => "; so is one more body".into(),
-            count => format!("; so are {count} more bodies"),
-        };
-        Some(format!("bodies[{index}]{words}{others}"))
+    let mut found: Vec<String> = (kinds.iter())
+        .filter_map(|slip| told(scene.bodies.iter().map(slip)))
+        .collect();
+    found.extend(unpaired(scene));
+    found
+}
+
+/// What is found of bodies in words, as one sentence about the first one.
+fn told(found: impl Iterator<Item = Option<String>>) -> Option<String> {
+    let mut found = found
+        .enumerate()
+        .filter_map(|(index, words)| Some((index, words?)));
+    let (index, words) = found.next()?;
+    let others = match found.count() {
+        0 => String::new(),
+        1 => "; so is one more body".into(),
+        count => format!("; so are {count} more bodies"),
     };
-    kinds.iter().filter_map(told).collect()
+    Some(format!("bodies[{index}]{words}{others}"))
+}
+
+/// Reduced bodies whose files lack second-order displacements that they need.
+fn unpaired(scene: &Scene) -> Option<String> {
+    let resolved = scene.resolve().ok()?;
+    told(resolved.bodies.iter().map(|body| match body {
+        BodyReference::Reduced(reduced) if resolved.lacks_pairs(*reduced) => {
+            Some(without_pairs(reduced.body))
+        }
+        _ => None,
+    }))
+}
+
+/// What a reduced body lacks whose file has too few pairs of modes.
+fn without_pairs(body: &FileBody) -> String {
+    let (model, name) = (&body.contained().model, &body.name);
+    let found = match model.paired {
+        0 => "no second-order displacements".into(),
+        paired => format!(
+            "second-order displacements of pairs of the first {paired} of {} modes only",
+            model.modes()
+        ),
+    };
+    format!(
+        ".file: found {found}, where the modes of {name:?} combine others: it lacks stiffening by rotation and shortening by bending (`flexbody.reduce` makes all pairs of up to \
+         40 modes from the quadratic force)"
+    )
 }
 
 /// A solid that is hardly stiff.

@@ -20,8 +20,10 @@ pub struct Pose {
     /// Axes of the sections of a rod or beam at its nodes, the normal first; of a rigid body that rotates in space the axes of its frame;
     /// else none. In global components.
     pub axes: Vec<[[f64; 3]; 3]>,
-    /// Amplitudes of the modes of a reduced body; else none.
+    /// Amplitudes of the modes in the file of a reduced body; else none.
     pub amplitudes: Vec<f64>,
+    /// Strains of these modes: amplitudes without what moves without strain; else none.
+    pub strains: Vec<f64>,
 }
 
 impl Simulation {
@@ -286,7 +288,7 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
         return Pose {
             nodes,
             axes,
-            amplitudes: Vec::new(),
+            ..Pose::default()
         };
     }
     let first = bodies.ranges[body].start;
@@ -322,6 +324,7 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
             vec![axes.map(Into::into)]
         },
         amplitudes: reduced.map_or_else(Vec::new, |reduced| reduced.file_amplitudes(x)),
+        strains: reduced.map_or_else(Vec::new, |reduced| reduced.file_strains(x)),
     }
 }
 
@@ -333,7 +336,7 @@ fn modal_pose<const D: usize>(line: &ModalLine, body: &ReducedBody, x: &[Node<D>
         axes: (sections.into_iter().filter(|_| D > 2))
             .map(|(_, axes)| axes)
             .collect(),
-        amplitudes: Vec::new(),
+        ..Pose::default()
     }
 }
 

@@ -1,4 +1,5 @@
-//! Surfaces of reduced bodies that deform: a page gets points, what modes move them by, and triangles once, and amplitudes in every frame.
+//! Surfaces of reduced bodies that deform: a page gets points, what modes move them by, and triangles once, and amplitudes in every frame. Where
+//! files have stresses at these points it gets them by modes, and strains of modes in every frame.
 
 use nalgebra::Vector3;
 
@@ -7,6 +8,7 @@ use super::recording::Recording;
 use crate::elements::reduced::Interface;
 use crate::picture::Skin;
 use crate::scene::{BodyReference, Container, Scene};
+use crate::system::von_mises;
 
 /// Most points of a surface in a page, and most of its modes.
 const POINTS: usize = 1000;
@@ -23,6 +25,83 @@ pub(super) struct MovingSkin<'a> {
     body: usize,
     /// Modes that are seen, by their places in the file.
     modes: Vec<usize>,
+    /// Stress at the points; none where the file has none.
+    stress: Option<MovingStress>,
+}
+
+/// Stress of von Mises at the points of a surface.
+pub(super) struct MovingStress {
+    /// Modes that matter, by their places in the file, and their largest strains in a run.
+    modes: Vec<(usize, f64)>,
+}
+
+impl MovingStress {
+    /// Stress in a run, by so many modes at most: those first that have most. None of a file without stresses.
+    pub fn of(recording: &Recording, body: usize, skin: &Skin<'_>, most: usize) -> Option<Self> {
+        let strains = || recording.poses.iter().map(|poses| &poses[body].strains);
+        let taken = strains().next().map_or(0, Vec::len);
+        if !skin.has_stress() || taken == 0 {
+            return None;
+        }
+        let largest = |mode: usize| strains().fold(0.0, |most: f64, of| most.max(of[mode].abs()));
+        let stress = |mode: usize| {
+            let points = 0..skin.points.len();
+            let of_points = points.map(|point| von_mises(skin.stress(point, mode)));
+            of_points.fold(0.0, f64::max)
+        };
+        let mut modes: Vec<(f64, usize, f64)> = (0..taken)
+            .map(|mode| (mode, largest(mode)))
+            .map(|(mode, strain)| (stress(mode) * strain, mode, strain))
+            .collect();
+        modes.sort_by(|a, b| b.0.total_cmp(&a.0));
+        modes.truncate(most);
+        let least = modes.first().map_or(0.0, |(most, ..)| UNSEEN * most);
+        let seen = modes.into_iter().filter(|(stress, ..)| *stress > least);
+        let modes = seen.map(|(_, mode, strain)| (mode, strain)).collect();
+        Some(Self { modes })
+    }
+
+    /// Stress of von Mises at a point for the strains of a frame, Pa.
+    pub fn at(&self, skin: &Skin<'_>, point: usize, strains: &[f64]) -> f64 {
+        let mut sum = [0.0; 6];
+        for (mode, _) in &self.modes {
+            let by_mode = skin.stress(point, *mode);
+            let parts = sum.iter_mut().zip(by_mode);
+            parts.for_each(|(sum, part)| *sum += strains[*mode] * part);
+        }
+        von_mises(sum)
+    }
+
+    /// Stresses by modes at all points, `[points][6 modes]`, Pa, times the largest strains; strains in all frames, parts of these; largest
+    /// stress of von Mises in the run, Pa.
+    fn tables(
+        &self,
+        recording: &Recording,
+        body: usize,
+        skin: &Skin<'_>,
+    ) -> ([Vec<Vec<f64>>; 2], f64) {
+        let points = || 0..skin.points.len();
+        let row = |point: usize| {
+            let modes = self.modes.iter();
+            let by_modes =
+                modes.map(|(mode, strain)| skin.stress(point, *mode).map(|of| of * strain));
+            by_modes.flatten().collect()
+        };
+        let strains = || recording.poses.iter().map(|poses| &poses[body].strains);
+        let parts = |strains: &Vec<f64>| {
+            let modes = self.modes.iter();
+            modes
+                .map(|(mode, strain)| strains[*mode] / strain)
+                .collect()
+        };
+        let frames =
+            strains().flat_map(|strains| points().map(|point| self.at(skin, point, strains)));
+        let largest = frames.fold(0.0, f64::max);
+        (
+            [points().map(row).collect(), strains().map(parts).collect()],
+            largest,
+        )
+    }
 }
 
 impl<'a> MovingSkin<'a> {
@@ -33,6 +112,7 @@ impl<'a> MovingSkin<'a> {
         modes.truncate(MODES);
         modes.sort_unstable();
         Some(Self {
+            stress: MovingStress::of(recording, body, &skin, MODES),
             skin,
             container,
             body,
@@ -59,9 +139,21 @@ impl<'a> MovingSkin<'a> {
         let [places, moved, amplitudes] = tracks;
         let corners = list(self.skin.triangles.iter().flatten(), ToString::to_string);
         let edges = list(self.skin.edges(None).iter().flatten(), ToString::to_string);
+        let stress = self.stress_to_json(recording, numbers);
         format!(
-            "\"skin\":{{\"points\":{places},\"modes\":{moved},\"amplitudes\":{amplitudes},\"triangles\":{corners},\"edges\":{edges}}}"
+            "\"skin\":{{\"points\":{places},\"modes\":{moved},\"amplitudes\":{amplitudes},\"triangles\":{corners},\"edges\":{edges}{stress}}}"
         )
+    }
+
+    /// Stress at the points as JSON; nothing where there is none.
+    fn stress_to_json(&self, recording: &Recording, numbers: &mut Numbers) -> String {
+        let stress = self.stress.as_ref();
+        let Some(stress) = stress.filter(|stress| !stress.modes.is_empty()) else {
+            return String::new();
+        };
+        let (tables, most) = stress.tables(recording, self.body, &self.skin);
+        let [by_modes, strains] = tables.map(|rows| numbers.stepped(&rows));
+        format!(",\"stress\":{{\"modes\":{by_modes},\"strains\":{strains},\"most\":{most:?}}}")
     }
 
     /// Displacement and rotation of an interface by amplitudes, as JSON: three numbers for each mode that is seen.
@@ -101,9 +193,10 @@ pub(super) fn size(scene: &Scene) -> [usize; 2] {
     let skins = resolved.bodies.iter().filter_map(|body| thinned(*body));
     skins.fold([0, 0], |[bytes, numbers], (skin, container)| {
         let modes = container.model.modes().min(MODES);
-        let points = skin.points.len() * 3 * 2 * (1 + modes);
+        let stress = if skin.has_stress() { modes } else { 0 };
+        let points = skin.points.len() * 3 * 2 * (1 + modes + 2 * stress);
         let corners = skin.triangles.len() * 3 * CORNER;
-        [bytes + points + corners, numbers + modes]
+        [bytes + points + corners, numbers + modes + stress]
     })
 }
 
@@ -136,20 +229,25 @@ mod tests {
     use crate::view::header::header;
     use crate::view::recording::Limits;
     use crate::view::surface::surfaces;
+    use crate::view::vtk::vtk;
 
     /// The strip of the book, clamped in axes of its own, which a force at its tip bends. Its modes are in closed form, and so is its surface:
     /// the last two points are the corners of its end.
     fn recording() -> Recording {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/book/examples/bodies");
+        recorded(&beside(&folder))
+    }
+
+    fn recorded(files: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Recording {
         let scene = json!({"name": "strip", "dimension": 3,
             "bodies": [{"name": "strip", "element": "reduced", "file": "strip.safetensors", "damping_ratio": 0.05,
                 "position": [0.3, -0.4, 0.8], "orientation": {"rotation_vector": [0.4, -0.3, 0.6]},
-                "markers": {"root": "root", "tip": "tip"}}],
+                "markers": {"root": "root", "tip": "tip"}, "gauges": {"root": "root"}}],
             "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "strip.root"]}],
             "loads": [{"name": "pull", "kind": "force", "marker": "strip.tip", "value": [0, 0, 1]}],
-            "outputs": [{"kind": "position", "marker": "strip.tip"}],
+            "outputs": [{"kind": "position", "marker": "strip.tip"}, {"kind": "stress_tensor", "gauge": "strip.root"}],
             "experiment": {"stop_time": 0.1, "step": 0.005}});
-        let scene = Scene::from_json_with(&scene.to_string(), &beside(&folder));
+        let scene = Scene::from_json_with(&scene.to_string(), files);
         let scene = scene.expect("a valid scene");
         Recording::new(&scene, None, &Limits::PAGE, &mut |_, _| ()).expect("a run")
     }
@@ -164,9 +262,9 @@ mod tests {
             let place = surface.places(&recording, frame)[0];
             let corner = |point: usize| place.at(&surface.local(point, &recording, frame));
             let end = (corner(16) + corner(17)) * 0.5;
-            let tip = Vector3::from_column_slice(row);
+            let tip = Vector3::from_column_slice(&row[..3]);
             // The strip keeps its length, what modes move does not: w^2 / L about.
-            let moved = (tip - Vector3::from_column_slice(&recording.rows[0])).norm();
+            let moved = (tip - Vector3::from_column_slice(&recording.rows[0][..3])).norm();
             assert!((end - tip).norm() < 1e-6 + 2.0 * moved * moved, "{frame}");
             most = most.max(moved);
         }
@@ -197,6 +295,64 @@ mod tests {
             let ways = [&marker["modes"], &marker["rotation"]].map(count);
             assert_eq!(ways, [Some(3 * modes as usize); 2]);
         }
+    }
+
+    /// The file of the strip with the stress of its gauge at every point of its surface, twice as large at every other point.
+    fn with_stress(_: &str) -> Result<Vec<u8>, String> {
+        let bytes = include_bytes!("../../docs/book/examples/bodies/strip.safetensors");
+        let length = u64::from_le_bytes(std::array::from_fn(|k| bytes[k])) as usize;
+        let mut header: Value = serde_json::from_slice(&bytes[8..8 + length]).expect("JSON");
+        let mut data = bytes[8 + length..].to_vec();
+        let gauge = &header["stress.root"]["data_offsets"][0];
+        let first = gauge.as_u64().expect("a place") as usize;
+        let (numbers, _) = bytes[8 + length + first..].as_chunks::<8>();
+        let begin = data.len();
+        for point in 0..18 {
+            for number in &numbers[..36] {
+                let stress = f64::from_le_bytes(*number) * f64::from(1 + point % 2);
+                data.extend((stress as f32).to_le_bytes());
+            }
+        }
+        let place =
+            json!({"dtype": "F32", "shape": [18, 6, 6], "data_offsets": [begin, data.len()]});
+        header["surface.stress"] = place;
+        let header = header.to_string().into_bytes();
+        Ok([&(header.len() as u64).to_le_bytes()[..], &header, &data].concat())
+    }
+
+    /// Stresses on a surface are those that outputs read, with strains of second order.
+    #[test]
+    fn stresses_on_surfaces_are_those_of_gauges() {
+        let recording = recorded(&with_stress);
+        let surface = &surfaces(&recording)[0];
+        let body = recording.scene.bodies[0].reduced().expect("a reduced body");
+        let skin = Skin::whole(body.contained()).expect("a surface");
+        let mut most: f64 = 0.0;
+        for (stresses, row) in surface.stresses.iter().zip(&recording.rows) {
+            let read = row[9];
+            most = most.max(read);
+            for (point, stress) in stresses.iter().enumerate() {
+                let wanted = read * (1 + skin.points[point] % 2) as f64;
+                assert!(
+                    (stress - wanted).abs() < 2e-3 * wanted + 1.0,
+                    "{stress} {wanted}"
+                );
+            }
+        }
+        assert!(most > 1e6, "{most}");
+        let (header, _) = header(&recording);
+        let header: Value = serde_json::from_str(&header).expect("JSON");
+        let stress = &header["bodies"][0]["skin"]["stress"];
+        let told = stress["most"].as_f64().expect("a number");
+        assert!((told - 2.0 * most).abs() < 4e-3 * most, "{told} {most}");
+        let width = |key: &str| {
+            let track = stress[key].as_u64().expect("a track") as usize;
+            header["tracks"][track]["width"].as_u64().expect("a number")
+        };
+        assert_eq!(width("modes"), 6 * width("strains"));
+        let frames = vtk(&recording).map(|(_, text)| text);
+        let with_stress = frames.filter(|text| text.contains("Name=\"von_mises_stress\""));
+        assert_eq!(with_stress.count(), recording.rows.len());
     }
 
     /// Morph targets and weights in every frame, one for each mode that is seen.

@@ -6,7 +6,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::header::mesh;
 use super::recording::Recording;
 use super::sections::{has_corners, sections};
-use super::skins::seen_modes;
+use super::skins::{MovingStress, seen_modes};
 use crate::elements::shape;
 use crate::math::rotation::{self, Quaternion};
 use crate::picture::Skin;
@@ -55,6 +55,8 @@ pub(super) struct BodySurface {
     pub faces: Vec<Vec<usize>>,
     /// Modes that move points of a reduced body: their places in the file, and displacements of all points, m.
     pub modes: Vec<(usize, Vec<[f64; 3]>)>,
+    /// Stress of von Mises at all points of a reduced body whose file has stresses, frame by frame, Pa; else none.
+    pub stresses: Vec<Vec<f64>>,
     /// Where every place is; none of a rigid body, which has one place.
     stations: Vec<LineStation>,
     lengths: Vec<f64>,
@@ -232,6 +234,7 @@ fn chain(
         points,
         faces,
         modes: Vec::new(),
+        stresses: Vec::new(),
         stations,
         lengths,
         body,
@@ -332,6 +335,7 @@ impl Built {
             points: self.points.into_iter().map(|point| (0, point)).collect(),
             faces: self.faces,
             modes: Vec::new(),
+            stresses: Vec::new(),
             stations: Vec::new(),
             lengths: Vec::new(),
             body,
@@ -417,8 +421,20 @@ fn deforming(recording: &Recording, reduced: &FileBody, body: usize) -> Option<B
     };
     let modes = seen_modes(recording, body, &skin).into_iter().map(ways);
     let modes = modes.collect();
+    let stress = MovingStress::of(recording, body, &skin, usize::MAX);
+    let stresses = stress.map_or_else(Vec::new, |stress| {
+        let strains = recording.poses.iter().map(|poses| &poses[body].strains);
+        let frame = |strains: &Vec<f64>| {
+            let points = points.clone();
+            points
+                .map(|point| stress.at(&skin, point, strains))
+                .collect()
+        };
+        strains.map(frame).collect()
+    });
     Some(BodySurface {
         modes,
+        stresses,
         ..built.rigid(&reduced.name, body)
     })
 }

@@ -57,6 +57,11 @@ fn polygons(recording: &Recording, surfaces: &[BodySurface], frame: usize) -> St
         "Name=\"Points\" NumberOfComponents=\"3\"",
         bytes.collect(),
     );
+    let stress = stresses(surfaces, frame).map_or_else(String::new, |stresses| {
+        let bytes = stresses.iter().flat_map(|value| value.to_le_bytes());
+        let values = array("Float32", "Name=\"von_mises_stress\"", bytes.collect());
+        format!("<PointData Scalars=\"von_mises_stress\">\n{values}</PointData>\n")
+    });
     let names: Vec<String> = surfaces
         .iter()
         .map(|surface| surface.name.clone())
@@ -64,7 +69,7 @@ fn polygons(recording: &Recording, surfaces: &[BodySurface], frame: usize) -> St
     format!(
         "<?xml version=\"1.0\"?>\n<!-- body: {} -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n\
          <PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n\
-         <CellData Scalars=\"body\">\n{}</CellData>\n<Points>\n{places}</Points>\n<Polys>\n{}{}</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n",
+         {stress}<CellData Scalars=\"body\">\n{}</CellData>\n<Points>\n{places}</Points>\n<Polys>\n{}{}</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n",
         names.join(", "),
         points.len() / 3,
         ends.len(),
@@ -72,4 +77,16 @@ fn polygons(recording: &Recording, surfaces: &[BodySurface], frame: usize) -> St
         integers("connectivity", &corners),
         integers("offsets", &ends),
     )
+}
+
+/// Stress of von Mises at all points in a frame, Pa, no number where a body has none; nothing where no body has.
+fn stresses(surfaces: &[BodySurface], frame: usize) -> Option<Vec<f32>> {
+    if surfaces.iter().all(|surface| surface.stresses.is_empty()) {
+        return None;
+    }
+    let of = |surface: &BodySurface| match surface.stresses.get(frame) {
+        Some(stresses) => stresses.iter().map(|stress| *stress as f32).collect(),
+        None => vec![f32::NAN; surface.points.len()],
+    };
+    Some(surfaces.iter().flat_map(of).collect())
 }

@@ -400,3 +400,22 @@ fn what_modes_do_not_describe_is_refused() {
         "of a line that deforms at the start",
     );
 }
+
+/// A velocity that counts as usual is that of the slowest bending, whatever the line is made of. Steps are measured by it where a scene rests
+/// without gravity.
+#[test]
+fn modes_and_elements_have_the_same_scale_of_time() {
+    let natural = |model: Value| {
+        let mut scene = along_x(&model);
+        scene["outputs"] = json!([{"kind": "velocity", "marker": "rod.tip"}]);
+        let run = Run::started(&scene);
+        run.0
+            .natural_size(&run.0.variables()[run.index("rod.tip.velocity[1]")])
+    };
+    let [modes, elements] = [
+        json!({"model": "modal", "modes": 2}),
+        json!({"model": "flexible", "elements": 4}),
+    ]
+    .map(natural);
+    assert!((modes / elements - 1.0).abs() < 1e-9, "{modes} {elements}");
+}

@@ -404,6 +404,26 @@ def test_modes_in_other_units_make_the_same_body(block):
         ModalModel(mass, shapes, values[:3], nodes).reduce(NOTHING)
 
 
+def test_stress_on_the_surface_is_that_of_the_material(block, tmp_path):
+    """Uniform strains have the stress of Hooke's law at every node, and modes that of their displacements."""
+    model = block.model
+    rows = block.nodal_stress()
+    gradient = np.random.default_rng(5).normal(size=(3, 3))
+    moved = (model.nodes @ gradient.T)[model.dofs[:, 0], model.dofs[:, 1]]
+    strain = (gradient + gradient.T) / 2
+    expected = 2e9 / 1.3 * (strain + 0.3 / 0.4 * np.trace(strain) * np.eye(3))
+    expected = expected[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    assert (rows @ moved).reshape(-1, 6) == pytest.approx(np.tile(expected, (len(model.nodes), 1)), rel=1e-9)
+    triangles = np.array([[7, 3, 5], [7, 5, 12]])
+    body = model.reduce(NOTHING, modes=4, triangles=triangles, nodal_stress=rows)
+    # Corners are sorted: 3, 5, 7, 12.
+    assert body.surface.stress.shape == (4, 6, 4)
+    assert body.surface.stress[2] == pytest.approx((rows @ body.shapes)[42:48])
+    again = ReducedBody.load(body.cut(3).save(tmp_path / "stress.safetensors"))
+    assert again.surface.stress == pytest.approx(body.surface.stress[:, :, :3], rel=1e-6)
+    assert "4 points, 2 triangles, with stress" in again.describe()
+
+
 def test_rows_of_inner_modes_do_not_move_with_the_body(block):
     """Half the nodes are replaced by amplitudes of modes with the others held: the same frequencies, and a warning."""
     mass, stiffness = (matrix.toarray() for matrix in with_rows_of_nodes(block.model))
@@ -505,6 +525,8 @@ def test_files_of_other_kinds_are_refused(bracket, tmp_path):
         ({"interfaces": {"a": Interface([0], position=[9, 9, 9])}}, "nodes on a line have no rotation"),
         ({"triangles": [[0, 1, 10**6]]}, "triangles: expected indices of nodes from 0"),
         ({"stress": {"a": np.zeros((6, 2))}}, r"stress\['a'\]: expected a matrix of shape \[6, "),
+        ({"nodal_stress": np.zeros((6, 2))}, "nodal_stress: expected triangles beside it"),
+        ({"nodal_stress": np.zeros((6, 2)), "triangles": [[0, 1, 2]]}, r"nodal_stress: expected a matrix of shape \["),
         ({"second_order_modes": 99, "quadratic_force": np.zeros_like}, "second_order_modes: expected 1 to"),
         ({"quadratic_force": lambda displacements: displacements[1:]}, "quadratic_force: expected .* finite forces"),
         ({"prestressed_stiffness": lambda displacements: 1.0}, "expected a matrix of shape .*, found float"),

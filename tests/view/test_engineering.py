@@ -244,6 +244,25 @@ def test_bodies_are_coloured_by_what_acts_in_them(browser, pages, dimension):
     assert paused(browser, 0.0).tobytes() == plain.tobytes()
 
 
+def test_surfaces_are_coloured_by_their_stress(browser, pages):
+    """The bracket bends between its bolts and its load: it has most stress at the bend."""
+    browser.load(pages("bracket"))
+    plain = paused(browser, 0.5)
+    browser.run(CHOOSE, "select.paint", "von Mises stress", "change")
+    painted = paused(browser, 0.5)
+    assert painted.tobytes() != plain.tobytes()
+    values = """
+    const body = flexbody.motion.bodies.find((body) => body.strains);
+    return Array.from({ length: body.skin.points.length / 3 }, (_, point) => body.vonMises(point));
+    """
+    found, most = browser.run(values), browser.run("return flexbody.paint.most")
+    assert 0.2 * most < max(found) <= 1.001 * most
+    assert min(found) < 0.1 * max(found)
+    assert "von Mises stress [Pa]" in browser.driver.find_element(By.CSS_SELECTOR, "svg.scale").text
+    browser.run(CHOOSE, "select.paint", "", "change")
+    assert paused(browser, 0.5).tobytes() == plain.tobytes()
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_deflections_can_be_enlarged(browser, pages, dimension):
     browser.load(pages.made(bar(dimension)))

@@ -91,13 +91,23 @@ fn words(container: &Container) -> String {
     }
     let pairs = match model.paired {
         0 => "none".into(),
+        count if count < model.modes() => format!(
+            "of pairs of the first {count} modes; a basis that combines others lacks theirs"
+        ),
         count => format!("of pairs of the first {count} modes"),
     };
     line("second-order terms", pairs);
     let details = &container.details;
     let surface = match (details.points.len(), details.triangles.len()) {
         (0, _) => "none".into(),
-        (points, triangles) => format!("{points} points, {triangles} triangles"),
+        (points, triangles) => {
+            let stress = if details.point_stresses.is_empty() {
+                ""
+            } else {
+                ", with stress"
+            };
+            format!("{points} points, {triangles} triangles{stress}")
+        }
     };
     line("surface", surface);
     let stresses: Vec<&str> = details.stresses.keys().map(String::as_str).collect();

@@ -17,6 +17,8 @@ const DEPENDENT: f64 = 1e-9;
 const SAME: f64 = 1e-6;
 /// Part of the lowest eigenvalue of the file below which a mode with held interfaces is a rigid motion.
 const RIGID: f64 = 1e-6;
+/// Part of the strain energy of a mode of a basis in modes without second-order displacements up to which these count as complete.
+const UNPAIRED: f64 = 1e-3;
 /// Modes take part in second-order terms whose eigenvalues are below this multiple of the first one: 30 times its frequency.
 const PAIRED_BELOW: f64 = 900.0;
 
@@ -75,6 +77,18 @@ impl ReducedModel {
                 slow(&eigenvalues)
             },
             eigenvalues,
+        })
+    }
+
+    /// Whether a body in a basis needs second-order terms of pairs of modes that the model does not have. What is left out of one mode of the
+    /// basis is the part of its strain energy in modes of the model that form no pairs.
+    pub fn lacks_pairs(&self, basis: &ModalBasis) -> bool {
+        let needed = slow(&basis.eigenvalues);
+        let columns = basis.columns.column_iter().zip(&basis.eigenvalues);
+        columns.take(needed).any(|(column, whole)| {
+            let parts = column.iter().zip(&self.eigenvalues).skip(self.paired);
+            let left_out: f64 = parts.map(|(by, of)| of * by * by).sum();
+            left_out > UNPAIRED * whole
         })
     }
 

@@ -1,6 +1,6 @@
 //! Models that reduced bodies take of their files.
 
-use crate::elements::reduced::{ModalBasis, ReducedModel};
+use crate::elements::reduced::{ModalBasis, PAIRED, ReducedModel};
 use crate::scene::Error;
 use crate::scene::description::{FixedInterfaceModes, Modes};
 use crate::scene::resolved::{Place, Reduced, Resolved};
@@ -40,9 +40,13 @@ impl Resolved<'_> {
     /// # Errors
     /// As [`Self::model_of`].
     pub(super) fn basis(&self, reduced: Reduced<'_>) -> Result<ModalBasis, Error> {
+        self.basis_of(reduced, reduced.body.modes)
+    }
+
+    /// Returns the basis of these modes.
+    fn basis_of(&self, reduced: Reduced<'_>, modes: Modes) -> Result<ModalBasis, Error> {
         let model = &reduced.body.contained().model;
-        let Modes::FixedInterface(FixedInterfaceModes { fixed_interface }) = reduced.body.modes
-        else {
+        let Modes::FixedInterface(FixedInterfaceModes { fixed_interface }) = modes else {
             return Ok(model.first_modes(reduced.body.first_modes()));
         };
         let held = self.interfaces_acted_on(&|place| match place {
@@ -56,6 +60,19 @@ impl Resolved<'_> {
                            frequencies in the file that differ less";
             Error::new(place, message)
         })
+    }
+
+    /// Whether the file of a reduced body lacks second-order displacements of pairs of modes that the body needs, whose number of modes the
+    /// planner may have to find.
+    pub fn lacks_pairs(&self, reduced: Reduced<'_>) -> bool {
+        let modes = if reduced.body.is_open() {
+            let fixed_interface = PAIRED as u32;
+            Modes::FixedInterface(FixedInterfaceModes { fixed_interface })
+        } else {
+            reduced.body.modes
+        };
+        let basis = self.basis_of(reduced, modes);
+        basis.is_ok_and(|basis| reduced.body.contained().model.lacks_pairs(&basis))
     }
 
     /// Lists the interfaces of a reduced body that something acts on, by their indices in the model.

@@ -19,7 +19,7 @@ const LARGEST: f64 = 1e150;
 /// Key of the texts among the arrays.
 const METADATA: &str = "__metadata__";
 /// Names of arrays; the first part of a name with a dot may be another one.
-const KNOWN: [&str; 15] = [
+const KNOWN: [&str; 16] = [
     "mass",
     "centre",
     "inertia",
@@ -34,6 +34,7 @@ const KNOWN: [&str; 15] = [
     "NAME.second",
     "surface.points",
     "surface.modes",
+    "surface.stress",
     "surface.triangles",
 ];
 

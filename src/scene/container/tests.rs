@@ -118,6 +118,10 @@ pub fn example() -> File {
         .into_iter()
         .flat_map(|of| (of as f32).to_le_bytes());
     file.set("surface.modes", "F32", &[3, 3, 3], modes.collect());
+    let stresses = noise(54, 25)
+        .into_iter()
+        .flat_map(|of| (1e6 * of as f32).to_le_bytes());
+    file.set("surface.stress", "F32", &[3, 6, 3], stresses.collect());
     let corners = [0u32, 1, 2].into_iter().flat_map(u32::to_le_bytes);
     file.set("surface.triangles", "U32", &[1, 3], corners.collect());
     file.numbers("stress.fillet", &[6, 3], &noise(18, 24));
@@ -154,6 +158,9 @@ fn a_file_is_read() -> Result<(), String> {
     assert_eq!(read.details.points.len(), 3);
     assert_eq!(read.details.modes.len(), 9);
     assert_eq!(read.details.triangles, [[0, 1, 2]]);
+    // Point 1, mode 2, component `xy`, which is number 3.
+    let of_file = noise(54, 25)[(6 + 3) * 3 + 2];
+    assert_eq!(read.details.point_stresses[3 + 2][3], 1e6 * of_file as f32);
     assert_eq!(read.details.stresses["fillet"].len(), 3);
     // Back in the file's axes: places, the tensor of inertia, displacements.
     let place = Vector3::from_column_slice(&example().get("B.position"));
@@ -411,6 +418,34 @@ fn arrays_that_lack_something_are_refused() {
     let mut file = example();
     file.set("surface.triangles", "U32", &[1, 3], vec![3; 12]);
     assert!(refused(&file).starts_with("surface.triangles: expected numbers of the 3 points"));
+    let refused_stress = |dtype: &'static str, shape: &[usize], number: [u8; 4]| {
+        let mut file = example();
+        let numbers = shape.iter().product();
+        file.set("surface.stress", dtype, shape, number.repeat(numbers));
+        refused(&file)
+    };
+    let none = 0.0_f32.to_le_bytes();
+    for (found, wanted) in [
+        (
+            refused_stress("F32", &[3, 6, 2], none),
+            "surface.stress: expected the shape [3, 6, 3], found [3, 6, 2]",
+        ),
+        (
+            refused_stress("U32", &[3, 6, 3], none),
+            "surface.stress: expected numbers of the type F32, found \"U32\"",
+        ),
+        (
+            refused_stress("F32", &[3, 6, 3], f32::NAN.to_le_bytes()),
+            "surface.stress: expected numbers of a size below 1e150, found NaN",
+        ),
+    ] {
+        assert_eq!(found, wanted);
+    }
+    let mut file = example();
+    let is_of_surface = |name: &str| name.starts_with("surface.") && name != "surface.stress";
+    file.arrays.retain(|(name, ..)| !is_of_surface(name));
+    let found = refused(&file);
+    assert!(found.contains("found \"surface.stress\""), "{found}");
     for (key, text, wanted) in [
         (
             "format",

@@ -42,10 +42,10 @@ pub enum SpectrumError {
          with them (\"rotation\")"
     )]
     Turns(f64),
-    /// A thin rigid rod of space, or a section of a rod, turns at this rate, rad/s.
+    /// A thin rigid rod of space, a section of a rod or a reduced body turns at this rate, rad/s.
     #[error(
-        "expected thin rods and rods that do not turn in space, found one at {0} rad/s: describe the scene in a \
-         frame that turns with them (\"rotation\")"
+        "expected thin rods, rods and reduced bodies that do not turn in space, found one at {0} rad/s: describe the \
+         scene in a frame that turns with them (\"rotation\")"
     )]
     Spins(f64),
     /// The cable of this body has been paid out by a length, m, at a rate, m/s.
@@ -184,7 +184,8 @@ pub fn eigenvalues<const D: usize>(
     let linear = at(system, inputs, work, state);
     refuse_paid_out(system, work, false)?;
     refuse_driven(system, work)?;
-    // Nothing tells the spin of a thin rod about itself, and gyroscopic terms of sections are not linearized.
+    // Nothing tells the spin of a thin rod about itself, and gyroscopic terms of sections are not linearized. Modes of a reduced body are
+    // displacements along axes that rotate, so small motions beside a spin have no constant equations in axes that stand still (decision 73).
     let spin = system.bodies.largest_spin(work.kinematics.motion());
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));

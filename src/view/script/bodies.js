@@ -31,6 +31,12 @@ function rim(corners) {
   });
 }
 
+/** Shows colours of vertices, or that of a body. */
+function showColours({ material }, body, isPainted) {
+  Object.assign(material, { vertexColors: isPainted, needsUpdate: true });
+  material.color.set(isPainted ? '#fff' : colourOf(body.number));
+}
+
 /** A cable, rod or beam. */
 class Chain {
   constructor(body) {
@@ -115,11 +121,8 @@ class Chain {
     for (const changed of [position, normal, color]) changed.needsUpdate = true;
   }
 
-  /** Shows colours of vertices, or that of the body. */
-  paint(isPainted) {
-    const { material } = this.object;
-    Object.assign(material, { vertexColors: isPainted, needsUpdate: true });
-    material.color.set(isPainted ? '#fff' : colourOf(this.body.number));
+  paint(paint) {
+    showColours(this.object, this.body, Boolean(paint));
   }
 
   outward(k, halves) {
@@ -229,11 +232,28 @@ class Skin {
       part.frustumCulled = false;
       this.object.add(part);
     }
-    this.position = position;
+    surface.geometry.setAttribute('color', new BufferAttribute(new Float32Array(points.length), 3));
+    Object.assign(this, { position, surface });
   }
 
-  update() {
+  paint(paint) {
+    showColours(this.surface, this.body, Boolean(paint?.isOfSkins && this.body.strains));
+  }
+
+  /** Colours of the points by their stress. */
+  colour(paint) {
+    const { color } = this.surface.geometry.attributes;
+    const painted = new Color();
+    for (let point = 0; point < color.count; point += 1) {
+      painted.set(paint.shade(this.body.vonMises(point)));
+      color.setXYZ(point, painted.r, painted.g, painted.b);
+    }
+    color.needsUpdate = true;
+  }
+
+  update(_, paint) {
     const { body, position } = this;
+    if (paint?.isOfSkins && body.strains) this.colour(paint);
     const { points, modes: { values, width, rows } } = body.skin;
     for (let k = 0; k < points.length; k += 1) {
       // Where all points move alike, one row says how.

@@ -153,7 +153,7 @@ class Player {
     for (const name of names) choice.append(new Option(name, name));
     choice.addEventListener('change', () => {
       this.paint = choice.value ? new Paint(this.motion, choice.value) : undefined;
-      for (const surface of this.surfaces) surface.paint?.(Boolean(this.paint));
+      for (const surface of this.surfaces) surface.paint?.(this.paint);
       this.isViewNew = true;
       this.draw();
     });

@@ -72,8 +72,12 @@ class Body {
     this.radius ??= 0;
     this.drawn = described.drawn === undefined ? undefined : tracks[described.drawn].values;
     if (described.skin) {
-      const { points, modes, amplitudes, triangles, edges } = described.skin;
+      const { points, modes, amplitudes, triangles, edges, stress } = described.skin;
       this.skin = { points: tracks[points].values, modes: tracks[modes], amplitudes: tracks[amplitudes], triangles, edges };
+      if (stress) {
+        this.skin.stress = { modes: tracks[stress.modes], strains: tracks[stress.strains], most: stress.most };
+        this.strains = new Float32Array(tracks[stress.strains].width);
+      }
       this.amplitudes = new Float32Array(tracks[amplitudes].width);
       this.undeformed = new Float32Array(this.amplitudes.length);
     }
@@ -89,6 +93,7 @@ class Body {
   seek(place, factor, isCarried) {
     between(this.track, place, this.now);
     if (this.forces) between(this.forces, place, this.force);
+    if (this.strains) between(this.skin.stress.strains, place, this.strains);
     if (this.skin) {
       between(this.skin.amplitudes, place, this.amplitudes);
       this.undeformed.forEach((from, mode) => { this.amplitudes[mode] = from + factor * (this.amplitudes[mode] - from); });
@@ -133,6 +138,16 @@ class Body {
     const sum = new Vector3();
     this.amplitudes.forEach((amplitude, mode) => sum.addScaledVector(new Vector3().fromArray(ways, 3 * mode), amplitude));
     return sum;
+  }
+
+  /** Stress of von Mises at a point of a surface, Pa. */
+  vonMises(point) {
+    const { values, width, rows } = this.skin.stress.modes;
+    const first = rows > 1 ? point * width : 0;
+    const [xx, yy, zz, xy, xz, yz] = [0, 1, 2, 3, 4, 5].map((part) => (
+      this.strains.reduce((sum, strain, mode) => sum + strain * values[first + 6 * mode + part], 0)
+    ));
+    return Math.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy * xy + xz * xz + yz * yz));
   }
 
   /** Point and derivative of the line inside an element. */

@@ -1,4 +1,4 @@
-// Colours of flexible bodies by what acts in their sections.
+// Colours of flexible bodies by what acts in their sections, and of surfaces of finite element models by their stress.
 
 import { palette } from './palette.js';
 import { digits, element } from './svg.js';
@@ -8,11 +8,12 @@ const [WIDTH, HEIGHT] = [150, 9];
 /** Room that the scale takes above a picture, with a marker below it, pixels. */
 export const LEGEND = 57;
 
-/** What may be shown: its place among the numbers of a node, its unit, whether it has a sign. */
+/** What may be shown: its place among the numbers of a node or whether surfaces have it, its unit, whether it has a sign. */
 const QUANTITIES = {
   'axial force': { part: 0, unit: 'N', isSigned: true },
   'bending moment': { part: 1, unit: 'N·m' },
   'largest normal stress': { part: 2, unit: 'Pa' },
+  'von Mises stress': { isOfSkins: true, unit: 'Pa' },
 };
 const PARTS = 3;
 
@@ -28,6 +29,7 @@ export class Paint {
   constructor(motion, name) {
     Object.assign(this, QUANTITIES[name], { name });
     this.most = 0;
+    if (this.isOfSkins) this.most = Math.max(0, ...motion.bodies.map(({ skin }) => skin?.stress?.most ?? 0));
     for (const { forces } of motion.bodies.filter((body) => body.forces)) {
       for (let k = this.part; k < forces.values.length; k += PARTS) this.most = Math.max(this.most, Math.abs(forces.values[k]));
     }
@@ -45,8 +47,13 @@ export class Paint {
   }
 
   colour(body, number, xi) {
-    if (!body.force) return palette.unpainted;
-    const part = this.value(body, number, xi) / this.most;
+    if (!body.force || this.isOfSkins) return palette.unpainted;
+    return this.shade(this.value(body, number, xi));
+  }
+
+  /** The colour of a value. */
+  shade(value) {
+    const part = value / this.most;
     return this.isSigned ? mixed(palette.signed, 0.5 + 0.5 * part) : mixed(palette.rising, part);
   }
 

@@ -32,11 +32,13 @@ class Surface:
     points: undeformed positions [points, 3], m.
     modes: displacement of points by modes [points, 3, n].
     triangles: indices of points [triangles, 3].
+    stress: stress of points by modes [points, 6, n], Pa, or None; colours the surface.
     """
 
     points: np.ndarray
     modes: np.ndarray
     triangles: np.ndarray
+    stress: np.ndarray | None = None
 
 
 @dataclass
@@ -110,7 +112,8 @@ class ReducedBody:
             interfaces[name] = InterfaceMotion(motion.position, motion.modes[:, kept], rotation, at)
         surface = self.surface
         if surface is not None:
-            surface = Surface(surface.points, surface.modes[:, :, kept], surface.triangles)
+            at = None if surface.stress is None else surface.stress[:, :, kept]
+            surface = Surface(surface.points, surface.modes[:, :, kept], surface.triangles, at)
         return ReducedBody(
             mass=self.mass,
             centre=self.centre,
@@ -156,6 +159,8 @@ class ReducedBody:
         if self.surface is not None:
             arrays["surface.points"] = np.asarray(self.surface.points, np.float64)
             arrays["surface.modes"] = np.asarray(self.surface.modes, np.float32)
+            if self.surface.stress is not None:
+                arrays["surface.stress"] = np.asarray(self.surface.stress, np.float32)
             arrays["surface.triangles"] = np.asarray(self.surface.triangles, np.uint32)
         metadata = {"format": FORMAT, "version": VERSION, "source": self.source}
         if self.highest_frequency is not None:
@@ -217,7 +222,8 @@ class ReducedBody:
             what = "position" if motion.rotation is None else "position and orientation"
             lines.append(f"interface {name}: {what}, at {_vector(motion.position, size)} m")
         if self.surface is not None:
-            lines.append(f"surface: {len(self.surface.points)} points, {len(self.surface.triangles)} triangles")
+            stress = "" if self.surface.stress is None else ", with stress"
+            lines.append(f"surface: {len(self.surface.points)} points, {len(self.surface.triangles)} triangles{stress}")
         lines += [f"stress {name}" for name in self.stress]
         return "\n".join(lines)
 

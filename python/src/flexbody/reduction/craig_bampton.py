@@ -37,6 +37,7 @@ def reduce(
     second_order_modes=None,
     triangles=None,
     stress=None,
+    nodal_stress=None,
     source="",
     highest_frequency=None,
 ):
@@ -61,9 +62,11 @@ def reduce(
     amplitude: largest displacement over the size of the body at which these functions are evaluated; 1e-3 by default.
     second_order_modes: how many modes take part in second-order terms; all, at most 40, if it is not given. A scene
         that takes fewer modes than the file has (`fixed_interface`, `auto`) combines those of the file and needs all
-        pairs. A body that moves takes pairs of modes below 30 times its first frequency, at most ten.
+        pairs: it tells of a file that lacks them. A body that moves takes pairs of modes below 30 times its first frequency, at most ten.
     triangles: surface as indices of nodes [triangles, 3], for pictures.
     stress: sparse or dense matrix [6, dofs] by name: stress xx yy zz xy xz yz at a point by displacements.
+    nodal_stress: sparse matrix [6 nodes, dofs], six rows a node, one node after the other: stress at the nodes by
+        displacements. That of the surface goes into the file and colours it in pages.
     source: where the model comes from.
     highest_frequency: highest frequency that the mesh resolves, Hz.
 
@@ -73,7 +76,7 @@ def reduce(
     if isinstance(modes, bool) or not isinstance(modes, (int, np.integer)) or modes < 0:
         raise Error(f"modes: expected a number of modes, found {modes!r}")
     model = scaled_model(mass, stiffness, nodes, dofs, unit_system(units))
-    outputs = BodyOutputs(model, interfaces, triangles, stress)
+    outputs = BodyOutputs(model, interfaces, triangles, stress, nodal_stress)
     rows = outputs.interfaces
     forces = QuadraticForces(model, quadratic_force, internal_force, prestressed_stiffness, amplitude)
     if model.inner_modes:

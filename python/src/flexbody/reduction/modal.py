@@ -44,20 +44,20 @@ class ModalModel:
         """Finds nodes by their numbers in the program that the model comes from: as `FiniteElementModel.indices`."""
         return node_numbers(self.labels, labels)
 
-    def reduce(self, interfaces, *, modes=None, triangles=None, stress=None, highest_frequency=None):
+    def reduce(self, interfaces, *, modes=None, triangles=None, stress=None, nodal_stress=None, highest_frequency=None):
         """Makes a reduced body of the modes.
 
         interfaces: an `Interface` of the kind `mean`, or indices of nodes (from 0), by name. The basis has no static
             shapes of what is held or loaded there: many modes take their place.
         modes: how many modes are taken, beside rigid ones, in order of frequency; all if it is not given.
-        triangles, stress, highest_frequency: as in `flexbody.reduce`.
+        triangles, stress, nodal_stress, highest_frequency: as in `flexbody.reduce`.
 
         Returns a `ReducedBody` without second-order terms. Raises `flexbody.Error` if the modes are not orthogonal in
         the mass, or not those of a free body.
         """
         empty = sparse.csc_array(np.shape(self.mass))
         model = scaled_model(self.mass, empty, self.nodes, self.dofs, unit_system(self.units))
-        outputs = BodyOutputs(model, interfaces, triangles, stress)
+        outputs = BodyOutputs(model, interfaces, triangles, stress, nodal_stress)
         for interface in outputs.interfaces:
             if interface.kind != "mean":
                 raise Error(

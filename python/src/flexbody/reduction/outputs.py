@@ -14,8 +14,8 @@ class BodyOutputs:
     interfaces: `InterfaceRows`, in the order in which they were given.
     """
 
-    def __init__(self, model, interfaces, triangles=None, stress=None):
-        """model: a `ScaledModel`; interfaces, triangles, stress: as in `flexbody.reduce`.
+    def __init__(self, model, interfaces, triangles=None, stress=None, nodal_stress=None):
+        """model: a `ScaledModel`; interfaces, triangles, stress, nodal_stress: as in `flexbody.reduce`.
 
         Raises `flexbody.Error` with what was expected and found.
         """
@@ -25,7 +25,12 @@ class BodyOutputs:
         self._model = model
         self.interfaces = [InterfaceRows(name, one, model) for name, one in given.items()]
         self._triangles = _triangles(triangles, len(model.nodes))
-        self._stress = {name: _stress_rows(name, matrix, model) for name, matrix in (stress or {}).items()}
+        self._stress = {name: _stress_rows(f"stress[{name!r}]", matrix, model, 1) for name, matrix in (stress or {}).items()}
+        self._nodal_stress = None
+        if nodal_stress is not None:
+            if triangles is None:
+                raise Error("nodal_stress: expected triangles beside it, whose corners have the stress, found none")
+            self._nodal_stress = _stress_rows("nodal_stress", nodal_stress, model, len(model.nodes))
 
     def of(self, shapes, second=None):
         """Fields `interfaces`, `surface` and `stress` of a `ReducedBody`.
@@ -34,7 +39,7 @@ class BodyOutputs:
         """
         return {
             "interfaces": {interface.name: _motion(interface, shapes, second) for interface in self.interfaces},
-            "surface": _surface(self._model, self._triangles, shapes),
+            "surface": _surface(self._model, self._triangles, shapes, self._nodal_stress),
             "stress": {name: matrix @ shapes for name, matrix in self._stress.items()},
         }
 
@@ -56,19 +61,24 @@ def _triangles(triangles, count):
     return found
 
 
-def _surface(model, triangles, shapes):
+def _surface(model, triangles, shapes, stress):
     if triangles is None:
         return None
     used, renamed = np.unique(triangles, return_inverse=True)
     columns = model.columns[used, :3]
     if (columns < 0).any():
         raise Error("triangles: expected nodes with three translations, found some without")
-    return Surface(model.nodes[used], shapes[columns], renamed.reshape(triangles.shape))
+    if stress is not None:
+        rows = (6 * used[:, None] + np.arange(6)).ravel()
+        stress = (stress[rows] @ shapes).reshape(len(used), 6, -1)
+    return Surface(model.nodes[used], shapes[columns], renamed.reshape(triangles.shape), stress)
 
 
-def _stress_rows(name, matrix, model):
-    """Matrix [6, dofs] from displacements in SI units to Pa, checked."""
+def _stress_rows(name, matrix, model, points):
+    """Matrix [6 points, dofs] from displacements in SI units to Pa, checked."""
     matrix = sparse.csr_array(matrix, dtype=float)
-    if matrix.shape != (6, model.size):
-        raise Error(f"stress[{name!r}]: expected a matrix of shape [6, {model.size}], found {list(matrix.shape)}")
+    if matrix.shape != (6 * points, model.size):
+        raise Error(f"{name}: expected a matrix of shape [{6 * points}, {model.size}], found {list(matrix.shape)}")
+    if not np.isfinite(matrix.data).all():
+        raise Error(f"{name}: expected finite numbers, found others")
     return model.units.stress * (matrix @ sparse.diags_array(model.to_model))

@@ -231,3 +231,20 @@ fn a_basis_of_all_modes_has_their_frequencies() -> Result<(), &'static str> {
     assert!(difference(&model.eigenvalues[..4], &free.eigenvalues) < 1e-12);
     Ok(())
 }
+
+/// A file lacks pairs where slow modes of a basis have strain energy in modes that form none.
+#[test]
+fn a_basis_needs_pairs_of_the_modes_that_it_combines() -> Result<(), &'static str> {
+    let mut model = model();
+    let held = model.fixed_interface_modes(&HELD, 2).ok_or("no modes")?;
+    assert!(!model.lacks_pairs(&held));
+    assert!(!model.lacks_pairs(&model.first_modes(MODES)));
+    model.paired = 2;
+    assert!(model.lacks_pairs(&held));
+    assert!(!model.lacks_pairs(&model.first_modes(2)));
+    assert!(model.lacks_pairs(&model.first_modes(3)));
+    model.paired = 0;
+    assert!(model.lacks_pairs(&model.first_modes(1)));
+    assert!(!model.lacks_pairs(&model.first_modes(0)));
+    Ok(())
+}

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::scene::container::tests::example;
-use crate::scene::{Error, Scene};
+use crate::scene::{Error, Scene, remarks};
 
 /// A reduced body and a box. The interface `A1` has rotations, `B` has none.
 fn scene() -> Value {
@@ -501,4 +501,31 @@ fn what_belongs_to_lines_and_rigid_bodies_is_refused() {
         let told = told(pointer, value);
         assert!(told.starts_with(expected), "{told}\nnot {expected}");
     }
+}
+
+/// The file has pairs of the first two of its three modes.
+#[test]
+fn pairs_that_the_modes_of_a_body_lack_are_told() -> Result<(), Error> {
+    let told = |modes: Value| -> Result<bool, Error> {
+        let mut scene = scene();
+        scene["bodies"][0]["modes"] = modes;
+        if scene["bodies"][0]["modes"] == 0 {
+            let body = scene["bodies"][0].as_object_mut().expect("a body");
+            body.remove("gauges");
+        }
+        let told = remarks(&read(&scene)?);
+        let wanted = "bodies[0].file: found second-order displacements of pairs of the first 2 of 3 modes only, where the modes of \"bracket\" \
+            combine others: ";
+        Ok(told.iter().any(|remark| remark.starts_with(wanted)))
+    };
+    for (modes, is_told) in [
+        (json!("all"), true),
+        (json!("auto"), true),
+        (json!({"fixed_interface": 1}), true),
+        (json!(2), false),
+        (json!(0), false),
+    ] {
+        assert_eq!(told(modes.clone())?, is_told, "{modes}");
+    }
+    Ok(())
 }

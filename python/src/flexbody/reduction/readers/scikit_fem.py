@@ -1,8 +1,10 @@
 """Solids of scikit-fem, with the quadratic part of their internal force."""
 
 import numpy as np
+import scipy.sparse as sparse
 
 from flexbody._errors import Error
+from flexbody.reduction.invariants import TENSOR
 from flexbody.reduction.model import FiniteElementModel
 
 
@@ -90,6 +92,32 @@ class Solid:
             return ddot(w["piola"], grad(v))
 
         return force.assemble(self.basis, piola=piola)
+
+    def nodal_stress(self):
+        """Stress at the nodes by displacements, for `flexbody.reduce`: the mean of what the elements at a node have there.
+
+        Returns a sparse matrix [6 nodes, dofs], Pa/m.
+        """
+        from skfem import Basis
+
+        table = self.model.dofs
+        # Degrees of freedom of the elements come in threes, those of one node.
+        own = self.basis.element_dofs
+        places = self.basis.elem.doflocs[::3].T
+        at_nodes = Basis(self.basis.mesh, self.basis.elem, quadrature=(places, np.ones(places.shape[1])))
+        node = table[own[::3], 0]
+        elements = np.bincount(node.ravel(), minlength=len(self.model.nodes))
+        rows, columns, values = [], [], []
+        for dof, column in enumerate(own):
+            gradient = at_nodes.basis[dof][0].grad
+            stress = self._stress((gradient + gradient.swapaxes(0, 1)) / 2)
+            for part, (first, second) in enumerate(TENSOR):
+                value = np.broadcast_to(stress[first, second], (own.shape[1], len(node)))
+                rows.append((6 * node.T + part).ravel())
+                columns.append(np.repeat(column, len(node)))
+                values.append((value / elements[node.T]).ravel())
+        data = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+        return sparse.coo_array(data, shape=(6 * len(self.model.nodes), self.basis.N)).tocsr()
 
     def _stress(self, strain):
         first, shear = self.lame
