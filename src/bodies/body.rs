@@ -70,6 +70,9 @@ macro_rules! each {
         for $body in &$bodies.reduced {
             $run;
         }
+        for $body in &$bodies.patches {
+            $run;
+        }
         for $body in &$bodies.sections {
             $run;
         }

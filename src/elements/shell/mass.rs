@@ -18,13 +18,19 @@ pub(super) fn functions(k: usize) -> (usize, usize) {
     (2 * (corner / 2) + vector % 2, 2 * (corner % 2) + vector / 2)
 }
 
+/// Factor of number `k` of an element that makes it a derivative by lengths.
+fn factor(k: usize, unit: f64) -> f64 {
+    if k % VECTORS == 3 { 1.0 / unit } else { 1.0 }
+}
+
 /// Mass per area times the area by both lengths, at `xi` and `eta`.
-fn density(corners: &[Corner; 4], sizes: [f64; 2], area_density: f64, at: [f64; 2]) -> f64 {
+fn density(corners: &[Corner; 4], (sizes, unit): ([f64; 2], f64), area_density: f64, at: [f64; 2]) -> f64 {
     let mut derivatives = [[0.0; 3]; 2];
     let [values, slopes] = [shape::values::<f64>, shape::slopes::<f64>]
         .map(|of| [of(at[0], sizes[0]), of(at[1], sizes[1])]);
     for k in 0..16 {
         let ((alpha, beta), vector) = (functions(k), corners[k / VECTORS][k % VECTORS]);
+        let vector = vector.map(|component| component * factor(k, unit));
         for d in 0..3 {
             derivatives[0][d] += slopes[0][alpha] * values[1][beta] * vector[d];
             derivatives[1][d] += values[0][alpha] * slopes[1][beta] * vector[d];
@@ -34,8 +40,12 @@ fn density(corners: &[Corner; 4], sizes: [f64; 2], area_density: f64, at: [f64; 
     area_density * first.cross(&second).norm()
 }
 
-/// Mass of an element with these lengths (m), coordinates of the unstressed surface and mass per area (kg/m^2).
-pub(super) fn mass(corners: &[Corner; 4], sizes: [f64; 2], area_density: f64) -> Mass {
+/// Mass of an element with these lengths and unit of mixed derivatives (m), coordinates of the unstressed surface and mass per area (kg/m^2).
+pub(super) fn mass(
+    corners: &[Corner; 4],
+    (sizes, unit): ([f64; 2], f64),
+    area_density: f64,
+) -> Mass {
     let lines = |inertia: Inertia| sizes.map(|size| line_mass(size, inertia));
     let tensor = |lines: [SMatrix<f64, 4, 4>; 2]| {
         Mass::from_fn(|row, column| {
@@ -48,7 +58,7 @@ pub(super) fn mass(corners: &[Corner; 4], sizes: [f64; 2], area_density: f64) ->
         for second in &GAUSS_5 {
             let at = [first.at, second.at];
             let weight = first.weight * second.weight;
-            let density = density(corners, sizes, area_density, at);
+            let density = density(corners, (sizes, unit), area_density, at);
             let values = [0, 1].map(|of| shape::values(at[of], sizes[of]));
             let functions = nalgebra::SVector::<f64, 16>::from_fn(|k, _| {
                 let (alpha, beta) = functions(k);
@@ -60,5 +70,6 @@ pub(super) fn mass(corners: &[Corner; 4], sizes: [f64; 2], area_density: f64) ->
         }
     }
     let correction = tensor(lines(Inertia::Corrected)) - tensor(lines(Inertia::Consistent));
-    consistent + correction * mean
+    let mass = consistent + correction * mean;
+    Mass::from_fn(|r, c| mass[(r, c)] * factor(r, unit) * factor(c, unit))
 }

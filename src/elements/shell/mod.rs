@@ -3,6 +3,7 @@
 //! Source: F. K. Bogner, R. L. Fox, L. A. Schmit (1965) (bicubic plate); A. A. Shabana, A. P. Christensen, Int. J. Numer. Meth. Eng. 40 (1997)
 //! (absolute nodal coordinates of plates); J. Kiendl et al., Comput. Methods Appl. Mech. Eng. 198 (2009) (Kirchhoff-Love shells).
 
+mod area;
 mod grid;
 mod kernel;
 mod mass;
@@ -13,11 +14,13 @@ mod tests;
 
 use nalgebra::{Matrix3, SVector, Vector3};
 
+use super::line::times;
 use super::shape;
 use crate::math::jet::Number;
-use crate::math::lanes::{Lanes, PACK, Simd};
+use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use grid::{Corners, Grid, WEIGHTS};
 use kernel::{Group, Kernel, Read, Single, curvature, metric};
+pub use area::{AREA_PLACES, area_place};
 pub use mass::Mass;
 pub use section::{Ply, ShellSection, Stiffness};
 use section::{rotated, strain_transformation};
@@ -29,7 +32,8 @@ pub const VECTORS: usize = 4;
 /// Numbers at a corner: components of all vectors.
 pub const NUMBERS: usize = 3 * VECTORS;
 
-/// Position of a corner (m), its derivatives by the lengths along both directions, and the mixed one (1/m).
+/// Vectors of a corner: its position (m), the derivatives by the lengths along both directions, and the mixed one (1/m) times the unit of
+/// length of its body (m), so that all but the first are numbers.
 pub type Corner<N = f64> = [[N; 3]; VECTORS];
 
 /// All corners: second direction first, so that corner `2 i + j` is at end `i` of the first direction and end `j` of the second.
@@ -56,41 +60,37 @@ pub const CORNER_PAIRS: [(usize, usize); 10] = {
 #[derive(Clone, Debug)]
 pub struct Shell {
     sizes: [f64; 2],
+    /// Factor of each vector of a corner but the position that makes it a derivative by `xi` and `eta`, m.
+    scales: [f64; 3],
     kernel: Kernel<f64>,
     mass: Mass,
+    /// Area of the unstressed surface that each of [`AREA_PLACES`] stands for, m^2.
+    areas: [f64; AREA_PLACES],
 }
 
 /// Up to [`PACK`] elements.
 #[derive(Clone, Debug)]
 pub struct ShellPack {
     kernel: Kernel<[f64; PACK]>,
-    sizes: [[f64; PACK]; 2],
+    scales: [[f64; PACK]; 3],
     count: usize,
 }
 
 /// Matrices of a pack: blocks of all pairs of corners, one number for each element.
 pub type PackBlocks = CornerBlocks<[f64; PACK]>;
 
-/// Factor of each vector of a corner that makes its derivatives those by `xi` and `eta`, for lengths of an element.
-#[inline(always)]
-fn scales<N: crate::math::lanes::Real>([a, b]: [N; 2]) -> [N; VECTORS] {
-    [a.constant(1.0), a, b, a * b]
-}
-
 /// Coordinates by functions of both directions.
 #[inline(always)]
-fn scaled<N: crate::math::lanes::Real>(e: &ElementCorners<N>, sizes: [N; 2]) -> Corners<N> {
-    let (mut out, by) = ([[e[0][0]; 4]; 4], scales(sizes));
+fn scaled<N: Real>(e: &ElementCorners<N>, scales: &[N; 3]) -> Corners<N> {
+    let mut out = [[e[0][0]; 4]; 4];
     for corner in 0..4 {
         for k in 0..VECTORS {
-            for d in 0..3 {
-                let place = &mut out[2 * (corner / 2) + k % 2][2 * (corner % 2) + k / 2];
-                place[d] = if k == 0 {
-                    e[corner][k][d]
-                } else {
-                    e[corner][k][d] * by[k]
-                };
-            }
+            let place = &mut out[2 * (corner / 2) + k % 2][2 * (corner % 2) + k / 2];
+            *place = if k == 0 {
+                e[corner][k]
+            } else {
+                times(&e[corner][k], scales[k - 1])
+            };
         }
     }
     out
@@ -98,14 +98,16 @@ fn scaled<N: crate::math::lanes::Real>(e: &ElementCorners<N>, sizes: [N; 2]) -> 
 
 /// The transpose of [`scaled`].
 #[inline(always)]
-fn unscaled<N: crate::math::lanes::Real>(f: &Corners<N>, sizes: [N; 2]) -> ElementCorners<N> {
-    let (mut out, by) = ([[f[0][0]; VECTORS]; 4], scales(sizes));
+fn unscaled<N: Real>(f: &Corners<N>, scales: &[N; 3]) -> ElementCorners<N> {
+    let mut out = [[f[0][0]; VECTORS]; 4];
     for corner in 0..4 {
         for k in 0..VECTORS {
-            for d in 0..3 {
-                let place = f[2 * (corner / 2) + k % 2][2 * (corner % 2) + k / 2][d];
-                out[corner][k][d] = if k == 0 { place } else { place * by[k] };
-            }
+            let place = &f[2 * (corner / 2) + k % 2][2 * (corner % 2) + k / 2];
+            out[corner][k] = if k == 0 {
+                *place
+            } else {
+                times(place, scales[k - 1])
+            };
         }
     }
     out
@@ -143,9 +145,14 @@ fn covariant(
 }
 
 impl Shell {
-    /// An element of these lengths (m) with the coordinates of its unstressed surface.
-    pub fn new(section: &ShellSection, sizes: [f64; 2], corners: &ElementCorners) -> Self {
-        let grid = Grid::of(&scaled(corners, sizes));
+    /// An element of these lengths (m) with the coordinates of its unstressed surface and the unit of length (m) of mixed derivatives.
+    pub fn new(
+        section: &ShellSection,
+        (sizes, unit): ([f64; 2], f64),
+        corners: &ElementCorners,
+    ) -> Self {
+        let scales = [sizes[0], sizes[1], sizes[0] * sizes[1] / unit];
+        let grid = Grid::of(&scaled(corners, &scales));
         let mut laws = [[[[0.0; 6]; 3]; 3]; 3];
         for i in 0..3 {
             for j in 0..3 {
@@ -164,11 +171,15 @@ impl Shell {
             curvature: curvature(&grid).0,
             damping_time: section.damping_time,
         };
-        Self {
+        let mut element = Self {
             sizes,
+            scales,
             kernel,
-            mass: mass::mass(corners, sizes, section.area_density),
-        }
+            mass: mass::mass(corners, (sizes, unit), section.area_density),
+            areas: [0.0; AREA_PLACES],
+        };
+        element.areas = element.areas(corners);
+        element
     }
 
     /// Lengths along both directions, m.
@@ -197,13 +208,13 @@ impl Shell {
         self.kernel.is_coupled == other.kernel.is_coupled && self.is_damped() == other.is_damped()
     }
 
-    fn sizes_of<N: Number>(&self) -> [N; 2] {
-        self.sizes.map(N::of)
+    fn scales_of<N: Number>(&self) -> [N; 3] {
+        self.scales.map(N::of)
     }
 
     /// Strain energy, J.
     pub fn energy<N: Number>(&self, e: &ElementCorners<N>) -> N {
-        self.kernel.energy(&scaled(e, self.sizes_of()), Single)
+        self.kernel.energy(&scaled(e, &self.scales_of()), Single)
     }
 
     /// Elastic and damping force on the coordinates, N and N m, and the power that damping dissipates, W.
@@ -212,10 +223,10 @@ impl Shell {
         e: &ElementCorners<N>,
         rate: &ElementCorners<N>,
     ) -> (ElementCorners<N>, N) {
-        let sizes = self.sizes_of();
-        let rate = self.is_damped().then(|| scaled(rate, sizes));
-        let (force, power) = self.kernel.force(&scaled(e, sizes), rate.as_ref(), Single);
-        (unscaled(&force, sizes), power)
+        let scales = self.scales_of();
+        let rate = self.is_damped().then(|| scaled(rate, &scales));
+        let (force, power) = (self.kernel).force(&scaled(e, &scales), rate.as_ref(), Single);
+        (unscaled(&force, &scales), power)
     }
 
     /// Weights of the coordinates in the value or in a derivative of the position, `orders` times by the lengths along both directions, at
@@ -229,9 +240,11 @@ impl Shell {
                 _ => shape::curvatures(at, size).into(),
             }
         });
+        let unit = N::of(self.scales[2] / (self.sizes[0] * self.sizes[1]));
         std::array::from_fn(|k| {
             let (alpha, beta) = mass::functions(k);
-            functions[0][alpha] * functions[1][beta]
+            let weight = functions[0][alpha] * functions[1][beta];
+            if k % VECTORS == 3 { weight * unit } else { weight }
         })
     }
 
@@ -263,7 +276,7 @@ impl Shell {
                 curvature: components(&|k| &k.curvature),
                 damping_time: lanes(&|e| e.kernel.damping_time),
             },
-            sizes: [0, 1].map(|of| lanes(&|e| e.sizes[of])),
+            scales: [0, 1, 2].map(|of| lanes(&|e| e.scales[of])),
             count: elements.len(),
         }
     }
@@ -291,8 +304,9 @@ impl ShellPack {
     }
 
     #[inline(always)]
-    fn sizes<S: Simd>(&self, group: Group<S>) -> [Lanes<S>; 2] {
-        [group.read(&self.sizes[0]), group.read(&self.sizes[1])]
+    fn scales<S: Simd>(&self, group: Group<S>) -> [Lanes<S>; 3] {
+        let [a, b, c] = &self.scales;
+        [group.read(a), group.read(b), group.read(c)]
     }
 
     /// [`Shell::force`] of all elements; with rates where they are damped. Returns the power that damping dissipates, W.
@@ -306,14 +320,14 @@ impl ShellPack {
         let mut powers = [0.0; PACK];
         for group in 0..self.groups::<S>() {
             let reader = Group(simd, group);
-            let sizes = self.sizes(reader);
-            let at = scaled(&read(simd, e, group), sizes);
+            let scales = self.scales(reader);
+            let at = scaled(&read(simd, e, group), &scales);
             let rate = match rates {
-                Some(rates) => Some(scaled(&read(simd, rates, group), sizes)),
+                Some(rates) => Some(scaled(&read(simd, rates, group), &scales)),
                 None => None,
             };
             let (force, power) = self.kernel.force(&at, rate.as_ref(), reader);
-            let force = unscaled(&force, sizes);
+            let force = unscaled(&force, &scales);
             for corner in 0..4 {
                 for k in 0..VECTORS {
                     for d in 0..3 {
@@ -339,19 +353,20 @@ impl ShellPack {
     ) {
         for group in 0..self.groups::<S>() {
             let reader = Group(simd, group);
-            let sizes = self.sizes(reader);
-            let at = scaled(&read(simd, e, group), sizes);
+            let scales = self.scales(reader);
+            let at = scaled(&read(simd, e, group), &scales);
             let rates = match rates {
-                Some(rates) => Some(scaled(&read(simd, rates, group), sizes)),
+                Some(rates) => Some(scaled(&read(simd, rates, group), &scales)),
                 None => None,
             };
             let from = match from {
-                Some(from) => Some(scaled(&read(simd, from, group), sizes)),
+                Some(from) => Some(scaled(&read(simd, from, group), &scales)),
                 None => None,
             };
             let tangent =
                 Tangent::new(&self.kernel, &at, (rates.as_ref(), from.as_ref()), reader);
-            let by = scales(sizes);
+            let one = scales[0].constant(1.0);
+            let by = [one, scales[0], scales[1], scales[2]];
             for pair in 0..PAIRS.len() {
                 let mut blocks = [[[[at[0][0][0]; 3]; 3]; VECTORS]; VECTORS];
                 tangent.blocks(&self.kernel, PAIRS[pair], Part::Whole, reader, &mut blocks);

@@ -79,7 +79,7 @@ const fn functions(corner: Corner, k: usize) -> (usize, usize) {
 
 /// A function of both directions, differentiated as often in each, at a place.
 #[inline(always)]
-const fn shape((alpha, beta): (usize, usize), orders: (usize, usize), (i, j): (usize, usize)) -> f64 {
+pub(super) const fn shape((alpha, beta): (usize, usize), orders: (usize, usize), (i, j): (usize, usize)) -> f64 {
     TABLE[orders.0][alpha][i] * TABLE[orders.1][beta][j]
 }
 
@@ -99,8 +99,6 @@ struct Rows<N> {
     membrane: [Vector<N>; 3],
     /// Changes of curvatures along the normal, by component.
     bending: [N; 3],
-    /// First derivatives of the function.
-    slopes: [f64; 2],
     /// `r^a h_a`.
     dual: Vector<N>,
     /// Second derivatives of the function, times moments, less what the normal takes.
@@ -177,7 +175,6 @@ impl<N: Real> Tangent<N> {
         Rows {
             membrane,
             bending,
-            slopes,
             dual,
             moment,
         }
