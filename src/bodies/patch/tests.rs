@@ -207,6 +207,7 @@ fn forces_of_a_patch_in_lanes_are_those_of_its_elements() {
         drives: &[],
         x: &x,
         v: &v,
+        from: None,
     };
     let [mut lanes, mut single] = [0, 1].map(|_| vec![no_node(); x.len()]);
     let power = BodyPart::add_force(&patch, motion, (&mut lanes, &mut []));
