@@ -8,7 +8,7 @@ use super::connectivity::Node;
 use super::frame::{RigidBodyFrame, SectionFrame};
 use super::nodes::{NodeKind, NodeOwner};
 use super::winch::PaidOut;
-use super::{LineChain, LumpedMass, Marker, ReducedBody, RigidRod, RodChain, Winch};
+use super::{LineChain, LumpedMass, Marker, Patch, ReducedBody, RigidRod, RodChain, Winch};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -31,6 +31,8 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) rigid: Vec<RigidBodyFrame>,
     /// Bodies of reduced finite element models.
     pub(super) reduced: Vec<ReducedBody>,
+    /// Patches of plates and shells.
+    pub(super) patches: Vec<Patch>,
     /// Owner of every node, `[nodes]`.
     pub(super) owners: Vec<NodeOwner>,
     /// Number of frames that a state holds: of rigid bodies of space, of reduced bodies, then of sections.
@@ -154,6 +156,11 @@ impl<const D: usize> Bodies<D> {
     /// Bodies of reduced finite element models.
     pub fn reduced(&self) -> &[ReducedBody] {
         &self.reduced
+    }
+
+    /// Patches of plates and shells.
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
     }
 
     /// A marker at the mean axes of a reduced body, by its place among all bodies; none of another one.

@@ -73,6 +73,9 @@ macro_rules! each {
         for $body in &$bodies.sections {
             $run;
         }
+        for $body in &$bodies.patches {
+            $run;
+        }
     }};
 }
 pub(super) use each;

@@ -9,7 +9,7 @@ use super::connectivity::Node;
 use super::frame::RigidBodyFrame;
 use super::nodes::NodeOwner;
 use super::stages::RotatingNodes;
-use super::{Bodies, LineChain, LumpedMass, ReducedBody, RigidRod, RodChain, Winch};
+use super::{Bodies, LineChain, LumpedMass, Patch, ReducedBody, RigidRod, RodChain, Winch};
 use crate::math::space::Vector;
 
 /// A number of a node: node, part and axis.
@@ -54,6 +54,11 @@ impl<const D: usize> Bodies<D> {
     /// Adds the body of a reduced finite element model.
     pub fn add_reduced(&mut self, body: ReducedBody) {
         self.reduced.push(body);
+    }
+
+    /// Adds the patch of a plate or shell.
+    pub fn add_patch(&mut self, patch: Patch) {
+        self.patches.push(patch);
     }
 
     /// Puts a line on a winch at its last end or its first one. The driven coordinate is the length that has been paid out, m.

@@ -5,7 +5,7 @@ mod outputs;
 
 use std::collections::BTreeMap;
 
-use super::description::{FileBody, LineBody, Port as GivenPort, RigidBody, Scene};
+use super::description::{FileBody, LineBody, PatchBody, Port as GivenPort, RigidBody, Scene};
 use super::joints::{ResolvedGear, ResolvedJoint};
 use super::loads::{Action, ResolvedLoad};
 use super::motions::{Driven, ResolvedMotion};
@@ -48,6 +48,8 @@ numbers! {
     RigidId;
     /// A reduced body, by its place among all bodies.
     ReducedId;
+    /// A plate or shell, by its place among all bodies.
+    PlateId;
 }
 
 impl PointId {
@@ -119,6 +121,15 @@ pub struct Reduced<'a> {
     pub body: &'a FileBody,
 }
 
+/// A plate or a shell.
+#[derive(Clone, Copy, Debug)]
+pub struct Plate<'a> {
+    /// Which one.
+    pub id: PlateId,
+    /// As described.
+    pub body: &'a PatchBody,
+}
+
 /// A body of any kind.
 #[derive(Clone, Copy, Debug)]
 pub enum BodyReference<'a> {
@@ -128,6 +139,8 @@ pub enum BodyReference<'a> {
     Rigid(Rigid<'a>),
     /// A body of kind `reduced`.
     Reduced(Reduced<'a>),
+    /// A body of kind `plate` or `shell`.
+    Plate(Plate<'a>),
 }
 
 /// A place on a body.
@@ -139,6 +152,8 @@ pub enum Place<'a> {
     Point(Rigid<'a>, [f64; 3]),
     /// Interface of a reduced body, by its index in the model.
     Interface(Reduced<'a>, usize),
+    /// Marker of a plate or shell, by its index among those of the body.
+    Patch(Plate<'a>, usize),
 }
 
 /// A marker. Points and directions have three components, the third zero in the plane.
@@ -152,7 +167,7 @@ pub struct ResolvedMarker<'a> {
     pub place: Place<'a>,
     /// Where it is in the shapes and positions that the scene describes, m.
     pub position: [f64; 3],
-    /// Direction there: tangent of a cable, first axis of the frame of a rigid or reduced body; a unit vector.
+    /// Direction there: tangent of a cable, first axis of the frame of a rigid or reduced body, of the line along `s1` of a plate or shell; a unit vector.
     pub direction: [f64; 3],
 }
 

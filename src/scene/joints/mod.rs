@@ -432,7 +432,7 @@ impl<'a> ResolvedJoint<'a> {
                 [cos * x - sin * y, sin * x + cos * y, 0.0]
             }
             First::Marker(ResolvedMarker {
-                place: Place::Point(..) | Place::Interface(..),
+                place: Place::Point(..) | Place::Interface(..) | Place::Patch(..),
                 ..
             }) => direction,
             First::Marker(_) | First::Cable(_) => return None,

@@ -104,6 +104,10 @@ impl<'a> Resolved<'a> {
                 let wanted = "a rigid body; drive one that is welded to the interface";
                 Err(expected(path, wanted, quoted(name)))
             }
+            Place::Patch(..) => {
+                let wanted = "a rigid body; drive one that is welded to the plate or shell";
+                Err(expected(path, wanted, quoted(name)))
+            }
             Place::Point(rigid, _) if rigid.body.inertia().thin().is_some() => {
                 let wanted = "a body with a moment of inertia about every axis";
                 Err(expected(path, wanted, quoted(name)))
@@ -142,7 +146,7 @@ impl<'a> Resolved<'a> {
     ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         match marker.place {
-            Place::Along(..) | Place::Interface(..) => Ok(marker),
+            Place::Along(..) | Place::Interface(..) | Place::Patch(..) => Ok(marker),
             Place::Point(..) => {
                 let wanted = "a marker of a cable or a reduced body";
                 Err(expected(path, wanted, quoted(name)))
@@ -166,7 +170,9 @@ impl<'a> Resolved<'a> {
                 Err(modal(path, "a line whose sections are read", &cable))
             }
             Place::Along(..) => Ok(marker),
-            Place::Point(..) | Place::Interface(..) => Err(expected(path, wanted, quoted(name))),
+            Place::Point(..) | Place::Interface(..) | Place::Patch(..) => {
+                Err(expected(path, wanted, quoted(name)))
+            }
         }
     }
 
