@@ -32,6 +32,7 @@ impl<'a> Resolved<'a> {
             markers: Vec::new(),
             masses: Vec::new(),
             joints: Vec::new(),
+            edges: Vec::new(),
             gears: Vec::new(),
             motions: Vec::new(),
             loads: Vec::new(),

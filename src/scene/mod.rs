@@ -56,8 +56,8 @@ pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
     DirectionSource, Ends, First, GaugeId, Incoming, Input, InputKind, JointCoordinate, LineId,
     LoadId, MarkerId, Output, OutputTarget, Pivot, Place, Plate, PlateId, PointId, PortKind,
-    Reaction, Reduced, ReducedId, Resolved, ResolvedMarker, ResolvedMass, ResolvedPort, Rigid,
-    RigidId, SlideId, Slider,
+    Reaction, Reduced, ReducedId, Resolved, ResolvedEdge, ResolvedMarker, ResolvedMass,
+    ResolvedPort, Rigid, RigidId, SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use unit::Unit;

@@ -204,6 +204,34 @@ pub struct Pivot<'a> {
     pub axis: Option<[f64; 3]>,
 }
 
+/// What a joint holds of an edge of a plate or shell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeHold {
+    /// The edge and the normal along it.
+    Clamped,
+    /// The edge.
+    Pinned,
+    /// The edge in a plane with this normal, and the normal of the surface in it.
+    Symmetry([f64; 3]),
+}
+
+/// A joint that holds an edge of a plate or shell on the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct ResolvedEdge<'a> {
+    /// Name of the joint.
+    pub name: &'a str,
+    /// Kind of the joint.
+    pub kind: &'static str,
+    /// The body.
+    pub plate: Plate<'a>,
+    /// Coordinate that is the same along the edge: 0 for `s1`, 1 for `s2`.
+    pub across: usize,
+    /// Whether it is the edge where that coordinate is 1, not 0.
+    pub is_last: bool,
+    /// What is held.
+    pub hold: EdgeHold,
+}
+
 /// A joint that holds a marker on a line of the ground or of a rigid body.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<'a> {
@@ -358,6 +386,8 @@ pub struct Resolved<'a> {
     pub masses: Vec<ResolvedMass<'a>>,
     /// Joints.
     pub joints: Vec<ResolvedJoint<'a>>,
+    /// Joints of edges of plates and shells.
+    pub edges: Vec<ResolvedEdge<'a>>,
     /// Gears.
     pub gears: Vec<ResolvedGear<'a>>,
     /// Motions, without those of ports.

@@ -191,6 +191,7 @@ impl Resolved<'_> {
         builder.masses();
         builder.angles();
         builder.joints();
+        builder.edges();
         builder.gears();
         builder.motions();
         let first_load = builder.parts.loads.len();
@@ -234,6 +235,7 @@ impl Resolved<'_> {
             bodies: Bodies::default(),
             rigid: Vec::new(),
             joints: Vec::new(),
+            held: Vec::new(),
             drives: Vec::new(),
             winches: Vec::new(),
             loads: Vec::new(),

@@ -4,7 +4,7 @@ use super::checks::{expected, quoted, unknown, vector};
 use crate::scene::joints::{CoordinateKind, ResolvedJoint};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
-    BodyReference, Cable, Ends, First, Form, JointCoordinate, Pivot, Place, Resolved,
+    BodyReference, Cable, Ends, First, Form, JointCoordinate, Pivot, Place, Plate, Resolved,
     ResolvedMarker, Slider,
 };
 use crate::scene::{Error, LineBody, SceneVector};
@@ -229,6 +229,22 @@ impl<'a> Resolved<'a> {
         }
     }
 
+    /// Finds a plate or shell that something acts on.
+    ///
+    /// # Errors
+    /// The body does not exist, or is no plate or shell.
+    pub(crate) fn require_plate(&self, path: &str, name: &str) -> Result<Plate<'a>, Error> {
+        if let Some(BodyReference::Plate(plate)) = self.bodies_by_name.get(name) {
+            return Ok(*plate);
+        }
+        let known = self.bodies.iter().filter_map(|body| match body {
+            BodyReference::Plate(plate) => Some(&*plate.body.name),
+            _ => None,
+        });
+        let wanted = "the name of a plate or shell of this scene";
+        Err(unknown(path, wanted, name, known))
+    }
+
     /// Finds a rod or a beam that something acts along.
     ///
     /// # Errors
@@ -338,6 +354,10 @@ impl<'a> Resolved<'a> {
 
     /// Describes a reference to a joint that does not exist.
     pub(crate) fn no_joint(&self, path: &str, name: &str) -> Error {
+        if self.edges.iter().any(|edge| edge.name == name) {
+            let wanted = "a joint of markers (nothing is read or driven at joints of edges yet)";
+            return expected(path, wanted, quoted(name));
+        }
         let known = self.joints.iter().map(|joint| joint.name);
         unknown(path, "a joint of this scene", name, known)
     }

@@ -27,7 +27,8 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         let row = ("mass", what, Some(KILOGRAM), parameter, mass.mass);
         list.parameters(mass.marker.name, "at", &[row]);
     }
-    for (i, joint) in resolved.joints.iter().enumerate() {
+    for joint in &resolved.joints {
+        let i = joint.index;
         if let Some(time) = joint.release.and_then(|release| release.time) {
             let (what, parameter) = ("Time of the release", Parameter::ReleaseTime(i));
             let row = ("release_time", what, Some(SECOND), parameter, time);
@@ -264,7 +265,8 @@ fn add_loads(list: &mut List, resolved: &Resolved<'_>) {
 /// Stiffness and damping of hinges, loads and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
-    for (i, joint) in resolved.joints.iter().enumerate() {
+    for joint in &resolved.joints {
+        let i = joint.index;
         if let Some(starts) = joint.spring() {
             let parameters = [HingeStiffness(i), HingeDamping(i)];
             list.damper(joint.name, spring_units(true), parameters, starts);

@@ -13,6 +13,7 @@ mod joint_spring;
 mod line_load;
 mod moment;
 mod one_sided_spring;
+mod patch_load;
 mod spatial_moment;
 mod spring;
 mod table_spring;
@@ -29,6 +30,7 @@ pub use joint_spring::JointSpring;
 pub use line_load::LineLoad;
 pub use moment::Moment;
 pub use one_sided_spring::OneSidedSpring;
+pub use patch_load::{PatchLoad, PatchLoadKind};
 pub use spatial_moment::SpatialMoment;
 pub use spring::Spring;
 pub use table_spring::TableSpring;
@@ -279,6 +281,8 @@ loads! {
     DistributedForce(DistributedForce<D>): DistributedForce<D>,
     /// A moment per reference length of a rod or beam.
     DistributedMoment(Box<DistributedMoment>): DistributedMoment,
+    /// A force over the surface of a plate or shell.
+    PatchLoad(Box<PatchLoad>): PatchLoad,
     /// A fluid that streams past a cable or a rod.
     Fluid(Box<Fluid<D>>): Fluid<D>,
     /// A spring with a damper between two ends.
