@@ -3,6 +3,7 @@
 
 mod contacts;
 mod fluids;
+mod patches;
 mod planar_beams;
 mod reduced;
 mod releases;
