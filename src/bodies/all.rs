@@ -31,7 +31,7 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) rigid: Vec<RigidBodyFrame>,
     /// Bodies of reduced finite element models.
     pub(super) reduced: Vec<ReducedBody>,
-    /// Patches of plates and shells.
+    /// Plates and shells.
     pub(super) patches: Vec<Patch>,
     /// Owner of every node, `[nodes]`.
     pub(super) owners: Vec<NodeOwner>,
@@ -42,10 +42,10 @@ pub struct Bodies<const D: usize = 2> {
 }
 
 impl<const D: usize> Bodies<D> {
-    /// Whether nothing has axes of its own, no rigid body of space and no rod: known when compiling for the plane.
+    /// Whether nothing has axes of its own, no rigid body of space, no rod and no plate: known when compiling for the plane.
     #[inline(always)]
     pub fn has_no_frames(&self) -> bool {
-        D == 2 || self.frame_count == 0
+        D == 2 || (self.frame_count == 0 && self.patches.is_empty())
     }
 
     /// Whether nodal coordinates are those that are integrated: no rotations and no cable of changing length.
@@ -153,14 +153,14 @@ impl<const D: usize> Bodies<D> {
         &self.rigid
     }
 
+    /// Plates and shells.
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
     /// Bodies of reduced finite element models.
     pub fn reduced(&self) -> &[ReducedBody] {
         &self.reduced
-    }
-
-    /// Patches of plates and shells.
-    pub fn patches(&self) -> &[Patch] {
-        &self.patches
     }
 
     /// A marker at the mean axes of a reduced body, by its place among all bodies; none of another one.

@@ -70,10 +70,10 @@ macro_rules! each {
         for $body in &$bodies.reduced {
             $run;
         }
-        for $body in &$bodies.sections {
+        for $body in &$bodies.patches {
             $run;
         }
-        for $body in &$bodies.patches {
+        for $body in &$bodies.sections {
             $run;
         }
     }};

@@ -56,7 +56,7 @@ impl<const D: usize> Bodies<D> {
         self.reduced.push(body);
     }
 
-    /// Adds the patch of a plate or shell.
+    /// Adds a plate or shell.
     pub fn add_patch(&mut self, patch: Patch) {
         self.patches.push(patch);
     }
@@ -153,6 +153,7 @@ impl<const D: usize> Bodies<D> {
                 vec![frame.line, frame.node]
             }
             NodeOwner::Reduced(index, ..) => self.reduced[index].acted().collect(),
+            NodeOwner::Point(index, point, _) => self.patches[index].acted(point).collect(),
             _ => vec![node],
         };
         Some((0..self.reference.len()).map(acted).collect())

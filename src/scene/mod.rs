@@ -38,8 +38,8 @@ pub use container::{Container, Details};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, FileBody,
     FixedInterfaceModes, Inertia, Initial, InitialMotion, InitialState, InputCourse, Integrator,
-    Interpolation, LineBody, LineModel, Material, Method, Model, Modes, Orientation, OutputKind,
-    Pad, PatchBody, PatchMarker, PatchSurface, Ply, Profile, RigidBody, Scene, SceneVector,
+    Interpolation, LaminatePly, LineBody, LineModel, Material, Method, Model, Modes, Orientation,
+    OutputKind, Pad, PatchBody, PatchMarker, PatchSurface, Profile, RigidBody, Scene, SceneVector,
     Section, SectionNumbers, Shape, Solid, Spin, Station, Strain, Surface, Table, Value,
 };
 pub use elements::Chosen;

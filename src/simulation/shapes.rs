@@ -333,11 +333,9 @@ fn patch_pose<const D: usize>(assembled: &Assembled<D>, patch: &Patch, x: &[Node
 
 /// Points on a plate or shell, m.
 fn patch_points<const D: usize>(patch: &Patch, x: &[Node<D>]) -> Vec<[f64; 3]> {
-    let full = |node: &Node<D>| node.map(|vector| components(&Vector::from(vector)));
-    let x: Vec<Node<3>> = x.iter().map(full).collect();
     let places = PatchGrid::new(patch.divisions()).in_elements();
     places
-        .map(|(element, xi)| patch.position(element, xi, &x))
+        .map(|(element, xi)| patch.position(element, xi, x))
         .collect()
 }
 

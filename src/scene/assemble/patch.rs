@@ -18,12 +18,9 @@ impl<const D: usize> Builder<'_, D> {
             geometry.lines(),
             &geometry.corners(),
             |_, _| section,
-            points.collect(),
+            &points.collect::<Vec<_>>(),
         );
-        let [n, m] = patch.divisions();
-        let second = (0..=n).flat_map(|i| (0..=m).map(move |j| [i, j]));
-        let second = second.map(|[i, j]| patch.mesh_node(i, j) + 1);
-        let axes = second.chain(patch.axes_nodes()).collect();
+        let axes = patch.axes_nodes().collect();
         self.parts.bodies.reference.extend(patch.reference::<D>());
         self.parts.bodies.add_patch(patch);
         self.patches.push(plate.id.index());

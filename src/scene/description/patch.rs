@@ -29,7 +29,7 @@ pub struct PatchBody {
     pub thickness: Option<f64>,
     /// Plies from the bottom to the top, along the normal of the surface; instead of `material` and `thickness`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub laminate: Vec<Ply>,
+    pub laminate: Vec<LaminatePly>,
     /// Stiffness of a section as matrices; instead of `material` and `thickness`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<PatchStiffness>,
@@ -74,7 +74,7 @@ pub struct PatchMaterial {
 /// Ply of a laminate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Ply {
+pub struct LaminatePly {
     /// Orthotropic material.
     pub material: PlyMaterial,
     /// Thickness, m.

@@ -10,7 +10,8 @@ use crate::scene::description::{Acting, ActionKind, ActsOn, LoadValue, is_false}
 use crate::scene::resolved::{Pivot, Plate};
 use crate::system::Direction;
 use crate::system::loads::{
-    DistributedForce, DistributedMoment, Force, Moment, PatchLoad, PatchLoadKind, SpatialMoment,
+    AreaAction, AreaLoad, AreaValues, DistributedForce, DistributedMoment, Force, Moment,
+    SpatialMoment,
 };
 
 /// The axis of the plane.
@@ -222,6 +223,14 @@ impl<'a> ActingLoad<'a> for Action<'a> {
     }
 }
 
+/// Components that are the same all over a plate or shell.
+fn everywhere<const K: usize>(components: &[Signal]) -> AreaValues<K> {
+    AreaValues {
+        uniform: each(components),
+        along: std::array::from_fn(|_| Vec::new()),
+    }
+}
+
 /// The components of a load as functions of time.
 fn signals(
     path: &str,
@@ -318,11 +327,11 @@ impl<const D: usize> Builder<'_, D> {
     /// A load over the surface of a plate or shell.
     fn over(&self, plate: Plate<'_>, action: &Action<'_>) -> AppliedLoad<D> {
         let components = &action.components;
-        AppliedLoad::PatchLoad(Box::new(PatchLoad {
+        AppliedLoad::AreaLoad(Box::new(AreaLoad {
             patch: self.patch_index(plate),
-            kind: match &components[..] {
-                [pressure] => PatchLoadKind::Pressure(pressure.clone()),
-                _ => PatchLoadKind::Dead(each(components)),
+            action: match action.kind {
+                ActionKind::Pressure => AreaAction::Pressure(everywhere(components)),
+                _ => AreaAction::Force(everywhere(components)),
             },
         }))
     }

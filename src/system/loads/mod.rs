@@ -1,6 +1,7 @@
 //! Loads: what acts on bodies besides gravity and joints. One file a kind. A size that changes is a
 //! [`Signal`]: a function of time or an input.
 
+mod area_load;
 mod bushing;
 mod contact;
 mod convective_inertia;
@@ -13,11 +14,11 @@ mod joint_spring;
 mod line_load;
 mod moment;
 mod one_sided_spring;
-mod patch_load;
 mod spatial_moment;
 mod spring;
 mod table_spring;
 
+pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
 pub use contact::{Contact, ContactPoint, ContactSurface};
 pub use convective_inertia::ConvectiveInertia;
@@ -30,7 +31,6 @@ pub use joint_spring::JointSpring;
 pub use line_load::LineLoad;
 pub use moment::Moment;
 pub use one_sided_spring::OneSidedSpring;
-pub use patch_load::{PatchLoad, PatchLoadKind};
 pub use spatial_moment::SpatialMoment;
 pub use spring::Spring;
 pub use table_spring::TableSpring;
@@ -279,10 +279,10 @@ loads! {
     SpatialMoment(SpatialMoment<D>): SpatialMoment<D>,
     /// A dead force per reference length of a cable or a rod.
     DistributedForce(DistributedForce<D>): DistributedForce<D>,
+    /// Pressure or a dead force per area of a plate or shell.
+    AreaLoad(Box<AreaLoad>): AreaLoad,
     /// A moment per reference length of a rod or beam.
     DistributedMoment(Box<DistributedMoment>): DistributedMoment,
-    /// A force over the surface of a plate or shell.
-    PatchLoad(Box<PatchLoad>): PatchLoad,
     /// A fluid that streams past a cable or a rod.
     Fluid(Box<Fluid<D>>): Fluid<D>,
     /// A spring with a damper between two ends.
