@@ -82,7 +82,11 @@ impl<const D: usize> Bodies<D> {
             owners[body.inner()..body.all().end].fill(NodeOwner::Modal);
         }
         for (index, patch) in self.patches.iter().enumerate() {
-            patch.mesh().skip(1).step_by(2).for_each(|node| owners[node] = NodeOwner::Surface);
+            patch
+                .mesh()
+                .skip(1)
+                .step_by(2)
+                .for_each(|node| owners[node] = NodeOwner::Surface);
             for (k, node) in patch.followers().enumerate() {
                 owners[node] = NodeOwner::Point(index, k / 2, k % 2 == 1);
             }

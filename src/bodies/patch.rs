@@ -175,7 +175,9 @@ impl Patch {
 
     /// Nodes whose coordinates forces on a point act on.
     pub(super) fn acted(&self, point: usize) -> impl Iterator<Item = usize> {
-        self.points[point].followed().flat_map(|node| [node, node + 1])
+        self.points[point]
+            .followed()
+            .flat_map(|node| [node, node + 1])
     }
 
     /// Coordinates of all its nodes on the unstressed surface.
@@ -307,9 +309,9 @@ impl Patch {
             parts.flat_map(points).collect()
         };
         let (first, second) = (along(0), along(1));
-        let both = first.iter().flat_map(|a| {
-            (second.iter()).map(move |b| ([a.at, b.at], a.weight * b.weight))
-        });
+        let both = first
+            .iter()
+            .flat_map(|a| (second.iter()).map(move |b| ([a.at, b.at], a.weight * b.weight)));
         both.collect()
     }
 }

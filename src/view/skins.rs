@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::numbers::{Numbers, list};
 use super::recording::Recording;
+use super::sheets::{EXPECTED, grid_of};
 use crate::elements::reduced::Interface;
 use crate::picture::Skin;
 use crate::scene::{BodyReference, Container, Scene};
@@ -95,16 +96,25 @@ fn thinned(reference: BodyReference<'_>) -> Option<(Skin<'_>, &Container)> {
     Some((Skin::thinned(container, POINTS)?, container))
 }
 
-/// Bytes that surfaces of reduced bodies take in a page, at most, and numbers of theirs in every frame.
+/// Bytes that surfaces of reduced bodies, plates and shells take in a page, at most, and numbers of theirs in every frame.
 pub(super) fn size(scene: &Scene) -> [usize; 2] {
     let resolved = scene.resolved();
     let skins = resolved.bodies.iter().filter_map(|body| thinned(*body));
-    skins.fold([0, 0], |[bytes, numbers], (skin, container)| {
+    let skins = skins.map(|(skin, container)| {
         let modes = container.model.modes().min(MODES);
-        let points = skin.points.len() * 3 * 2 * (1 + modes);
-        let corners = skin.triangles.len() * 3 * CORNER;
-        [bytes + points + corners, numbers + modes]
-    })
+        [skin.points.len(), skin.triangles.len(), modes]
+    });
+    let sheets = scene.bodies.iter().filter_map(|body| body.patch());
+    let sheets = sheets.map(|body| {
+        let grid = grid_of(body);
+        [grid.count(), grid.triangles().len(), EXPECTED]
+    });
+    skins
+        .chain(sheets)
+        .fold([0, 0], |[bytes, numbers], [points, triangles, modes]| {
+            let points = points * 3 * 2 * (1 + modes);
+            [bytes + points + triangles * 3 * CORNER, numbers + modes]
+        })
 }
 
 /// Modes of a body that are seen in a run, the one that moves its surface most first.

@@ -86,7 +86,12 @@ impl<const D: usize> Vectorized for AddTangent<'_, D> {
                 };
                 let lanes = group * S::F64_LANES..pack.count.min((group + 1) * S::F64_LANES);
                 for lane in lanes {
-                    patch.add_blocks((pack.first + lane, lane), pair, of, (assembly, &mut *matrix));
+                    patch.add_blocks(
+                        (pack.first + lane, lane),
+                        pair,
+                        of,
+                        (assembly, &mut *matrix),
+                    );
                 }
             };
             (pack.kernel).tangent(simd, &e, (rates, before), &mut blocks, call);
@@ -471,7 +476,11 @@ impl<const D: usize> BodyPart<D> for Patch {
             let nodes = self.element_nodes(index);
             let still = [[[Jet::from_re(0.0); 3]; VECTORS]; 4];
             let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
-                let rates = if is_damped { self.element(index, v) } else { still };
+                let rates = if is_damped {
+                    self.element(index, v)
+                } else {
+                    still
+                };
                 let (force, _) = self.elements[index].force(&self.element(index, x), &rates);
                 self.add_to(index, &force, f);
             };

@@ -152,10 +152,7 @@ impl PatchFrame {
     }
 
     /// Place and derivatives, or their rates.
-    fn sums<const D: usize, N: Number>(
-        &self,
-        x: &[Node<D, N>],
-    ) -> (Vector3<N>, [Vector3<N>; 2]) {
+    fn sums<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> (Vector3<N>, [Vector3<N>; 2]) {
         let (mut position, mut along) = (Vector3::zeros(), [Vector3::zeros(); 2]);
         for term in &self.terms {
             for (k, v) in vectors(term.node, x).iter().enumerate() {
@@ -362,7 +359,9 @@ impl Patch {
 /// Moment of forces on axes in global components, N m.
 fn moment<N: Number>(axes: &Axes<N>, forces: &Axes<N>) -> Vector3<N> {
     let pairs = axes.iter().zip(forces);
-    pairs.fold(Vector3::zeros(), |sum, (axis, force)| sum + axis.cross(force))
+    pairs.fold(Vector3::zeros(), |sum, (axis, force)| {
+        sum + axis.cross(force)
+    })
 }
 
 /// Symmetric stiffness over both derivatives of constant forces on the axes, by numbers that carry derivatives.

@@ -14,7 +14,9 @@ type Nodes = Vec<Node<3>>;
 
 /// Numbers that look random, between -1 and 1.
 fn random(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    *seed = seed
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
     (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
@@ -30,7 +32,10 @@ fn field(patch: &Patch, size: f64, seed: &mut u64) -> Nodes {
 /// Two by three elements of a cylinder after two other nodes, with a bare point and one with a pad over several elements.
 fn patch() -> Patch {
     let (radius, angle, width) = (0.4, 1.2, 0.5);
-    let lines = [[0.0, 0.3, radius * angle].to_vec(), [0.0, 0.1, 0.3, width].to_vec()];
+    let lines = [
+        [0.0, 0.3, radius * angle].to_vec(),
+        [0.0, 0.1, 0.3, width].to_vec(),
+    ];
     let corner = |s: f64, y: f64| -> Corner {
         let (sin, cos) = (s / radius).sin_cos();
         [
@@ -65,7 +70,9 @@ fn configuration(patch: &Patch, seed: &mut u64) -> Nodes {
     let mut x: Nodes = vec![no_node(); 2];
     x.extend(patch.reference::<3>());
     let disturbed = field(patch, 0.05, seed);
-    x.iter_mut().zip(&disturbed).for_each(|(x, by)| add_node(x, 1.0, by));
+    x.iter_mut()
+        .zip(&disturbed)
+        .for_each(|(x, by)| add_node(x, 1.0, by));
     patch.place_points(&mut x);
     x
 }
@@ -78,12 +85,20 @@ fn moved(patch: &Patch, x: &[Node<3>], v: &[Node<3>], h: f64) -> Nodes {
 }
 
 fn difference(a: &[Node<3>], b: &[Node<3>]) -> f64 {
-    let pairs = a.as_flattened().as_flattened().iter().zip(b.as_flattened().as_flattened());
+    let pairs = a
+        .as_flattened()
+        .as_flattened()
+        .iter()
+        .zip(b.as_flattened().as_flattened());
     pairs.fold(0.0, |sum: f64, (a, b)| sum.max((a - b).abs()))
 }
 
 fn product(a: &[Node<3>], b: &[Node<3>]) -> f64 {
-    let pairs = a.as_flattened().as_flattened().iter().zip(b.as_flattened().as_flattened());
+    let pairs = a
+        .as_flattened()
+        .as_flattened()
+        .iter()
+        .zip(b.as_flattened().as_flattened());
     pairs.map(|(a, b)| a * b).sum()
 }
 
@@ -196,13 +211,19 @@ fn stiffness_of_forces_on_axes_is_the_symmetric_derivative() {
         (before - after) / (2.0 * h)
     };
     let expected = 0.5 * (along(&u, &v) + along(&v, &u));
-    assert!((by_blocks - expected).abs() < 1e-7 * expected.abs(), "{by_blocks} {expected}");
+    assert!(
+        (by_blocks - expected).abs() < 1e-7 * expected.abs(),
+        "{by_blocks} {expected}"
+    );
 }
 
 #[test]
 fn forces_of_a_patch_in_lanes_are_those_of_its_elements() {
     let (patch, mut seed) = (patch(), 31);
-    let (x, v) = (configuration(&patch, &mut seed), field(&patch, 1.0, &mut seed));
+    let (x, v) = (
+        configuration(&patch, &mut seed),
+        field(&patch, 1.0, &mut seed),
+    );
     let motion = NodalMotion {
         drives: &[],
         x: &x,

@@ -84,7 +84,9 @@ impl Shell {
             for (place, force) in forces.iter().enumerate() {
                 let [value, ..] = functions(k, place);
                 let part = force * N::of(value * scale);
-                out.iter_mut().zip(&part).for_each(|(out, part)| *out += *part);
+                out.iter_mut()
+                    .zip(&part)
+                    .for_each(|(out, part)| *out += *part);
             }
         }
         out

@@ -79,7 +79,10 @@ impl<N: Real> Cubic<N> {
             let number = |value: f64| k[0][d].constant(value);
             let [c0, c1, c2, c3] = [k[0][d], k[1][d], k[2][d], k[3][d]];
             let (even, odd) = (c0 * number(0.5), c1 * number(1.5) - c3 - c3);
-            let (slope, bend) = (c3 - c1 * number(0.25), c0 * number(0.125) - c2 * number(0.5));
+            let (slope, bend) = (
+                c3 - c1 * number(0.25),
+                c0 * number(0.125) - c2 * number(0.5),
+            );
             e[0][d] = even - odd;
             e[1][d] = slope + bend;
             e[2][d] = even + odd;

@@ -159,8 +159,10 @@ fn products<N: Real>(r: &Grid<N>, s: &Grid<N>, is_rate: bool) -> Components<N> {
         for j in 0..3 {
             let [along, across] = [(2 * i, j + 1), (i + 1, 2 * j)];
             out[0][i][j] = dot(&r.first[0][along.0][along.1], &s.first[0][along.0][along.1]) * half;
-            out[1][i][j] =
-                dot(&r.first[1][across.0][across.1], &s.first[1][across.0][across.1]) * half;
+            out[1][i][j] = dot(
+                &r.first[1][across.0][across.1],
+                &s.first[1][across.0][across.1],
+            ) * half;
             let (a, b) = (r.first[0][2 * i][2 * j], r.first[1][2 * i][2 * j]);
             let (c, d) = (s.first[0][2 * i][2 * j], s.first[1][2 * i][2 * j]);
             out[2][i][j] = if is_rate {

@@ -24,7 +24,12 @@ fn factor(k: usize, unit: f64) -> f64 {
 }
 
 /// Mass per area times the area by both lengths, at `xi` and `eta`.
-fn density(corners: &[Corner; 4], (sizes, unit): ([f64; 2], f64), area_density: f64, at: [f64; 2]) -> f64 {
+fn density(
+    corners: &[Corner; 4],
+    (sizes, unit): ([f64; 2], f64),
+    area_density: f64,
+    at: [f64; 2],
+) -> f64 {
     let mut derivatives = [[0.0; 3]; 2];
     let [values, slopes] = [shape::values::<f64>, shape::slopes::<f64>]
         .map(|of| [of(at[0], sizes[0]), of(at[1], sizes[1])]);

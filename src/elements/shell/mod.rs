@@ -18,9 +18,9 @@ use super::line::times;
 use super::shape;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
+pub use area::{AREA_PLACES, area_place};
 use grid::{Corners, Grid, WEIGHTS};
 use kernel::{Group, Kernel, Read, Single, curvature, metric};
-pub use area::{AREA_PLACES, area_place};
 pub use mass::Mass;
 pub use section::{Ply, ShellSection, Stiffness};
 use section::{rotated, strain_transformation};
@@ -158,7 +158,9 @@ impl Shell {
             for j in 0..3 {
                 let [first, second] = [0, 1].map(|of| Vector3::from(grid.first[of][i + 1][j + 1]));
                 let weight = WEIGHTS[i] * WEIGHTS[j];
-                for (law, at) in covariant(section, &first, &second, weight).into_iter().enumerate()
+                for (law, at) in covariant(section, &first, &second, weight)
+                    .into_iter()
+                    .enumerate()
                 {
                     laws[law][i][j] = at;
                 }
@@ -244,7 +246,11 @@ impl Shell {
         std::array::from_fn(|k| {
             let (alpha, beta) = mass::functions(k);
             let weight = functions[0][alpha] * functions[1][beta];
-            if k % VECTORS == 3 { weight * unit } else { weight }
+            if k % VECTORS == 3 {
+                weight * unit
+            } else {
+                weight
+            }
         })
     }
 
@@ -363,8 +369,7 @@ impl ShellPack {
                 Some(from) => Some(scaled(&read(simd, from, group), &scales)),
                 None => None,
             };
-            let tangent =
-                Tangent::new(&self.kernel, &at, (rates.as_ref(), from.as_ref()), reader);
+            let tangent = Tangent::new(&self.kernel, &at, (rates.as_ref(), from.as_ref()), reader);
             let one = scales[0].constant(1.0);
             let by = [one, scales[0], scales[1], scales[2]];
             for pair in 0..PAIRS.len() {
@@ -373,7 +378,13 @@ impl ShellPack {
                 write(&blocks, &by, group, out);
                 call(CORNER_PAIRS[pair], group, false, out);
                 if rates.is_some() {
-                    tangent.blocks(&self.kernel, PAIRS[pair], Part::Material, reader, &mut blocks);
+                    tangent.blocks(
+                        &self.kernel,
+                        PAIRS[pair],
+                        Part::Material,
+                        reader,
+                        &mut blocks,
+                    );
                     let time = reader.read(&self.kernel.damping_time);
                     let mut damped = by;
                     for k in 0..VECTORS {

@@ -115,7 +115,11 @@ impl ShellSection {
             bottom = top;
         }
         // One layer, or layers that are the same about the middle, leave rounding alone.
-        let size = thickness * membrane.as_flattened().iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let size = thickness
+            * membrane
+                .as_flattened()
+                .iter()
+                .fold(0.0, |a: f64, b| a.max(b.abs()));
         let couples = |entry: &f64| entry.abs() > 1e-14 * size;
         if !coupling.as_flattened().iter().any(couples) {
             coupling = [[0.0; 3]; 3];

@@ -3,7 +3,9 @@
 //! Source: J. Kiendl et al., Comput. Methods Appl. Mech. Eng. 198 (2009), Eqs. 30-45 (second variations), written with dual vectors.
 
 use super::grid::{AT, Corners, Grid, PLACES};
-use super::kernel::{Components, Frame, Kernel, Read, Strain, Stress, apply, at, curvature, strain_rate};
+use super::kernel::{
+    Components, Frame, Kernel, Read, Strain, Stress, apply, at, curvature, strain_rate,
+};
 use crate::elements::line::{dot, times};
 use crate::elements::rod::vectors::{Vector, plus};
 use crate::math::lanes::Real;
@@ -17,8 +19,18 @@ const fn table() -> [[[f64; PLACES]; 4]; 3] {
         let x = AT[place] + 0.5;
         let (x2, x3) = (x * x, x * x * x);
         let columns = [
-            [1.0 - 3.0 * x2 + 2.0 * x3, x - 2.0 * x2 + x3, 3.0 * x2 - 2.0 * x3, x3 - x2],
-            [6.0 * x2 - 6.0 * x, 1.0 - 4.0 * x + 3.0 * x2, 6.0 * x - 6.0 * x2, 3.0 * x2 - 2.0 * x],
+            [
+                1.0 - 3.0 * x2 + 2.0 * x3,
+                x - 2.0 * x2 + x3,
+                3.0 * x2 - 2.0 * x3,
+                x3 - x2,
+            ],
+            [
+                6.0 * x2 - 6.0 * x,
+                1.0 - 4.0 * x + 3.0 * x2,
+                6.0 * x - 6.0 * x2,
+                3.0 * x2 - 2.0 * x,
+            ],
             [12.0 * x - 6.0, 6.0 * x - 4.0, 6.0 - 12.0 * x, 6.0 * x - 2.0],
         ];
         let mut k = 0;
@@ -79,7 +91,11 @@ const fn functions(corner: Corner, k: usize) -> (usize, usize) {
 
 /// A function of both directions, differentiated as often in each, at a place.
 #[inline(always)]
-pub(super) const fn shape((alpha, beta): (usize, usize), orders: (usize, usize), (i, j): (usize, usize)) -> f64 {
+pub(super) const fn shape(
+    (alpha, beta): (usize, usize),
+    orders: (usize, usize),
+    (i, j): (usize, usize),
+) -> f64 {
     TABLE[orders.0][alpha][i] * TABLE[orders.1][beta][j]
 }
 
@@ -142,12 +158,23 @@ impl<N: Real> Tangent<N> {
         let mut membrane = [[number(0.0); 3]; 3];
         for s in 0..3 {
             let along = shape(functions, (1, 0), (2 * s, place.1)) * TO_INNER[i][s];
-            membrane[0] = plus(&self.grid.first[0][2 * s][place.1], number(along), &membrane[0]);
+            membrane[0] = plus(
+                &self.grid.first[0][2 * s][place.1],
+                number(along),
+                &membrane[0],
+            );
             let across = shape(functions, (0, 1), (place.0, 2 * s)) * TO_INNER[j][s];
-            membrane[1] = plus(&self.grid.first[1][place.0][2 * s], number(across), &membrane[1]);
+            membrane[1] = plus(
+                &self.grid.first[1][place.0][2 * s],
+                number(across),
+                &membrane[1],
+            );
             for t in 0..3 {
                 let (at, weight) = ((2 * s, 2 * t), TO_INNER[i][s] * TO_INNER[j][t]);
-                let (first, second) = (&self.grid.first[0][at.0][at.1], &self.grid.first[1][at.0][at.1]);
+                let (first, second) = (
+                    &self.grid.first[0][at.0][at.1],
+                    &self.grid.first[1][at.0][at.1],
+                );
                 let [h1, h2] = [
                     shape(functions, (1, 0), at) * weight,
                     shape(functions, (0, 1), at) * weight,
@@ -165,7 +192,11 @@ impl<N: Real> Tangent<N> {
             shape(functions, (0, 2), place),
             2.0 * shape(functions, (1, 1), place),
         ];
-        let dual = plus(&dual[0], number(slopes[0]), &times(&dual[1], number(slopes[1])));
+        let dual = plus(
+            &dual[0],
+            number(slopes[0]),
+            &times(&dual[1], number(slopes[1])),
+        );
         let mut bending = [number(0.0); 3];
         for c in 0..3 {
             let twice = number(if c == 2 { 2.0 } else { 1.0 });
@@ -224,7 +255,11 @@ impl<N: Real> Tangent<N> {
             of_a[k] = self.rows(a, k, (i, j));
         }
         for l in 0..4 {
-            of_b[l] = if a == b { of_a[l] } else { self.rows(b, l, (i, j)) };
+            of_b[l] = if a == b {
+                of_a[l]
+            } else {
+                self.rows(b, l, (i, j))
+            };
         }
         let m = at(&self.stress.moment, i, j);
         let second = [

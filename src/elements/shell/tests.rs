@@ -10,7 +10,9 @@ use crate::math::lanes::{Vectorized, vectorized};
 
 /// Numbers that look random, between -1 and 1.
 fn random(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    *seed = seed
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
     (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
@@ -55,7 +57,10 @@ fn changed(e: &ElementCorners, by: &ElementCorners, factor: f64) -> ElementCorne
 }
 
 fn product(a: &ElementCorners, b: &ElementCorners) -> f64 {
-    let (a, b) = (a.as_flattened().as_flattened(), b.as_flattened().as_flattened());
+    let (a, b) = (
+        a.as_flattened().as_flattened(),
+        b.as_flattened().as_flattened(),
+    );
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -68,7 +73,9 @@ fn forces_are_slopes_of_the_energy() {
     for _ in 0..8 {
         let way = changed(&[[[0.0; 3]; 4]; 4], &corners(1.0, &mut seed), 1.0);
         let jets = std::array::from_fn(|c| {
-            std::array::from_fn(|k| std::array::from_fn(|d| Jet::new(at[c][k][d], way[c][k][d], 0.0)))
+            std::array::from_fn(|k| {
+                std::array::from_fn(|d| Jet::new(at[c][k][d], way[c][k][d], 0.0))
+            })
         });
         let slope = element.energy(&jets).v1;
         largest = largest.max((slope + product(&force, &way)).abs() / slope.abs());
@@ -86,7 +93,11 @@ fn rigid_motion_stores_no_energy() {
         vectors
     });
     let strained = element.energy(&corners(0.1, &mut 9));
-    assert!(element.energy(&moved).abs() < 1e-26 * strained, "{:e}", element.energy(&moved));
+    assert!(
+        element.energy(&moved).abs() < 1e-26 * strained,
+        "{:e}",
+        element.energy(&moved)
+    );
 }
 
 /// Force, power, stiffness and damping of one element by lanes.
@@ -187,7 +198,9 @@ fn lanes_agree_with_numbers_and_tangents_with_differences() {
         let (force, of_lanes, [stiffness, damping]) = in_lanes(&element, (&at, &rates), None, lane);
         let (single, own) = element.force(&at[lane], &rates[lane]);
         power += own;
-        for (c, k, d) in (0..4).flat_map(|c| (0..4).flat_map(move |k| (0..3).map(move |d| (c, k, d)))) {
+        for (c, k, d) in
+            (0..4).flat_map(|c| (0..4).flat_map(move |k| (0..3).map(move |d| (c, k, d))))
+        {
             let off = (force[c][k][d][lane] - single[c][k][d]).abs();
             worst[0] = worst[0].max(off / numbers(&single).amax());
         }
@@ -209,7 +222,10 @@ fn lanes_agree_with_numbers_and_tangents_with_differences() {
         worst[2] = worst[2].max((of(&damping) - by_rate).amax() / by_rate.amax());
         worst[3] = worst[3].max((stiffness - stiffness.transpose()).amax());
     }
-    assert!(worst[0] < 1e-13 && worst[1] < 1e-8 && worst[2] < 1e-8, "{worst:?}");
+    assert!(
+        worst[0] < 1e-13 && worst[1] < 1e-8 && worst[2] < 1e-8,
+        "{worst:?}"
+    );
 }
 
 #[test]

@@ -162,7 +162,9 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
         let patch = self.of(bodies);
         let elements = 0..patch.elements().len();
-        elements.map(|element| patch.element_nodes(element).to_vec()).collect()
+        elements
+            .map(|element| patch.element_nodes(element).to_vec())
+            .collect()
     }
 
     fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
