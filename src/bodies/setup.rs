@@ -124,6 +124,7 @@ impl<const D: usize> Bodies<D> {
             elastic: none.clone(),
             still: none,
             sections: Vec::new(),
+            surfaces: Vec::new(),
         };
         each!(self, |body| BodyPart::<D>::mark_rotating(
             body,

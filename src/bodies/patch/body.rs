@@ -256,6 +256,7 @@ impl<const D: usize> BodyPart<D> for Patch {
 
     fn mark_rotating(&self, rotating: &mut RotatingNodes) {
         rotating.still[self.followers()].fill(true);
+        rotating.surfaces.extend(self.mesh().step_by(2));
     }
 
     fn place(
