@@ -64,13 +64,17 @@ impl<const D: usize> Vectorized for AddTangent<'_, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (patch, motion) = (self.patch, self.motion);
-        let [mut e, mut rates] = [[[[[0.0; PACK]; 3]; VECTORS]; 4]; 2];
+        let [mut e, mut rates, mut from] = [[[[[0.0; PACK]; 3]; VECTORS]; 4]; 3];
         let mut blocks: PackBlocks = [[[[[0.0; PACK]; 3]; 3]; VECTORS]; VECTORS];
         for pack in &patch.packs {
             patch.read(pack, motion.x, &mut e);
             if patch.is_damped {
                 patch.read(pack, motion.v, &mut rates);
             }
+            if let Some(x) = motion.from {
+                patch.read(pack, x, &mut from);
+            }
+            let before = (motion.from.is_some()).then_some(&from);
             let rates = patch.is_damped.then_some(&rates);
             let (stiffness, damping) = (&mut *self.stiffness, &mut *self.damping);
             let assembly = self.assembly;
@@ -90,7 +94,7 @@ impl<const D: usize> Vectorized for AddTangent<'_, D> {
                     );
                 }
             };
-            (pack.kernel).tangent(simd, &e, (rates, None), &mut blocks, call);
+            (pack.kernel).tangent(simd, &e, (rates, before), &mut blocks, call);
         }
     }
 }
