@@ -203,12 +203,13 @@ impl<const D: usize> Bodies<D> {
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes.
     pub fn largest_rotation_between(&self, from: &[Node<D>], to: &[Node<D>]) -> f64 {
         let nodes = from.iter().zip(to);
-        if self.reduced.is_empty() {
+        if self.reduced.is_empty() && self.patches.is_empty() {
             return largest_rotation(nodes);
         }
-        let turning = nodes
-            .enumerate()
-            .filter(|(node, _)| self.owner(*node) != NodeOwner::Modal);
+        // Amplitudes and mixed derivatives are no directions.
+        let turning = nodes.enumerate().filter(|(node, _)| {
+            !matches!(self.owner(*node), NodeOwner::Modal | NodeOwner::Surface)
+        });
         largest_rotation(turning.map(|(_, pair)| pair))
     }
 
