@@ -27,8 +27,8 @@ QUOTE = re.compile(r"(<!-- example: (\S+) -->\n+)(?:```json\n.*?^```\n)?", re.DO
 # Pages in order: file, title, definitions. What is on none of them goes on the last.
 PAGES = [
     ("scene", "The scene", ["Scene", "About", "Experiment"]),
-    ("bodies", "Bodies", ["Body", "Elements", "Model", "Axial", "Strain", "InitialMotion", "Mass", "Modes", "ModesWord", "ModesUpTo", "FixedInterfaceModes", "DampingRatio"]),
-    ("shapes", "Material, sections, shapes", ["Material", "Section", "Profile", "Station", "Shape", "Solid", "Inertia", "Orientation"]),
+    ("bodies", "Bodies", ["Body", "Elements", "Model", "Axial", "Strain", "InitialMotion", "Mass", "PatchMarker", "Pad", "Modes", "ModesWord", "ModesUpTo", "FixedInterfaceModes", "DampingRatio"]),
+    ("shapes", "Material, sections, shapes", ["Material", "Section", "Profile", "Station", "Shape", "Solid", "Inertia", "Orientation", "PatchSurface", "PatchMaterial", "LaminatePly", "PlyMaterial", "PatchStiffness"]),
     ("joints", "Joints and gears", ["Joint", "Freedom", "Gear"]),
     ("motions", "Motions", ["Motion", "MotionValue", "MasterInput"]),
     ("loads", "Loads", ["Load", "LoadValue", "CoordinateKind"]),

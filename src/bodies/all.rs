@@ -8,7 +8,7 @@ use super::connectivity::Node;
 use super::frame::{RigidBodyFrame, SectionFrame};
 use super::nodes::{NodeKind, NodeOwner};
 use super::winch::PaidOut;
-use super::{LineChain, LumpedMass, Marker, ReducedBody, RigidRod, RodChain, Winch};
+use super::{LineChain, LumpedMass, Marker, Patch, ReducedBody, RigidRod, RodChain, Winch};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -31,6 +31,8 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) rigid: Vec<RigidBodyFrame>,
     /// Bodies of reduced finite element models.
     pub(super) reduced: Vec<ReducedBody>,
+    /// Plates and shells.
+    pub(super) patches: Vec<Patch>,
     /// Owner of every node, `[nodes]`.
     pub(super) owners: Vec<NodeOwner>,
     /// Number of frames that a state holds: of rigid bodies of space, of reduced bodies, then of sections.
@@ -40,10 +42,10 @@ pub struct Bodies<const D: usize = 2> {
 }
 
 impl<const D: usize> Bodies<D> {
-    /// Whether nothing has axes of its own: no rigid body of space, no rod and no reduced body.
+    /// Whether nothing has axes of its own: no rigid body of space, no rod, no reduced body and no plate.
     #[inline(always)]
     pub fn has_no_frames(&self) -> bool {
-        self.frame_count == 0
+        self.frame_count == 0 && self.patches.is_empty()
     }
 
     /// Whether nodal coordinates are those that are integrated: no rotations and no cable of changing length.
@@ -149,6 +151,11 @@ impl<const D: usize> Bodies<D> {
     /// Rigid bodies of space.
     pub fn rigid(&self) -> &[RigidBodyFrame] {
         &self.rigid
+    }
+
+    /// Plates and shells.
+    pub fn patches(&self) -> &[Patch] {
+        &self.patches
     }
 
     /// Bodies of reduced finite element models.

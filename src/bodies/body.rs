@@ -36,6 +36,8 @@ pub struct NodalMotion<'a, const D: usize, N = f64> {
     pub x: &'a [Node<D, N>],
     /// Rates of the nodal coordinates, `[nodes]`.
     pub v: &'a [Node<D, N>],
+    /// Coordinates from which a linear step led here, whose predicted stress tangents take: of a search for an equilibrium.
+    pub from: Option<&'a [Node<D, N>]>,
 }
 
 impl<'a, const D: usize, N> NodalMotion<'a, D, N> {
@@ -68,6 +70,9 @@ macro_rules! each {
             $run;
         }
         for $body in &$bodies.reduced {
+            $run;
+        }
+        for $body in &$bodies.patches {
             $run;
         }
         for $body in &$bodies.sections {

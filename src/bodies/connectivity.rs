@@ -51,14 +51,14 @@ pub fn map_node<const D: usize, A: Copy, B>(node: &Node<D, A>, of: impl Fn(A) ->
     node.map(|vector| vector.map(&of))
 }
 
-/// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes, in pairs.
+/// Largest rotation of any direction, rad, and change of any stretch between two configurations, in pairs.
 pub(super) fn largest_rotation<'a, const D: usize>(
-    nodes: impl Iterator<Item = (&'a Node<D>, &'a Node<D>)>,
+    directions: impl Iterator<Item = (&'a [f64; D], &'a [f64; D])>,
 ) -> f64 {
     // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
     let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
-    for (a, b) in nodes {
-        let [a, b] = [a, b].map(|node| Vector::from(node[1]));
+    for (a, b) in directions {
+        let [a, b] = [a, b].map(|direction| Vector::from(*direction));
         let (along, across) = (a.dot(&b), Vector::from(moment(&a, &b)).norm_squared());
         if along > 0.0 {
             tangent = tangent.max(across / (along * along));

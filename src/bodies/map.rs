@@ -203,13 +203,18 @@ impl<const D: usize> Bodies<D> {
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes.
     pub fn largest_rotation_between(&self, from: &[Node<D>], to: &[Node<D>]) -> f64 {
         let nodes = from.iter().zip(to);
-        if self.reduced.is_empty() {
-            return largest_rotation(nodes);
+        if self.reduced.is_empty() && self.patches.is_empty() {
+            return largest_rotation(nodes.map(|(from, to)| (&from[1], &to[1])));
         }
-        let turning = nodes
-            .enumerate()
-            .filter(|(node, _)| self.owner(*node) != NodeOwner::Modal);
-        largest_rotation(turning.map(|(_, pair)| pair))
+        // Amplitudes are no directions. The second node of a mesh node of a plate has one in its first vector.
+        let directions = nodes.enumerate().filter_map(|(node, (from, to))| {
+            match self.owner(node) {
+                NodeOwner::Modal => None,
+                NodeOwner::Surface => Some((&from[0], &to[0])),
+                _ => Some((&from[1], &to[1])),
+            }
+        });
+        largest_rotation(directions)
     }
 
     /// Largest rotation of rigid bodies in the coordinates `q`, rad.

@@ -43,6 +43,10 @@ pub(super) enum NodeOwner {
     Section(usize, usize, bool),
     /// A frame of a reduced body, by index, with its place, and whether this is its second node.
     Reduced(usize, Site, bool),
+    /// Second node of a mesh node of a plate or shell.
+    Surface,
+    /// A point of a plate or shell, by the index of its body and its own there, and whether this is its second node.
+    Point(usize, usize, bool),
 }
 
 impl<const D: usize> Bodies<D> {
@@ -79,6 +83,16 @@ impl<const D: usize> Bodies<D> {
             }
             owners[body.inner()..body.all().end].fill(NodeOwner::Modal);
         }
+        for (index, patch) in self.patches.iter().enumerate() {
+            patch
+                .mesh()
+                .skip(1)
+                .step_by(2)
+                .for_each(|node| owners[node] = NodeOwner::Surface);
+            for (k, node) in patch.followers().enumerate() {
+                owners[node] = NodeOwner::Point(index, k / 2, k % 2 == 1);
+            }
+        }
         self.owners = owners;
     }
 
@@ -88,8 +102,11 @@ impl<const D: usize> Bodies<D> {
             NodeOwner::Own
             | NodeOwner::Rigid(_, false)
             | NodeOwner::Section(.., false)
-            | NodeOwner::Reduced(.., false) => NodeKind::Point,
+            | NodeOwner::Reduced(.., false)
+            | NodeOwner::Point(.., false) => NodeKind::Point,
             NodeOwner::Direction
+            | NodeOwner::Surface
+            | NodeOwner::Point(.., true)
             | NodeOwner::Rigid(_, true)
             | NodeOwner::Section(.., true)
             | NodeOwner::Reduced(.., true) => NodeKind::Axes,
@@ -100,7 +117,10 @@ impl<const D: usize> Bodies<D> {
 
     /// Whether a node belongs to a frame or is inside an element: rows between its numbers are none that joints see.
     pub fn holds(&self, node: usize) -> bool {
-        !matches!(self.owner(node), NodeOwner::Own | NodeOwner::Direction)
+        !matches!(
+            self.owner(node),
+            NodeOwner::Own | NodeOwner::Direction | NodeOwner::Surface
+        )
     }
 
     /// Whether a node is the first of a frame, which its axes begin in.
@@ -161,6 +181,9 @@ impl<const D: usize> Bodies<D> {
             NodeOwner::Reduced(index, site, _) => {
                 self.reduced[index].pull_marker(site, (&force, &moment), x, term);
             }
+            NodeOwner::Point(index, point, _) => {
+                self.patches[index].pull_marker(point, (&force, &moment), x, term);
+            }
             _ => term(node, &[force, vector::<D, N>(moment.into()).into()]),
         }
     }
@@ -208,6 +231,9 @@ impl<const D: usize> Bodies<D> {
         }
         for body in &self.reduced {
             x[body.all()].copy_from_slice(&described[body.all()]);
+        }
+        for patch in &self.patches {
+            x[patch.followers()].copy_from_slice(&described[patch.followers()]);
         }
         for frame in self.section_frames() {
             x[frame.node..][..2].copy_from_slice(&described[frame.node..][..2]);

@@ -159,6 +159,11 @@ impl NodeBlocks {
         (nodes, change)
     }
 
+    /// The whole matrix, over the numbers of its nodes in their order.
+    pub fn into_whole(self) -> DMatrix<f64> {
+        self.whole
+    }
+
     /// Whether it is symmetric up to roundoff.
     pub fn is_symmetric(&self) -> bool {
         (&self.whole - self.whole.transpose()).amax() <= SKEW * self.whole.amax()

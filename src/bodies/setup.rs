@@ -9,7 +9,7 @@ use super::connectivity::Node;
 use super::frame::RigidBodyFrame;
 use super::nodes::NodeOwner;
 use super::stages::RotatingNodes;
-use super::{Bodies, LineChain, LumpedMass, ReducedBody, RigidRod, RodChain, Winch};
+use super::{Bodies, LineChain, LumpedMass, Patch, ReducedBody, RigidRod, RodChain, Winch};
 use crate::math::space::Vector;
 
 /// A number of a node: node, part and axis.
@@ -54,6 +54,11 @@ impl<const D: usize> Bodies<D> {
     /// Adds the body of a reduced finite element model.
     pub fn add_reduced(&mut self, body: ReducedBody) {
         self.reduced.push(body);
+    }
+
+    /// Adds a plate or shell.
+    pub fn add_patch(&mut self, patch: Patch) {
+        self.patches.push(patch);
     }
 
     /// Puts a line on a winch at its last end or its first one. The driven coordinate is the length that has been paid out, m.
@@ -120,6 +125,7 @@ impl<const D: usize> Bodies<D> {
             modal: none.clone(),
             still: none,
             sections: Vec::new(),
+            surfaces: Vec::new(),
         };
         each!(self, |body| BodyPart::<D>::mark_rotating(
             body,
@@ -149,6 +155,7 @@ impl<const D: usize> Bodies<D> {
                 vec![frame.line, frame.node]
             }
             NodeOwner::Reduced(index, ..) => self.reduced[index].acted().collect(),
+            NodeOwner::Point(index, point, _) => self.patches[index].acted(point).collect(),
             _ => vec![node],
         };
         Some((0..self.reference.len()).map(acted).collect())

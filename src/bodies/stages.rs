@@ -44,6 +44,8 @@ pub struct RotatingNodes {
     pub modal: Vec<bool>,
     /// Nodes of lines with those of the sections that they rotate with.
     pub sections: Vec<(usize, usize)>,
+    /// First nodes of mesh nodes of plates and shells, which rotate with their tangent planes.
+    pub surfaces: Vec<usize>,
 }
 
 /// Vectors of the stages and how far the directions of nodes have turned.
@@ -113,7 +115,7 @@ impl<const D: usize> Stages<D> {
             floating: floating::<D>(elimination, grounded, &rotating.still),
             knots: knots(&elimination.assembly, &rotating.elastic),
             elastic: rotating.elastic.clone(),
-            sections: StageSections::new(&rotating.sections),
+            sections: StageSections::new(&rotating.sections, &rotating.surfaces),
             nodes: vec![no_node(); nodes],
             base: directions(),
             turned: [directions(), directions(), directions()],

@@ -14,6 +14,7 @@ pub mod reduced;
 pub mod rod;
 pub mod section;
 pub mod shape;
+pub mod shell;
 
 pub use along::ElementPolynomial;
 use nalgebra::{SMatrix, SVector};

@@ -172,6 +172,19 @@ fn body_in_words(body: &Body) -> String {
             };
             format!("the finite element model <em>{name}</em> of {mass} kg, reduced to {modes}")
         }
+        Body::Plate(patch) | Body::Shell(patch) => {
+            let kind = if matches!(body, Body::Plate(_)) {
+                "plate"
+            } else {
+                "shell"
+            };
+            let [n, m] = patch.mesh;
+            let lengths = patch.geometry().lengths.map(rounded);
+            format!(
+                "the {kind} <em>{name}</em>, {} m by {} m, of {n} by {m} elements",
+                lengths[0], lengths[1]
+            )
+        }
     }
 }
 

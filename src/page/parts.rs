@@ -2,7 +2,9 @@
 
 use super::table::{table, worded};
 use crate::scene::words::{code, ends, number, values};
-use crate::scene::{PortKind, ResolvedGear, ResolvedJoint, ResolvedMotion, ResolvedPort, Scene};
+use crate::scene::{
+    PortKind, ResolvedEdge, ResolvedGear, ResolvedJoint, ResolvedMotion, ResolvedPort, Scene,
+};
 use crate::system::Drive;
 
 /// Tables of the parts of a scene; nothing for what it has none of.
@@ -10,6 +12,7 @@ pub(super) fn parts(scene: &Scene) -> String {
     let resolved = scene.resolved();
     let joints = resolved.joints.iter();
     let joints = joints.map(|joint| joint_in_words(scene.dimension, joint));
+    let joints = joints.chain(resolved.edges.iter().map(edge_in_words));
     let gears = resolved.gears.iter().map(gear_in_words);
     let motions = resolved.motions.iter().map(|motion| {
         let quantity = motion.driven.quantity();
@@ -124,6 +127,12 @@ fn joint_in_words(dimension: usize, joint: &ResolvedJoint<'_>) -> String {
         &ends(&joint.ends),
         &holds,
     ])
+}
+
+/// The row of a joint of an edge.
+fn edge_in_words(edge: &ResolvedEdge<'_>) -> String {
+    let between = format!("ground, {}", code(&edge.place()));
+    worded(&[&code(edge.name), edge.kind, &between, &edge.words()])
 }
 
 fn gear_in_words(gear: &ResolvedGear<'_>) -> String {

@@ -147,7 +147,8 @@ fn wall(joint: &ResolvedJoint<'_>) -> Vec<Stroke> {
         Place::Along(_, s) if s < 0.5 => -1.0,
         Place::Point(_, [x, ..]) if x < 0.0 => -1.0,
         Place::Interface(reduced, index) if reduced.body.contained().place(index)[0] < 0.0 => -1.0,
-        Place::Along(..) | Place::Point(..) | Place::Interface(..) => 1.0,
+        Place::Patch(plate, index) if plate.body.marker_at(index).at()[0] < 0.5 => -1.0,
+        Place::Along(..) | Place::Point(..) | Place::Interface(..) | Place::Patch(..) => 1.0,
     };
     let frame = StrokeFrame::new(FramePoints::First, FrameAxes::Along);
     frame

@@ -4,11 +4,11 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
     BodyReference, Cable, ConstraintOwnerId, DirectionSource, Ends, First, Form, JointCoordinate,
-    LineId, MarkerId, Pivot, Place, Reduced, ReducedId, Resolved, ResolvedMarker, Rigid, RigidId,
-    Slider,
+    LineId, MarkerId, Pivot, Place, Plate, PlateId, Reduced, ReducedId, Resolved, ResolvedMarker,
+    Rigid, RigidId, Slider,
 };
 use super::unit::{METRE, RADIAN, Unit};
-use super::{Body, FileBody, LineBody, Model, RigidBody, Scene};
+use super::{Body, FileBody, LineBody, Model, PatchBody, RigidBody, Scene};
 use crate::math::rotation::{NO_ROTATION, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
 
@@ -32,6 +32,7 @@ impl<'a> Resolved<'a> {
             markers: Vec::new(),
             masses: Vec::new(),
             joints: Vec::new(),
+            edges: Vec::new(),
             gears: Vec::new(),
             motions: Vec::new(),
             loads: Vec::new(),
@@ -75,6 +76,10 @@ impl<'a> Resolved<'a> {
                 }),
                 Body::Reduced(described) => BodyReference::Reduced(Reduced {
                     id: ReducedId(body),
+                    body: described,
+                }),
+                Body::Plate(described) | Body::Shell(described) => BodyReference::Plate(Plate {
+                    id: PlateId(body),
                     body: described,
                 }),
             };
@@ -124,6 +129,12 @@ impl Scene {
             .unwrap_or_else(|| unreachable!("a number of a reduced body is that of a reduced body"))
     }
 
+    /// A plate or shell, to be changed.
+    pub fn patch_mut(&mut self, id: PlateId) -> &mut PatchBody {
+        let patch = self.bodies[id.0].patch_mut();
+        patch.unwrap_or_else(|| unreachable!("a number of a plate is that of a plate or shell"))
+    }
+
     /// A rigid body, to be changed.
     pub fn rigid_mut(&mut self, id: RigidId) -> &mut RigidBody {
         let rigid = self.bodies[id.0].rigid_mut();
@@ -150,6 +161,7 @@ impl<'a> BodyReference<'a> {
             Self::Cable(cable) => &cable.body.name,
             Self::Rigid(rigid) => &rigid.body.name,
             Self::Reduced(reduced) => &reduced.body.name,
+            Self::Plate(plate) => &plate.body.name,
         }
     }
 
@@ -168,6 +180,9 @@ impl<'a> BodyReference<'a> {
                     Some((name.as_str(), Place::Interface(reduced, index)))
                 })
                 .collect(),
+            Self::Plate(plate) => (plate.body.markers.keys().enumerate())
+                .map(|(index, name)| (name.as_str(), Place::Patch(plate, index)))
+                .collect(),
         }
     }
 }
@@ -179,6 +194,7 @@ impl<'a> Place<'a> {
             Self::Along(cable, _) => BodyReference::Cable(cable),
             Self::Point(rigid, _) => BodyReference::Rigid(rigid),
             Self::Interface(reduced, _) => BodyReference::Reduced(reduced),
+            Self::Patch(plate, _) => BodyReference::Plate(plate),
         }
     }
 
@@ -188,13 +204,14 @@ impl<'a> Place<'a> {
             Self::Along(cable, _) => cable.id.body,
             Self::Point(rigid, _) => rigid.id.0,
             Self::Interface(reduced, _) => reduced.id.0,
+            Self::Patch(plate, _) => plate.id.0,
         }
     }
 
-    /// Whether it has a direction: on a cable, on a rigid body that has inertia, or at an interface with rotations.
+    /// Whether it has a direction: on a cable, a plate or a shell, on a rigid body that has inertia, or at an interface with rotations.
     pub(super) fn turns(self) -> bool {
         match self {
-            Self::Along(..) => true,
+            Self::Along(..) | Self::Patch(..) => true,
             Self::Point(rigid, _) => rigid.body.inertia().is_some(),
             Self::Interface(..) => self.point_interface().is_none(),
         }
@@ -209,20 +226,21 @@ impl<'a> Place<'a> {
         (interface.rotation.is_none()).then_some(interface.name.as_str())
     }
 
-    /// Whether it has axes, in space: on a rigid body that has inertia, on a rod, or at an interface with rotations.
+    /// Whether it has axes, in space: on a rigid body that has inertia, on a rod, a plate or a shell, or at an interface with rotations.
     pub(super) fn is_framed(self) -> bool {
         match self {
-            Self::Point(..) | Self::Interface(..) => self.turns(),
+            Self::Point(..) | Self::Interface(..) | Self::Patch(..) => self.turns(),
             Self::Along(cable, _) => cable.body.is_rod(),
         }
     }
 
-    /// Quaternion of the frame of a rigid or reduced body of space as described, scalar first and not negative.
+    /// Quaternion of the frame of a rigid or reduced body of space as described, or of a marker of a plate or shell, scalar first and not negative.
     pub fn quaternion(self) -> Quaternion {
         let axes = match self {
             Self::Along(..) => return NO_ROTATION,
             Self::Point(rigid, _) => rigid.body.axes(),
             Self::Interface(reduced, _) => reduced.body.axes(),
+            Self::Patch(plate, index) => return quaternion(&plate.axes(index)),
         };
         quaternion(&std::array::from_fn(|k| axes.column(k).into_owned()))
     }
@@ -233,6 +251,7 @@ impl<'a> Place<'a> {
             Self::Along(cable, s) => cable.body.shape.point(s),
             Self::Point(rigid, point) => rigid.body.point(point),
             Self::Interface(reduced, index) => reduced.body.place(index),
+            Self::Patch(plate, index) => plate.position(index),
         }
     }
 
@@ -242,7 +261,26 @@ impl<'a> Place<'a> {
             Self::Along(cable, s) => cable.body.shape.tangent(s),
             Self::Point(rigid, _) => rigid.body.directed([1.0, 0.0, 0.0]),
             Self::Interface(reduced, _) => reduced.body.directed([1.0, 0.0, 0.0]),
+            Self::Patch(plate, index) => plate.axes(index)[0].into(),
         }
+    }
+}
+
+impl Plate<'_> {
+    /// Where a marker is as described, m.
+    pub fn position(&self, index: usize) -> [f64; 3] {
+        self.body.geometry().position(self.body.marker_at(index))
+    }
+
+    /// Axes of a marker as described: along the lines along `s1`, across them in the surface, and the normal.
+    pub fn axes(&self, index: usize) -> [Vector3<f64>; 3] {
+        self.body.geometry().axes(self.body.marker_at(index))
+    }
+
+    /// A direction in the axes of a marker, in global components at the start.
+    pub fn directed(&self, index: usize, way: [f64; 3]) -> [f64; 3] {
+        let axes = Matrix3::from_columns(&self.axes(index));
+        (axes * Vector3::from(way)).into()
     }
 }
 

@@ -59,7 +59,9 @@ impl<'a> Resolved<'a> {
         let mut coordinates: Vec<f64> = loaded
             .filter_map(|marker| match marker.place {
                 Place::Along(of, coordinate) if of.id == cable.id => Some(coordinate),
-                Place::Along(..) | Place::Point(..) | Place::Interface(..) => None,
+                Place::Along(..) | Place::Point(..) | Place::Interface(..) | Place::Patch(..) => {
+                    None
+                }
             })
             .collect();
         if cable.body.is_rod() {

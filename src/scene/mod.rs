@@ -18,6 +18,7 @@ mod mesh;
 mod motions;
 mod numbers;
 mod owners;
+mod patch;
 mod ports;
 mod remarks;
 mod resolved;
@@ -37,9 +38,9 @@ pub use container::{Container, Details};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, FileBody,
     FixedInterfaceModes, Inertia, Initial, InitialMotion, InitialState, InputCourse, Integrator,
-    Interpolation, LineBody, LineModel, Material, Method, Model, Modes, Orientation, OutputKind,
-    Profile, RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station,
-    Strain, Surface, Table, Value,
+    Interpolation, LaminatePly, LineBody, LineModel, Material, Method, Model, Modes, Orientation,
+    OutputKind, Pad, PatchBody, PatchMarker, PatchSurface, Profile, RigidBody, Scene, SceneVector,
+    Section, SectionNumbers, Shape, Solid, Spin, Station, Strain, Surface, Table, Value,
 };
 pub use elements::Chosen;
 pub use files::{Files, beside, bounded};
@@ -49,13 +50,14 @@ pub use loads::{
     ResolvedLoad, ResolvedLoadKind, TimedKey,
 };
 pub use motions::{Driven, DrivenQuantity, ROTATION_ORDERS, ResolvedMotion};
+pub use patch::PatchGrid;
 pub use remarks::remarks;
 pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
     DirectionSource, Ends, First, GaugeId, Incoming, Input, InputKind, JointCoordinate, LineId,
-    LoadId, MarkerId, Output, OutputTarget, Pivot, Place, PointId, PortKind, Reaction, Reduced,
-    ReducedId, Resolved, ResolvedMarker, ResolvedMass, ResolvedPort, Rigid, RigidId, SlideId,
-    Slider,
+    LoadId, MarkerId, Output, OutputTarget, Pivot, Place, Plate, PlateId, PointId, PortKind,
+    Reaction, Reduced, ReducedId, Resolved, ResolvedEdge, ResolvedMarker, ResolvedMass,
+    ResolvedPort, Rigid, RigidId, SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use unit::Unit;

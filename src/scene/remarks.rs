@@ -2,8 +2,12 @@
 
 use std::f64::consts::PI;
 
-use super::resolved::BodyReference;
-use super::{Body, FileBody, LineBody, RigidBody, Scene};
+use nalgebra::Vector3;
+
+use super::resolved::{BodyReference, Place, ResolvedMarker};
+use super::{Action, Body, FileBody, LineBody, RigidBody, Scene};
+use crate::math::function::Function;
+use crate::system::Signal;
 
 /// Young's modulus below which hardly any solid is, Pa.
 const SOFTEST: f64 = 1e6;
@@ -25,6 +29,7 @@ pub fn remarks(scene: &Scene) -> Vec<String> {
         .filter_map(|slip| told(scene.bodies.iter().map(slip)))
         .collect();
     found.extend(unpaired(scene));
+    found.extend(bare_point(scene));
     found
 }
 
@@ -151,6 +156,58 @@ fn left_out(body: &Body) -> Option<String> {
              static shapes)"
         )
     })
+}
+
+/// A point of a plate or shell without a pad that something holds or loads in the surface: there displacements have no limit.
+fn bare_point(scene: &Scene) -> Option<String> {
+    let resolved = scene.resolve().ok()?;
+    let joints = resolved
+        .joints
+        .iter()
+        .filter(|joint| joint.holds_position());
+    let joints =
+        joints.flat_map(|joint| joint.ends.markers().into_iter().map(|of| (joint.name, of)));
+    let loads = resolved.loads.iter().flat_map(|load| {
+        let markers = load.kind.place().markers().into_iter();
+        let markers = markers.filter(|of| {
+            let action = load.kind.action();
+            action.is_none_or(|action| action.kind.is_force() && is_in_surface(action, of))
+        });
+        markers.map(|of| (load.name, of))
+    });
+    let mut all = joints.chain(loads);
+    let (by, body, marker) = all.find_map(|(name, of)| match of.place {
+        Place::Patch(plate, index) if plate.body.marker_at(index).pad() == [0.0; 2] => {
+            Some((name, plate, plate.body.markers.keys().nth(index)?))
+        }
+        _ => None,
+    })?;
+    Some(format!(
+        "bodies[{}].markers.{marker}: {by} acts on it in the surface, at a point: its displacement there grows as meshes get finer (expected a pad, `{{\"at\": [s1, s2], \"pad\": [length, length]}}`)",
+        body.id.index()
+    ))
+}
+
+/// Whether a force at a marker has a part in the surface of its plate or shell; one that changes in time is taken to have one.
+fn is_in_surface(action: &Action<'_>, marker: &ResolvedMarker<'_>) -> bool {
+    let Place::Patch(plate, index) = marker.place else {
+        return false;
+    };
+    let [first, second, _] = plate.axes(index);
+    let constant = |of: &Signal| match of {
+        Signal::Function(Function::Constant(value)) => Some(*value),
+        _ => None,
+    };
+    let force: Option<Vec<f64>> = action.components.iter().map(constant).collect();
+    let Some(force) = force.filter(|force| force.len() == 3) else {
+        return true;
+    };
+    if action.follower {
+        return force[0] != 0.0 || force[1] != 0.0;
+    }
+    let force = Vector3::from_column_slice(&force);
+    let part = force.dot(&first).hypot(force.dot(&second));
+    part > 1e-9 * force.norm()
 }
 
 /// A body that vibrates hardly as fast.

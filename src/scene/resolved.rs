@@ -5,7 +5,7 @@ mod outputs;
 
 use std::collections::BTreeMap;
 
-use super::description::{FileBody, LineBody, Port as GivenPort, RigidBody, Scene};
+use super::description::{FileBody, LineBody, PatchBody, Port as GivenPort, RigidBody, Scene};
 use super::joints::{ResolvedGear, ResolvedJoint};
 use super::loads::{Action, ResolvedLoad};
 use super::motions::{Driven, ResolvedMotion};
@@ -48,6 +48,8 @@ numbers! {
     RigidId;
     /// A reduced body, by its place among all bodies.
     ReducedId;
+    /// A plate or shell, by its place among all bodies.
+    PlateId;
 }
 
 impl PointId {
@@ -119,6 +121,15 @@ pub struct Reduced<'a> {
     pub body: &'a FileBody,
 }
 
+/// A plate or a shell.
+#[derive(Clone, Copy, Debug)]
+pub struct Plate<'a> {
+    /// Which one.
+    pub id: PlateId,
+    /// As described.
+    pub body: &'a PatchBody,
+}
+
 /// A body of any kind.
 #[derive(Clone, Copy, Debug)]
 pub enum BodyReference<'a> {
@@ -128,6 +139,8 @@ pub enum BodyReference<'a> {
     Rigid(Rigid<'a>),
     /// A body of kind `reduced`.
     Reduced(Reduced<'a>),
+    /// A body of kind `plate` or `shell`.
+    Plate(Plate<'a>),
 }
 
 /// A place on a body.
@@ -139,6 +152,8 @@ pub enum Place<'a> {
     Point(Rigid<'a>, [f64; 3]),
     /// Interface of a reduced body, by its index in the model.
     Interface(Reduced<'a>, usize),
+    /// Marker of a plate or shell, by its index among those of the body.
+    Patch(Plate<'a>, usize),
 }
 
 /// A marker. Points and directions have three components, the third zero in the plane.
@@ -152,7 +167,7 @@ pub struct ResolvedMarker<'a> {
     pub place: Place<'a>,
     /// Where it is in the shapes and positions that the scene describes, m.
     pub position: [f64; 3],
-    /// Direction there: tangent of a cable, first axis of the frame of a rigid or reduced body; a unit vector.
+    /// Direction there: tangent of a cable, first axis of the frame of a rigid or reduced body, of the line along `s1` of a plate or shell; a unit vector.
     pub direction: [f64; 3],
 }
 
@@ -187,6 +202,34 @@ pub struct Pivot<'a> {
     pub ends: Ends<'a>,
     /// In space its axis at the start, in global axes.
     pub axis: Option<[f64; 3]>,
+}
+
+/// What a joint holds of an edge of a plate or shell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeHold {
+    /// The edge and the normal along it.
+    Clamped,
+    /// The edge.
+    Pinned,
+    /// The edge in a plane with this normal, and the normal of the surface in it.
+    Symmetry([f64; 3]),
+}
+
+/// A joint that holds an edge of a plate or shell on the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct ResolvedEdge<'a> {
+    /// Name of the joint.
+    pub name: &'a str,
+    /// Kind of the joint.
+    pub kind: &'static str,
+    /// The body.
+    pub plate: Plate<'a>,
+    /// Coordinate that is the same along the edge: 0 for `s1`, 1 for `s2`.
+    pub across: usize,
+    /// Whether it is the edge where that coordinate is 1, not 0.
+    pub is_last: bool,
+    /// What is held.
+    pub hold: EdgeHold,
 }
 
 /// A joint that holds a marker on a line of the ground or of a rigid body.
@@ -343,6 +386,8 @@ pub struct Resolved<'a> {
     pub masses: Vec<ResolvedMass<'a>>,
     /// Joints.
     pub joints: Vec<ResolvedJoint<'a>>,
+    /// Joints of edges of plates and shells.
+    pub edges: Vec<ResolvedEdge<'a>>,
     /// Gears.
     pub gears: Vec<ResolvedGear<'a>>,
     /// Motions, without those of ports.

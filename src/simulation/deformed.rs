@@ -58,7 +58,7 @@ impl DeformationWatch {
         let reduced = bodies.filter(|(_, body)| match body {
             BodyReference::Reduced(of) => !of.body.is_rigid(),
             BodyReference::Cable(cable) => cable.is_modal(),
-            BodyReference::Rigid(_) => false,
+            BodyReference::Rigid(_) | BodyReference::Plate(_) => false,
         });
         Self {
             bodies: reduced

@@ -59,7 +59,7 @@ impl PropellerWatch {
     pub(super) fn new(resolved: &Resolved<'_>) -> Self {
         let lines = resolved.bodies.iter().filter_map(|body| match body {
             BodyReference::Cable(cable) => Some(cable),
-            BodyReference::Rigid(_) | BodyReference::Reduced(_) => None,
+            BodyReference::Rigid(_) | BodyReference::Reduced(_) | BodyReference::Plate(_) => None,
         });
         let rods = lines.filter(|cable| cable.body.is_rod() && !cable.body.is_beam());
         let rods = rods.filter_map(|cable| {

@@ -6,9 +6,11 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::bodies::{LineStance, Marker, Node, ReducedBody, axes_at, combined, completed};
+use crate::bodies::{
+    LineStance, Marker, Node, Patch, ReducedBody, axes_at, combined, completed,
+};
 use crate::math::space::{Vector, components};
-use crate::scene::{Assembled, LoadId, ModalLine};
+use crate::scene::{Assembled, LoadId, ModalLine, PatchGrid};
 use crate::system::{Evaluation, State};
 
 /// Where a body is: what a line or surface of it is drawn from.
@@ -24,6 +26,8 @@ pub struct Pose {
     pub amplitudes: Vec<f64>,
     /// Strains of these modes: amplitudes without what moves without strain; else none.
     pub strains: Vec<f64>,
+    /// Points on a plate or shell, m; else none.
+    pub surface: Vec<[f64; 3]>,
 }
 
 impl Simulation {
@@ -291,6 +295,9 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
             ..Pose::default()
         };
     }
+    if let Some(patch) = assembled.patch(body) {
+        return patch_pose(assembled, patch, x);
+    }
     let first = bodies.ranges[body].start;
     let [position, slope] = [0, 1].map(|part| components(&Vector::from(x[first][part])));
     let reduced = assembled.reduced(body);
@@ -325,7 +332,29 @@ fn pose<const D: usize>(assembled: &Assembled<D>, body: usize, x: &[Node<D>]) ->
         },
         amplitudes: reduced.map_or_else(Vec::new, |reduced| reduced.file_amplitudes(x)),
         strains: reduced.map_or_else(Vec::new, |reduced| reduced.file_strains(x)),
+        ..Pose::default()
     }
+}
+
+/// How a plate or shell stands: points on it. Its place is the mean of these where the scene draws it, in every configuration.
+fn patch_pose<const D: usize>(assembled: &Assembled<D>, patch: &Patch, x: &[Node<D>]) -> Pose {
+    let drawn = patch_points(patch, &assembled.nodes);
+    let mean = |k: usize| drawn.iter().map(|at| at[k]).sum::<f64>() / drawn.len() as f64;
+    let axes: [[f64; 3]; 3] = std::array::from_fn(|k| Vector::<3>::ith(k, 1.0).into());
+    Pose {
+        nodes: vec![[std::array::from_fn(mean), axes[0]]],
+        axes: vec![axes],
+        surface: patch_points(patch, x),
+        ..Pose::default()
+    }
+}
+
+/// Points on a plate or shell, m.
+fn patch_points<const D: usize>(patch: &Patch, x: &[Node<D>]) -> Vec<[f64; 3]> {
+    let places = PatchGrid::new(patch.divisions()).in_elements();
+    places
+        .map(|(element, xi)| patch.position(element, xi, x))
+        .collect()
 }
 
 /// How a line stands that is reduced to modes.
@@ -347,6 +376,10 @@ fn outlines<const D: usize>(
 ) -> Vec<Vec<[f64; 3]>> {
     let bodies = assembled.system.bodies();
     let of = |body: usize| match assembled.modal_line(body) {
+        _ if assembled.patch(body).is_some() => {
+            let patch = assembled.patch(body).into_iter();
+            patch.flat_map(|patch| patch_points(patch, x)).collect()
+        }
         Some((line, body)) => line
             .sections(body, x)
             .into_iter()

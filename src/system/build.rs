@@ -31,6 +31,8 @@ pub struct Parts<const D: usize = 2> {
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
     pub joints: Vec<JointEquations<D>>,
+    /// Rows with constant values that belong to no joint of two ends: edges of plates and shells.
+    pub held: Vec<(ConnectivityRow<D>, f64)>,
     /// Driven coordinates.
     pub drives: Vec<Drive>,
     /// Cables that winches pay out: of each the chain, whether the winch is at its last end, and the driven coordinate.

@@ -104,6 +104,9 @@ pub(super) struct Constraints<const D: usize> {
 pub(super) struct Linearized<const D: usize> {
     /// Stiffness and damping over the free coordinates, and their factors.
     pub tangent: Tangent<D>,
+    /// Nodal coordinates from which the tangent predicts stresses, and whether it does, `[nodes]`.
+    pub from: Vec<Node<D>>,
+    pub predicts: bool,
     /// Rotations of bodies and sections where the tangent was computed, then with the shear rotations of each stage.
     pub stages: [Rotations; 1 + STAGES],
 }
@@ -184,6 +187,8 @@ impl<const D: usize> Workspace<D> {
         Self {
             linearization: Linearized {
                 tangent,
+                from: nodes.clone(),
+                predicts: false,
                 stages: std::array::from_fn(|_| kinematics.rotations.clone()),
             },
             forces: NodalForces {
@@ -254,6 +259,7 @@ impl<const D: usize> Kinematics<D> {
             drives: &self.drives,
             x: &self.x,
             v: &self.v,
+            from: None,
         }
     }
 

@@ -54,6 +54,8 @@ enum Origin<'a> {
 pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<MovingAction<'a>> {
     let dimension = resolved.scene.dimension;
     let known = known_actions(resolved).into_iter();
+    // Loads over a surface have no place for an arrow.
+    let known = known.filter(|known| !matches!(known.action.on, LoadPlace::Surface(_)));
     let known = known.map(|known| of_action(known.name, known.action, dimension));
     let fluids = resolved.loads.iter();
     let fluids = fluids.filter_map(|load| Some(of_fluid(load.name, load.kind.fluid()?)));
@@ -207,6 +209,7 @@ fn of_action<'a>(
             LoadPlace::Ends(ends) => Where::Marker(ends.second.id),
             LoadPlace::Coordinate(on) => Where::Joint(on.ends().second.id, on.joint().index()),
             LoadPlace::Line(cable) => Where::Body(cable.id.body_index()),
+            LoadPlace::Surface(plate) => Where::Body(plate.id.index()),
         },
         of: Origin::Components(&action.components, &action.along),
     }

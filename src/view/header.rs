@@ -4,6 +4,7 @@ use super::actions::{MovingAction, Where, actions};
 use super::numbers::{Numbers, list, quoted};
 use super::recording::Recording;
 use super::sections::{SectionStress, has_corners, sections};
+use super::sheets::SheetModes;
 use super::skins::MovingSkin;
 use super::symbols::SymbolTable;
 use crate::math::rotation::{Quaternion, quaternion, quaternion_near};
@@ -45,7 +46,7 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
         .map(|(place, action)| of_action(recording, place, action, &mut numbers, &mut symbols))
         .collect();
     let markers = list(&resolved.markers, |marker| {
-        of_marker(&resolved, marker, &skins)
+        of_marker(&resolved, marker, &skins, &recording.sheets)
     });
     let marks = marks(&resolved);
     let marks = list(&marks, |mark| of_mark(recording, mark, &mut symbols));
@@ -102,6 +103,11 @@ fn of_body(
         }
         BodyReference::Rigid(rigid) => of_rigid(rigid),
         BodyReference::Reduced(reduced) => skin.unwrap_or_else(|| of_reduced(reduced)),
+        BodyReference::Plate(plate) => {
+            let sheet = recording.sheets[place].as_ref();
+            let sheet = sheet.map(|of| of.to_json(plate.body, &recording.poses, place, numbers));
+            sheet.unwrap_or_default()
+        }
     };
     format!(
         "{{\"name\":{},\"nodes\":{nodes},\"turns\":{turns},\"track\":{track},\"drawn\":{drawn},{shape}}}",
@@ -263,6 +269,7 @@ fn of_marker(
     resolved: &Resolved<'_>,
     marker: &ResolvedMarker<'_>,
     skins: &[Option<MovingSkin<'_>>],
+    sheets: &[Option<SheetModes>],
 ) -> String {
     let body = marker.place.body();
     let place = resolved
@@ -277,6 +284,12 @@ fn of_marker(
             let skin = skins[reduced.id.index()].as_ref();
             let moved = skin.map(|skin| skin.interface_to_json(&container.model.interfaces[index]));
             format!("\"point\":{point:?}{}", moved.unwrap_or_default())
+        }
+        Place::Patch(plate, index) => {
+            let at = plate.body.marker_at(index).at();
+            let sheet = sheets[plate.id.index()].as_ref();
+            let sheet = sheet.map(|sheet| sheet.marker_to_json(plate.body, at));
+            sheet.unwrap_or_else(|| "\"point\":[0.0,0.0,0.0]".into())
         }
         Place::Along(cable, s) => {
             let mesh = mesh(resolved, cable);

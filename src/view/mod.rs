@@ -10,6 +10,7 @@ mod numbers;
 mod picture;
 mod recording;
 mod sections;
+mod sheets;
 mod skins;
 mod surface;
 mod symbols;

@@ -1,6 +1,7 @@
 //! A run, as pictures of it are drawn from: how bodies stand and what acts on them at some communication points, outputs at some or all.
 
 use super::actions::{MovingAction, actions};
+use super::sheets::SheetModes;
 use super::skins;
 use crate::scene::Scene;
 use crate::simulation::{Causality, InputTable, Pose, Signals, Simulation, Variable};
@@ -87,6 +88,8 @@ pub struct Recording {
     /// Times (s) and values of outputs.
     pub(super) row_times: Vec<f64>,
     pub(super) rows: Vec<Vec<f64>>,
+    /// Motions of plates and shells, by body.
+    pub(super) sheets: Vec<Option<SheetModes>>,
     /// Why it ended before the experiment does.
     pub(super) stopped: Option<String>,
 }
@@ -144,7 +147,18 @@ impl Recording {
                 break;
             }
         }
-        Ok(run.recording)
+        Ok(run.recording.with_sheets())
+    }
+
+    /// With the motions of its plates and shells as modes.
+    fn with_sheets(mut self) -> Self {
+        let bodies = self.drawn.iter_mut().enumerate();
+        let sheets = bodies.map(|(body, drawn)| {
+            let is_sheet = !drawn.surface.is_empty();
+            is_sheet.then(|| SheetModes::of(drawn, &mut self.poses, body))
+        });
+        self.sheets = sheets.collect();
+        self
     }
 
     /// Times of frames, s.
@@ -218,6 +232,7 @@ impl UnfinishedRecording {
                 outputs,
                 row_times: Vec::new(),
                 rows: Vec::new(),
+                sheets: Vec::new(),
                 stopped: None,
             },
         })

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::numbers::{Numbers, list};
 use super::recording::Recording;
+use super::sheets::{EXPECTED, grid_of};
 use crate::elements::reduced::Interface;
 use crate::picture::Skin;
 use crate::scene::{BodyReference, Container, Scene};
@@ -187,16 +188,26 @@ fn thinned(reference: BodyReference<'_>) -> Option<(Skin<'_>, &Container)> {
     Some((Skin::thinned(container, POINTS)?, container))
 }
 
-/// Bytes that surfaces of reduced bodies take in a page, at most, and numbers of theirs in every frame.
+/// Bytes that surfaces of reduced bodies, plates and shells take in a page, at most, and numbers of theirs in every frame.
 pub(super) fn size(scene: &Scene) -> [usize; 2] {
     let resolved = scene.resolved();
     let skins = resolved.bodies.iter().filter_map(|body| thinned(*body));
-    skins.fold([0, 0], |[bytes, numbers], (skin, container)| {
+    let skins = skins.map(|(skin, container)| {
         let modes = container.model.modes().min(MODES);
         let stress = if skin.has_stress() { modes } else { 0 };
         let points = skin.points.len() * 3 * 2 * (1 + modes + 2 * stress);
         let corners = skin.triangles.len() * 3 * CORNER;
-        [bytes + points + corners, numbers + modes + stress]
+        [points + corners, modes + stress]
+    });
+    let sheets = scene.bodies.iter().filter_map(|body| body.patch());
+    let sheets = sheets.map(|body| {
+        let grid = grid_of(body);
+        let points = grid.count() * 3 * 2 * (1 + EXPECTED);
+        [points + grid.triangles().len() * 3 * CORNER, EXPECTED]
+    });
+    let all = skins.chain(sheets);
+    all.fold([0, 0], |[bytes, numbers], [own, of_frame]| {
+        [bytes + own, numbers + of_frame]
     })
 }
 

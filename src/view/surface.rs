@@ -6,11 +6,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::header::mesh;
 use super::recording::Recording;
 use super::sections::{has_corners, sections};
+use super::sheets::grid_of;
 use super::skins::{MovingStress, seen_modes};
 use crate::elements::shape;
 use crate::math::rotation::{self, Quaternion};
 use crate::picture::Skin;
-use crate::scene::{BodyReference, FileBody, RigidBody, Solid};
+use crate::scene::{BodyReference, FileBody, PatchBody, RigidBody, Solid};
 use crate::simulation::Pose;
 
 /// Points around what is round, and fewest sections along a body.
@@ -163,6 +164,7 @@ pub(super) fn surfaces(recording: &Recording) -> Vec<BodySurface> {
             BodyReference::Rigid(rigid) => solid(rigid.body, body, size),
             BodyReference::Reduced(reduced) => deforming(recording, reduced.body, body)
                 .unwrap_or_else(|| star(reduced.body, body, size)),
+            BodyReference::Plate(plate) => sheet(recording, plate.body, body),
         })
         .collect()
 }
@@ -398,6 +400,23 @@ fn star(reduced: &FileBody, body: usize, size: f64) -> BodySurface {
     let ends = interfaces.map(|index| container.place(index));
     built.star(container.center, ends, BAR * size);
     built.rigid(&reduced.name, body)
+}
+
+/// A plate or shell with the modes of its run.
+fn sheet(recording: &Recording, patch: &PatchBody, body: usize) -> BodySurface {
+    let mut built = Built::default();
+    let quads = grid_of(patch).quads().into_iter();
+    built.faces = quads.map(|corners| corners.to_vec()).collect();
+    let sheet = recording.sheets[body].as_ref();
+    let points = sheet.map_or(&[][..], |sheet| &sheet.points);
+    built.points = points.iter().map(|point| (*point).into()).collect();
+    let modes = sheet.map_or(&[][..], |sheet| &sheet.modes);
+    let ways = |of: &Vec<Vector3<f64>>| of.iter().map(|way| (*way).into()).collect();
+    let modes = modes.iter().map(ways).enumerate().collect();
+    BodySurface {
+        modes,
+        ..built.rigid(&patch.name, body)
+    }
 }
 
 /// The surface of a reduced body whose file has one.

@@ -175,6 +175,12 @@ keys! {
     ShearModulus => "bodies", "/material/shear_modulus", "Pa";
     TorsionConstant => "bodies", "/section/torsion_constant", "m4";
     Elements => "bodies", "/elements", "";
+    PatchModulus => "bodies", "/material/youngs_modulus", "Pa";
+    PatchRatio => "bodies", "/material/poisson_ratio", "";
+    PatchDensity => "bodies", "/material/density", "kg/m3";
+    PatchDamping => "bodies", "/material/damping_time", "s";
+    PatchThickness => "bodies", "/thickness", "m";
+    PatchAngle => "bodies", "/axis_angle", "rad";
     Mass => "bodies", "/mass", "kg";
     LumpedMass => "masses", "/mass", "kg";
     ReleaseTime => "joints", "/release_time", "s";

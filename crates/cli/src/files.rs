@@ -127,6 +127,7 @@ impl Shapes {
                 Body::Cable(_) | Body::Rod(_) | Body::Beam(_) | Body::Auto(_) => "cable",
                 Body::Rigid(_) => "rigid",
                 Body::Reduced(_) => "reduced",
+                Body::Plate(_) | Body::Shell(_) => "surface",
             };
             header.push(format!(
                 "{{\"name\": \"{}\", \"kind\": \"{kind}\", \"markers\": [{}]}}",

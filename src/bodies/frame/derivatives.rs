@@ -97,6 +97,9 @@ impl<const D: usize> Bodies<D> {
             }
             body.differentiate(k, rates, (x, bias), acceleration);
         }
+        for patch in &self.patches {
+            patch.differentiate(x, bias, acceleration);
+        }
         for (frame, spin_rate) in self.section_frames().zip(&mut angular.sections) {
             for (rate, value) in spin_rate.iter_mut().zip(&found[frame.node][1]) {
                 set_part(rate, k, *value);

@@ -152,7 +152,7 @@ impl<const D: usize> Bodies<D> {
         mut add: impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
         let is_pair = a != b;
-        if [a, b].iter().any(|node| self.is_reduced(*node)) {
+        if [a, b].iter().any(|node| self.follows_many(*node)) {
             return self.rotate_modal_block((a, b), block, x, add);
         }
         let [of_a, of_b] = [a, b].map(|node| self.partials(node, x));
@@ -171,12 +171,15 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
-    /// Whether a node is one of a frame of a reduced body.
-    fn is_reduced(&self, node: usize) -> bool {
-        matches!(self.owner(node), NodeOwner::Reduced(..))
+    /// Whether a node is one of a frame that follows many nodes: of a reduced body, or of a point of a plate.
+    fn follows_many(&self, node: usize) -> bool {
+        matches!(
+            self.owner(node),
+            NodeOwner::Reduced(..) | NodeOwner::Point(..)
+        )
     }
 
-    /// [`Self::rotate_block`] where nodes follow from the amplitudes of modes.
+    /// [`Self::rotate_block`] where nodes follow from many others.
     #[inline(never)]
     fn rotate_modal_block(
         &self,
@@ -211,6 +214,9 @@ impl<const D: usize> Bodies<D> {
     ) {
         if let NodeOwner::Reduced(index, site, is_second) = self.owner(node) {
             return self.reduced[index].for_each_partial((site, is_second), x, call);
+        }
+        if let NodeOwner::Point(index, point, is_second) = self.owner(node) {
+            return self.patches[index].for_each_partial((point, is_second), x, call);
         }
         for (owner, partial) in self.partials(node, x).iter().flatten() {
             call(*owner, partial);

@@ -1,4 +1,8 @@
-//! Nodes whose sections hold them: the line of a beam turns with its sections, roll included. Turned by the smallest rotation of their
+//! Nodes that rotate with axes of their own.
+//!
+//! Mesh nodes of plates and shells rotate with their tangent plane: all four vectors of one by its rotation.
+//!
+//! Sections of beams hold their nodes: the line of a beam turns with its sections, roll included. Turned by the smallest rotation of their
 //! tangents alone, lines and sections would come apart by the roll between the tangent and a stage, times the stiffness of shear. In the
 //! plane there is no roll, and a direction is all that a line turns by.
 
@@ -8,19 +12,34 @@ use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{Axes, axes_at, combined};
 use crate::math::space::{Vector, components, vector};
 
-/// The sections of beams: nodes of their lines with the first of their frames, and axes where the tangent was made and at the stages.
+/// What a node rotates with.
+#[derive(Clone, Copy, Debug)]
+enum RotatesWith {
+    /// The frame of a section with this first node.
+    Section(usize),
+    /// The tangent plane at a mesh node with this first node.
+    Surface(usize),
+}
+
+/// Nodes with what they rotate with, and axes where the tangent was made and at the stages.
 #[derive(Clone, Debug)]
 pub(super) struct StageSections {
-    nodes: Vec<(usize, usize)>,
+    nodes: Vec<(usize, RotatesWith)>,
     base: Vec<Axes>,
     turned: [Vec<Axes>; super::STAGES],
 }
 
 impl StageSections {
-    pub fn new(nodes: &[(usize, usize)]) -> Self {
+    /// Of nodes of lines with their sections, and of mesh nodes of plates and shells.
+    pub fn new(lines: &[(usize, usize)], surfaces: &[usize]) -> Self {
+        let lines = lines.iter().map(|(node, frame)| (*node, RotatesWith::Section(*frame)));
+        let surfaces = surfaces.iter().flat_map(|node| {
+            [*node, *node + 1].map(|own| (own, RotatesWith::Surface(*node)))
+        });
+        let nodes: Vec<_> = lines.chain(surfaces).collect();
         let axes = vec![Axes::default(); nodes.len()];
         Self {
-            nodes: nodes.to_vec(),
+            nodes,
             turned: [axes.clone(), axes.clone(), axes.clone()],
             base: axes,
         }
@@ -32,8 +51,10 @@ impl StageSections {
 
     /// In the plane, the unit directions of lines are those of their sections.
     pub fn direct<const D: usize>(&self, units: &mut [SVector<f64, D>]) {
-        for (line, section) in self.nodes.iter().filter(|_| D == 2) {
-            units[*line] = units[*section];
+        for (line, with) in self.nodes.iter().filter(|_| D == 2) {
+            if let RotatesWith::Section(section) = with {
+                units[*line] = units[*section];
+            }
         }
     }
 
@@ -50,12 +71,12 @@ impl StageSections {
         place(&self.nodes, x, &mut self.turned[stage]);
     }
 
-    /// Rotates the vectors of the lines back to where the tangent was made.
+    /// Rotates the vectors of the nodes back to where the tangent was made.
     pub fn rotate_to_tangent<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
         self.turn([&self.turned[stage], &self.base], nodes);
     }
 
-    /// Rotates the vectors of the lines to a stage.
+    /// Rotates the vectors of the nodes to a stage.
     pub fn rotate_to_stage<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
         self.turn([&self.base, &self.turned[stage]], nodes);
     }
@@ -74,11 +95,23 @@ impl StageSections {
     }
 }
 
-fn place<const D: usize>(nodes: &[(usize, usize)], x: &[Node<D>], axes: &mut [Axes]) {
+fn place<const D: usize>(nodes: &[(usize, RotatesWith)], x: &[Node<D>], axes: &mut [Axes]) {
     if D == 2 {
         return;
     }
-    for ((_, frame), axes) in nodes.iter().zip(axes) {
-        *axes = axes_at(*frame, x);
+    for ((_, with), axes) in nodes.iter().zip(axes) {
+        *axes = match with {
+            RotatesWith::Section(frame) => axes_at(*frame, x),
+            RotatesWith::Surface(node) => tangent_axes(*node, x),
+        };
     }
+}
+
+/// Unit vectors along the first derivative at a mesh node and across it, and the normal.
+fn tangent_axes<const D: usize>(node: usize, x: &[Node<D>]) -> Axes {
+    let [first, second] = [x[node][1], x[node + 1][0]];
+    let [first, second] = [first, second].map(|v| Vector3::from(components(&Vector::<D>::from(v))));
+    let normal = first.cross(&second).normalize();
+    let along = first.normalize();
+    [along, normal.cross(&along), normal]
 }

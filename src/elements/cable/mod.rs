@@ -27,6 +27,7 @@ use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{GAUSS_3, GAUSS_5};
 use kernel::{Factors, Kernel, Line, Sampling, TURNS, transposed};
 pub use section_variation::SectionVariation;
+pub(in crate::elements) use section_variation::line_mass;
 use section_variation::mass;
 
 /// Slenderness EA l^2 / EI up to which axial strain is sampled at Gauss points: they halve the error

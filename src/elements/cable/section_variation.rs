@@ -4,8 +4,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{Inertia, Parameters};
-use crate::elements::{ElementPolynomial, shape};
+use super::{Inertia, LineOf, Parameters};
+use crate::elements::{ElementPolynomial, StrainMeasure, shape};
 use crate::math::quadrature::GAUSS_5;
 
 /// Factors along an element of the stiffnesses and the mass of [`Parameters`], 1 by default, and the mass of the fluid
@@ -49,6 +49,22 @@ impl SectionVariation {
     pub(super) fn moves_evenly(&self) -> bool {
         self.density.is_uniform() && self.added.is_uniform()
     }
+}
+
+/// Mass matrix of a line of this length (m) with a mass of 1 kg/m that bends.
+pub(in crate::elements) fn line_mass(length: f64, inertia: Inertia) -> SMatrix<f64, 4, 4> {
+    let parameters = Parameters {
+        length,
+        axial_stiffness: 0.0,
+        bending_stiffness: 0.0,
+        line_of: LineOf::Cable,
+        line_density: 1.0,
+        axial_damping_time: 0.0,
+        bending_damping_time: 0.0,
+        strain: StrainMeasure::ThetaPrime,
+        inertia,
+    };
+    mass(&parameters, &SectionVariation::default(), true)
 }
 
 /// Mass matrix of a cable with or without bending stiffness, that of the fluid which moves along with it.

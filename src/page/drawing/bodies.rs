@@ -4,7 +4,7 @@ use super::picture::{Picture, seen};
 use crate::page::canvas::Point;
 use crate::picture::palette::{BODY, INK, INSIDE};
 use crate::picture::{Skin, Style};
-use crate::scene::{BodyReference, Cable, FileBody, LineBody, RigidBody};
+use crate::scene::{BodyReference, Cable, FileBody, LineBody, PatchBody, PatchGrid, RigidBody};
 
 /// Parts of the polyline that stands for a cable.
 const PARTS: u32 = 96;
@@ -29,6 +29,11 @@ pub(super) fn outline(body: BodyReference<'_>, dimension: usize) -> Vec<[f64; 3]
                 .collect(),
             None => star(reduced.body),
         },
+        BodyReference::Plate(plate) => {
+            let geometry = plate.body.geometry();
+            let places = PatchGrid::new(plate.body.mesh.map(|count| count as usize)).places();
+            places.map(|at| geometry.corner(at)[0]).collect()
+        }
     }
 }
 
@@ -109,6 +114,7 @@ impl Picture<'_> {
                 Some(skin) => self.skin(reduced.body, &skin, &points),
                 None => self.reduced(reduced.body.center(), &points),
             },
+            BodyReference::Plate(plate) => self.sheet(plate.body, &points),
         }
     }
 
@@ -163,6 +169,25 @@ impl Picture<'_> {
         let edges: Vec<[Point; 2]> = edges.map(|ends| ends.map(|end| points[end])).collect();
         let width = 0.14 * self.unit;
         self.canvas.segments(&edges, Style::line(BODY, width));
+    }
+
+    /// Triangles of a plate or shell, and the lines of its mesh, or of a fine one its edges.
+    fn sheet(&mut self, body: &PatchBody, points: &[Point]) {
+        let grid = PatchGrid::new(body.mesh.map(|count| count as usize));
+        let inside = Style {
+            stroke: "none",
+            width: 0.0,
+            fill: INSIDE,
+        };
+        let triangles = grid.triangles().into_iter();
+        let triangles: Vec<[Point; 3]> = triangles
+            .map(|corners| corners.map(|corner| points[corner]))
+            .collect();
+        self.canvas.triangles(&triangles, inside);
+        let lines = grid.lines().into_iter();
+        let lines: Vec<[Point; 2]> = lines.map(|ends| ends.map(|end| points[end])).collect();
+        let width = 0.14 * self.unit;
+        self.canvas.segments(&lines, Style::line(BODY, width));
     }
 
     /// Lines from the centre to the interfaces.

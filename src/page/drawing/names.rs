@@ -158,6 +158,10 @@ impl<'a> Picture<'a> {
                 BodyReference::Reduced(reduced) => {
                     (self.at(reduced.body.center()), [0.0, 1.0], 1.8)
                 }
+                BodyReference::Plate(plate) => {
+                    let [middle, ..] = plate.body.geometry().corner([0.5; 2]);
+                    (self.at(middle), [0.0, 1.0], 0.0)
+                }
             };
             self.write(at, side, distance * self.unit, &[(body.name(), BODY)]);
         }
@@ -170,6 +174,12 @@ impl<'a> Picture<'a> {
             On::Point(rigid, point) => rigid_side(rigid.body, self.scene.dimension, point),
             On::Interface(reduced, index) => {
                 let places = [reduced.body.place(index), reduced.body.center()];
+                let [p, centre] = places.map(|at| seen(self.scene.dimension, at));
+                away(p, centre)
+            }
+            On::Patch(plate, index) => {
+                let [middle, ..] = plate.body.geometry().corner([0.5; 2]);
+                let places = [plate.position(index), middle];
                 let [p, centre] = places.map(|at| seen(self.scene.dimension, at));
                 away(p, centre)
             }

@@ -36,6 +36,7 @@ impl<const D: usize> Builder<'_, D> {
                 let unit = Vector::<3>::ith(k, 1.0).into();
                 built.directed(reduced.body.contained().directed(unit))
             }
+            Place::Patch(..) => built.directed(Vector::<3>::ith(k, 1.0).into()),
             Place::Along(cable, _) if built.is_framed() => {
                 let unit = Vector::<3>::ith(k, 1.0).into();
                 let line = self.lines.get(&cable.id.body_index());

@@ -59,6 +59,7 @@ impl<const D: usize> Builder<'_, D> {
                     self.particle(index, rigid.body);
                 }
             }
+            BodyReference::Plate(plate) => axes = self.patch(plate),
             BodyReference::Reduced(of) if of.body.is_rigid() => arm = self.rigid_model(of),
             BodyReference::Reduced(of) => {
                 reduced = Some(self.reduced(of)?);

@@ -136,6 +136,9 @@ impl<const D: usize> Motions<D> {
             }
             // Sections turn with the line that deforms: they begin without a rate of shear.
             for (line, second) in (nodes.start..).zip(axes) {
+                if self.deformation[line] == no_node() {
+                    continue;
+                }
                 let slope = components(&x[line][1].into()).into();
                 let turn = turn_of(
                     &slope,

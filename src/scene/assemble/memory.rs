@@ -14,6 +14,8 @@ const BYTES_OF_BEAM: [usize; 2] = [24_000, 46_000];
 const BYTES_OF_BODY: [usize; 2] = [12_000, 21_000];
 /// Memory of a pair of modes of a reduced body: its terms of inertia, coupling and displacements, and factors.
 const BYTES_OF_MODES: usize = 1_000;
+/// Memory of an element of a plate or shell.
+const BYTES_OF_PATCH: usize = 100_000;
 /// Memory of a joint, a gear or a motion.
 const BYTES_OF_JOINT: [usize; 2] = [18_000, 20_000];
 
@@ -52,7 +54,11 @@ impl Resolved<'_> {
                 let modes = reduced.body.first_modes();
                 BYTES_OF_BODY[place] + modes * modes * BYTES_OF_MODES
             }
-            _ => BYTES_OF_BODY[place],
+            BodyReference::Plate(plate) => {
+                let count = usize::try_from(plate.body.elements()).unwrap_or(usize::MAX);
+                count.saturating_mul(BYTES_OF_PATCH)
+            }
+            BodyReference::Rigid(_) | BodyReference::Cable(_) => BYTES_OF_BODY[place],
         };
         let bodies = self.bodies.iter().map(of_body);
         let joints = self.holders.iter().map(|_| BYTES_OF_JOINT[place]);

@@ -7,6 +7,7 @@ mod coordinates;
 mod initial;
 mod memory;
 mod modal;
+mod patch;
 mod ports;
 mod reduced;
 mod solids;
@@ -25,7 +26,7 @@ use super::resolved::{
 pub use modal::ModalLine;
 
 use super::{Error, OutputKind, Scene};
-use crate::bodies::{Bodies, LumpedMass, Marker, Node, ReducedBody};
+use crate::bodies::{Bodies, LumpedMass, Marker, Node, Patch, ReducedBody};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
@@ -66,6 +67,8 @@ pub struct Assembled<const D: usize = 2> {
     interfaces: BTreeMap<usize, Vec<usize>>,
     /// Lines that are reduced to modes, by the index of the body.
     lines: BTreeMap<usize, ModalLine>,
+    /// Bodies of plates and shells, in the order of their patches.
+    patches: Vec<usize>,
 }
 
 impl<const D: usize> Assembled<D> {
@@ -115,6 +118,12 @@ impl<const D: usize> Assembled<D> {
     /// A line that is reduced to modes and its body, by its place among all bodies; none of another one.
     pub fn modal_line(&self, body: usize) -> Option<(&ModalLine, &ReducedBody)> {
         self.lines.get(&body).zip(self.reduced(body))
+    }
+
+    /// The patch of a plate or shell, by its place among all bodies; none of another one.
+    pub fn patch(&self, body: usize) -> Option<&Patch> {
+        let index = self.patches.iter().position(|of| *of == body)?;
+        self.system.bodies().patches().get(index)
     }
 
     /// A reduced body, by its place among all bodies; none of another one.
@@ -172,6 +181,7 @@ impl Resolved<'_> {
             couplings: Vec::new(),
             interfaces: BTreeMap::new(),
             lines: BTreeMap::new(),
+            patches: Vec::new(),
             parts: self.parts(),
         };
         for index in 0..self.bodies.len() {
@@ -181,6 +191,7 @@ impl Resolved<'_> {
         builder.masses();
         builder.angles();
         builder.joints();
+        builder.edges();
         builder.gears();
         builder.motions();
         let first_load = builder.parts.loads.len();
@@ -213,6 +224,7 @@ impl Resolved<'_> {
             first_load,
             interfaces: builder.interfaces,
             lines,
+            patches: builder.patches,
         })
     }
 
@@ -223,6 +235,7 @@ impl Resolved<'_> {
             bodies: Bodies::default(),
             rigid: Vec::new(),
             joints: Vec::new(),
+            held: Vec::new(),
             drives: Vec::new(),
             winches: Vec::new(),
             loads: Vec::new(),
@@ -245,7 +258,9 @@ impl Resolved<'_> {
                 let container = reduced.body.contained();
                 (container.axes, container.center)
             }
-            resolved::BodyReference::Cable(_) | resolved::BodyReference::Rigid(_) => {
+            resolved::BodyReference::Cable(_)
+            | resolved::BodyReference::Rigid(_)
+            | resolved::BodyReference::Plate(_) => {
                 (Matrix3::identity(), Vector3::zeros())
             }
         }
@@ -274,6 +289,8 @@ pub struct Builder<'a, const D: usize> {
     interfaces: BTreeMap<usize, Vec<usize>>,
     /// Lines that are reduced to modes, by the index of the body.
     lines: BTreeMap<usize, ModalLine>,
+    /// Bodies of plates and shells, in the order of their patches.
+    patches: Vec<usize>,
     pub(super) parts: Parts<D>,
 }
 
@@ -285,6 +302,7 @@ impl<const D: usize> Builder<'_, D> {
                 Place::Along(cable, s) => self.along(cable, s),
                 Place::Point(rigid, point) => self.point(rigid, point),
                 Place::Interface(reduced, index) => self.interface(reduced, index),
+                Place::Patch(plate, index) => self.on_patch(plate, index),
             });
         }
     }
@@ -298,7 +316,9 @@ impl<const D: usize> Builder<'_, D> {
             let marker = match mass.marker.place {
                 // On the line of a rod.
                 Place::Along(cable, s) => self.on_line_of(cable, s),
-                Place::Point(..) | Place::Interface(..) => self.marker(mass.marker),
+                Place::Point(..) | Place::Interface(..) | Place::Patch(..) => {
+                    self.marker(mass.marker)
+                }
             };
             // Of a rigid body of space it is in the inertia.
             if marker.is_framed() {

@@ -24,6 +24,10 @@ pub enum ActionKind {
     DistributedForce,
     /// On a rod or beam, N m/m.
     DistributedMoment,
+    /// On a plate or shell along its normal, Pa.
+    Pressure,
+    /// On a plate or shell, N/m^2.
+    AreaForce,
 }
 
 /// Part that a force or moment acts on.
@@ -37,6 +41,8 @@ pub enum ActsOn {
     Cable,
     /// The sections of a rod or beam as a whole.
     Sections,
+    /// The surface of a plate or shell as a whole.
+    Surface,
 }
 
 impl ActionKind {
@@ -48,6 +54,8 @@ impl ActionKind {
             Self::Torque => (ActsOn::Joint, false, ["torque", "N·m"]),
             Self::DistributedForce => (ActsOn::Cable, true, ["distributed force", "N/m"]),
             Self::DistributedMoment => (ActsOn::Sections, false, ["distributed moment", "N·m/m"]),
+            Self::Pressure => (ActsOn::Surface, false, ["pressure", "Pa"]),
+            Self::AreaForce => (ActsOn::Surface, true, ["area force", "N/m²"]),
         }
     }
 
@@ -61,7 +69,7 @@ impl ActionKind {
         matches!(self.acts_on(), ActsOn::Cable | ActsOn::Sections)
     }
 
-    /// Whether it is a force, not a moment.
+    /// Whether it is a force with components, not a moment or a pressure.
     pub fn is_force(self) -> bool {
         self.declaration().1
     }
@@ -71,14 +79,16 @@ impl ActionKind {
         self.declaration().2
     }
 
-    /// Number of components: those of a force in so many dimensions; of moments 1 in the plane, 3 in space; 1 of a torque.
+    /// Number of components: those of a force in so many dimensions; of moments 1 in the plane, 3 in space; 1 of a torque or a pressure.
     pub fn components(self, dimension: usize) -> usize {
         match self {
             Self::Moment | Self::DistributedMoment if dimension == 2 => 1,
-            Self::Torque => 1,
-            Self::Force | Self::DistributedForce | Self::Moment | Self::DistributedMoment => {
-                dimension
-            }
+            Self::Torque | Self::Pressure => 1,
+            Self::Force
+            | Self::DistributedForce
+            | Self::Moment
+            | Self::DistributedMoment
+            | Self::AreaForce => dimension,
         }
     }
 }

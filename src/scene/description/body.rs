@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::accuracy::elements;
 use super::section::between;
 use super::{
-    FileBody, Inertia, Orientation, SceneVector, Section, SectionNumbers, Solid, Spin, Station,
+    FileBody, Inertia, Orientation, PatchBody, SceneVector, Section, SectionNumbers, Solid, Spin,
+    Station,
 };
 
 /// A body; `element` says of which kind.
@@ -38,6 +39,12 @@ pub enum Body {
     /// Finite element model reduced to modes, from a file. It moves freely, with small deformations.
     #[schemars(title = "ReducedBody")]
     Reduced(FileBody),
+    /// Thin plate, flat without stress: stretches and bends. In space.
+    #[schemars(title = "Plate")]
+    Plate(PatchBody),
+    /// Thin shell, flat or curved without stress: stretches and bends. In space.
+    #[schemars(title = "Shell")]
+    Shell(PatchBody),
 }
 
 /// A body of cable elements, or a rigid rod where they need not bend.

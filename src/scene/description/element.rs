@@ -5,6 +5,7 @@ use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 use super::body::{Body, InitialMotion, LineBody, LineModel, RigidBody};
+use super::patch::PatchBody;
 use super::reduced::FileBody;
 use super::section::Section;
 use super::strict::{Strict, at, typed};
@@ -13,7 +14,7 @@ impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let wrong = |found: &str| {
             let message = format!(
-                "expected \"cable\", \"rod\", \"beam\", \"auto\", \"rigid\" or \"reduced\", found {found}"
+                "expected \"cable\", \"rod\", \"beam\", \"auto\", \"rigid\", \"reduced\", \"plate\" or \"shell\", found {found}"
             );
             D::Error::custom(at("element", &message))
         };
@@ -31,6 +32,8 @@ impl<'de> Deserialize<'de> for Body {
             Some("auto") => typed(value).map(Self::Auto),
             Some("rigid") => typed(value).map(Self::Rigid),
             Some("reduced") => typed(value).map(Self::Reduced),
+            Some("plate") => typed(value).map(Self::Plate),
+            Some("shell") => typed(value).map(Self::Shell),
             _ => Err(wrong(&element.to_string())),
         }
     }
@@ -48,6 +51,7 @@ impl Body {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => &body.name,
             Self::Rigid(body) => &body.name,
             Self::Reduced(body) => &body.name,
+            Self::Plate(body) | Self::Shell(body) => &body.name,
         }
     }
 
@@ -59,6 +63,7 @@ impl Body {
             }
             Self::Rigid(body) => &body.motion,
             Self::Reduced(body) => &body.motion,
+            Self::Plate(body) | Self::Shell(body) => &body.motion,
         }
     }
 
@@ -70,6 +75,7 @@ impl Body {
             }
             Self::Rigid(body) => &mut body.motion,
             Self::Reduced(body) => &mut body.motion,
+            Self::Plate(body) | Self::Shell(body) => &mut body.motion,
         }
     }
 
@@ -81,6 +87,9 @@ impl Body {
             }
             Self::Rigid(body) => body.markers.keys().map(String::as_str).collect(),
             Self::Reduced(body) => body.markers.keys().map(String::as_str).collect(),
+            Self::Plate(body) | Self::Shell(body) => {
+                body.markers.keys().map(String::as_str).collect()
+            }
         }
     }
 
@@ -88,7 +97,7 @@ impl Body {
     pub fn cable(&self) -> Option<&LineBody> {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
-            Self::Rigid(_) | Self::Reduced(_) => None,
+            _ => None,
         }
     }
 
@@ -101,7 +110,7 @@ impl Body {
     pub fn cable_mut(&mut self) -> Option<&mut LineBody> {
         match self {
             Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
-            Self::Rigid(_) | Self::Reduced(_) => None,
+            _ => None,
         }
     }
 
@@ -109,9 +118,7 @@ impl Body {
     pub fn rigid(&self) -> Option<&RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Reduced(_) => {
-                None
-            }
+            _ => None,
         }
     }
 
@@ -119,9 +126,7 @@ impl Body {
     pub fn rigid_mut(&mut self) -> Option<&mut RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Reduced(_) => {
-                None
-            }
+            _ => None,
         }
     }
 
@@ -129,7 +134,7 @@ impl Body {
     pub fn reduced(&self) -> Option<&FileBody> {
         match self {
             Self::Reduced(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Rigid(_) => None,
+            _ => None,
         }
     }
 
@@ -137,7 +142,23 @@ impl Body {
     pub fn reduced_mut(&mut self) -> Option<&mut FileBody> {
         match self {
             Self::Reduced(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) | Self::Rigid(_) => None,
+            _ => None,
+        }
+    }
+
+    /// The body if it is a plate or a shell.
+    pub fn patch(&self) -> Option<&PatchBody> {
+        match self {
+            Self::Plate(body) | Self::Shell(body) => Some(body),
+            _ => None,
+        }
+    }
+
+    /// The body, to be changed, if it is a plate or a shell.
+    pub fn patch_mut(&mut self) -> Option<&mut PatchBody> {
+        match self {
+            Self::Plate(body) | Self::Shell(body) => Some(body),
+            _ => None,
         }
     }
 }

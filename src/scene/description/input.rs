@@ -19,6 +19,10 @@ kinds! {
         DistributedForce(DistributedForceInput),
         /// Moment per reference length of a rod or beam, N m/m.
         DistributedMoment(DistributedMomentInput),
+        /// Pressure on a plate or shell, Pa.
+        Pressure(PressureInput),
+        /// Force in global axes per area of a plate or shell, N/m^2.
+        AreaForce(AreaForceInput),
         /// Length at rest of a spring-damper, m.
         RestLength(RestLengthInput),
         /// Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
@@ -89,6 +93,26 @@ pub struct DistributedMomentInput {
     pub start: Vec<f64>,
 }
 
+/// A pressure on a plate or shell that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PressureInput {
+    /// Name of the plate or shell that the pressure acts on.
+    pub body: String,
+    /// Pressure before the master sets it, along the normal, Pa: one value; 0 by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// A force over a plate or shell that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AreaForceInput {
+    /// Name of the plate or shell that the force acts on.
+    pub body: String,
+    /// Components of the force per area before the master sets it, N/m^2; zeros by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
 /// A length at rest that the master sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RestLengthInput {
@@ -128,6 +152,8 @@ impl Input {
             Self::Torque(of) => (ActionKind::Torque, &of.joint, false),
             Self::DistributedForce(of) => (ActionKind::DistributedForce, &of.body, false),
             Self::DistributedMoment(of) => (ActionKind::DistributedMoment, &of.body, of.follower),
+            Self::Pressure(of) => (ActionKind::Pressure, &of.body, false),
+            Self::AreaForce(of) => (ActionKind::AreaForce, &of.body, false),
             Self::RestLength(_) | Self::Release(_) | Self::Current(_) => return None,
         };
         Some(Acting { kind, on, follower })
@@ -141,6 +167,8 @@ impl Input {
             Self::Torque(of) => &of.start,
             Self::DistributedForce(of) => &of.start,
             Self::DistributedMoment(of) => &of.start,
+            Self::Pressure(of) => &of.start,
+            Self::AreaForce(of) => &of.start,
             Self::RestLength(of) => &of.start,
             Self::Release(of) => &of.start,
             Self::Current(of) => &of.start,

@@ -9,6 +9,7 @@ mod initial;
 mod input;
 mod kinds;
 mod output;
+mod patch;
 mod port;
 mod reader;
 mod reduced;
@@ -42,6 +43,7 @@ pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
+pub use patch::{LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface};
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;
 pub use reduced::{DampingRatio, FileBody, FixedInterfaceModes, Modes, ModesUpTo};
@@ -217,7 +219,9 @@ impl Scene {
 
     /// Error in time that a step may make: as given, or by the kinds of bodies.
     pub fn relative_tolerance(&self) -> f64 {
-        let deforms = |body: &Body| body.flexible().is_some() || body.reduced().is_some();
+        let deforms = |body: &Body| {
+            body.flexible().is_some() || body.reduced().is_some() || body.patch().is_some()
+        };
         let is_rigid = !self.bodies.iter().any(deforms);
         let default = if is_rigid { 1e-7 } else { 1e-4 };
         self.accuracy.relative_tolerance.unwrap_or(default)

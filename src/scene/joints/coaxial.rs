@@ -40,8 +40,8 @@ impl Resolved<'_> {
 fn bodies(joint: &ResolvedJoint<'_>) -> Option<[Option<usize>; 2]> {
     let rigid = |place: Place<'_>| match place {
         Place::Point(..) => Some(place.body_index()),
-        // Interfaces of a body that deforms turn each on its own.
-        Place::Along(..) | Place::Interface(..) => None,
+        // Markers of a body that deforms turn each on its own.
+        Place::Along(..) | Place::Interface(..) | Place::Patch(..) => None,
     };
     let second = rigid(joint.ends.second.place)?;
     let mut both = match joint.ends.first {

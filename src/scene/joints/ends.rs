@@ -147,6 +147,10 @@ fn global(ends: &Ends<'_>, direction: [f64; 3]) -> [f64; 3] {
             place: Place::Interface(reduced, _),
             ..
         }) => reduced.body.directed(direction),
+        First::Marker(ResolvedMarker {
+            place: Place::Patch(plate, index),
+            ..
+        }) => plate.directed(index, direction),
         _ => direction,
     }
 }

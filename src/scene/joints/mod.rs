@@ -5,6 +5,7 @@ mod coaxial;
 mod constant_velocity;
 mod cylindrical;
 mod distance;
+mod edge;
 mod ends;
 mod gear;
 mod generic;
@@ -35,7 +36,8 @@ use super::description::SceneVector;
 use super::description::tagged::{Kinds, kinds, part};
 use super::marker::length;
 use super::resolved::{
-    ConstraintOwnerId, Ends, First, Pivot, Place, Resolved, ResolvedMarker, SlideId, Slider,
+    ConstraintOwnerId, EdgeHold, Ends, First, Pivot, Place, Resolved, ResolvedMarker, SlideId,
+    Slider,
 };
 use super::unit::spring_units;
 use super::validate::checks::{
@@ -83,6 +85,8 @@ pub enum CoordinateKind {
 /// A joint with its references resolved.
 #[derive(Clone, Debug)]
 pub struct ResolvedJoint<'a> {
+    /// Place among the joints of the scene.
+    pub index: usize,
     /// Name.
     pub name: &'a str,
     /// Which holder it is.
@@ -201,6 +205,11 @@ pub trait SceneJoint {
         Ok(())
     }
 
+    /// What it holds of an edge of a plate or shell, if it is a joint of one: its ends are no markers then.
+    fn edge(&self) -> Option<EdgeHold> {
+        None
+    }
+
     /// Checks the values of its own keys.
     ///
     /// # Errors
@@ -274,6 +283,12 @@ joints! {
     PointOnCable(point_on_cable::PointOnCable) from 2,
     /// Holds, in space, what `free` does not name.
     Generic(generic::Generic) from 3,
+    /// Holds an edge of a plate or shell on the ground, and the normal along it. The edge may not stretch; beside it the surface may.
+    Clamped(edge::ClampedEdge) from 3,
+    /// Holds an edge of a plate or shell on the ground, about which it may rotate.
+    Pinned(edge::PinnedEdge) from 3,
+    /// Holds an edge of a plate or shell in a plane of symmetry, and the normal there.
+    Symmetry(edge::SymmetryEdge) from 3,
 }
 
 impl JointKind {
@@ -313,17 +328,18 @@ impl<'a> Resolved<'a> {
     /// A missing key, a marker that does not exist, or ends or axes that the kind does not allow.
     pub(super) fn resolve_joints(&mut self) -> Result<(), Error> {
         let dimension = self.scene.dimension;
-        for (
-            index,
-            Joint {
+        for (index, joint) in self.scene.joints.iter().enumerate() {
+            let Joint {
                 name,
                 kind,
                 release_time,
-            },
-        ) in self.scene.joints.iter().enumerate()
-        {
+            } = joint;
             let path = format!("joints[{index}]");
             kind.validate_dimension(&path, dimension)?;
+            if let Some(hold) = kind.edge() {
+                self.resolve_edge(&path, joint, hold)?;
+                continue;
+            }
             let parts = kind.parts();
             let ends = self.joint_ends(&path, kind.markers(), &parts)?;
             parts.check(&path, dimension)?;
@@ -336,6 +352,7 @@ impl<'a> Resolved<'a> {
             let slide = is_slide.then(|| SlideId(before.count()));
             let holder = self.hold(&path, name);
             self.joints.push(ResolvedJoint {
+                index,
                 name,
                 holder,
                 given: kind,
@@ -432,7 +449,7 @@ impl<'a> ResolvedJoint<'a> {
                 [cos * x - sin * y, sin * x + cos * y, 0.0]
             }
             First::Marker(ResolvedMarker {
-                place: Place::Point(..) | Place::Interface(..),
+                place: Place::Point(..) | Place::Interface(..) | Place::Patch(..),
                 ..
             }) => direction,
             First::Marker(_) | First::Cable(_) => return None,

@@ -7,9 +7,12 @@ use crate::math::function::Function;
 use crate::math::space::axis;
 use crate::scene::assemble::{each, unit};
 use crate::scene::description::{Acting, ActionKind, ActsOn, LoadValue, is_false};
-use crate::scene::resolved::Pivot;
+use crate::scene::resolved::{Pivot, Plate};
 use crate::system::Direction;
-use crate::system::loads::{DistributedForce, DistributedMoment, Force, Moment, SpatialMoment};
+use crate::system::loads::{
+    AreaAction, AreaLoad, AreaValues, DistributedForce, DistributedMoment, Force, Moment,
+    SpatialMoment,
+};
 
 /// The axis of the plane.
 const THIRD: [f64; 3] = [0.0, 0.0, 1.0];
@@ -71,6 +74,24 @@ pub struct DistributedMomentLoad {
     pub value: LoadValue,
 }
 
+/// A pressure on a plate or shell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PressureLoad {
+    /// Name of the plate or shell that the pressure acts on.
+    pub body: String,
+    /// Pressure along the normal, Pa: one value.
+    pub value: LoadValue,
+}
+
+/// A force over the surface of a plate or shell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AreaForceLoad {
+    /// Name of the plate or shell that the force acts on.
+    pub body: String,
+    /// Components of the force per area, N/m^2.
+    pub value: LoadValue,
+}
+
 /// A force or a moment, known or an input.
 #[derive(Clone, Debug)]
 pub struct Action<'a> {
@@ -116,6 +137,8 @@ acts! {
     Torque: Torque on joint;
     DistributedForceLoad: DistributedForce on body;
     DistributedMomentLoad: DistributedMoment on body with follower;
+    PressureLoad: Pressure on body;
+    AreaForceLoad: AreaForce on body;
 }
 
 impl<L: Acts> SceneLoad for L {
@@ -200,6 +223,14 @@ impl<'a> ActingLoad<'a> for Action<'a> {
     }
 }
 
+/// Components that are the same all over a plate or shell.
+fn everywhere<const K: usize>(components: &[Signal]) -> AreaValues<K> {
+    AreaValues {
+        uniform: each(components),
+        along: std::array::from_fn(|_| Vec::new()),
+    }
+}
+
 /// The components of a load as functions of time.
 fn signals(
     path: &str,
@@ -247,6 +278,7 @@ impl<'a> Resolved<'a> {
             }
             ActsOn::Cable => LoadPlace::Line(self.require_cable(&at("body"), on)?),
             ActsOn::Sections => LoadPlace::Line(self.require_sections(&at("body"), on)?),
+            ActsOn::Surface => LoadPlace::Surface(self.require_plate(&at("body"), on)?),
         };
         Ok(Action {
             kind,
@@ -283,12 +315,25 @@ impl<const D: usize> Builder<'_, D> {
             LoadPlace::Marker(marker) => moment(self.on_marker(marker)),
             LoadPlace::Coordinate(on) => moment(self.ends(on.ends())),
             LoadPlace::Ends(ends) => moment(self.ends(ends)),
+            LoadPlace::Surface(plate) => self.over(plate, action),
             LoadPlace::Line(cable) if !action.kind.is_force() => self.moment_along(cable, action),
             LoadPlace::Line(cable) => AppliedLoad::DistributedForce(DistributedForce {
                 on: self.line(cable),
                 density: uniform(components),
             }),
         }
+    }
+
+    /// A load over the surface of a plate or shell.
+    fn over(&self, plate: Plate<'_>, action: &Action<'_>) -> AppliedLoad<D> {
+        let components = &action.components;
+        AppliedLoad::AreaLoad(Box::new(AreaLoad {
+            patch: self.patch_index(plate),
+            action: match action.kind {
+                ActionKind::Pressure => AreaAction::Pressure(everywhere(components)),
+                _ => AreaAction::Force(everywhere(components)),
+            },
+        }))
     }
 
     /// A moment along a rod or beam.

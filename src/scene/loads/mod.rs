@@ -254,6 +254,10 @@ loads! {
     /// Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
     /// global axes where it does not follow. In space it is not conservative: its work depends on the path of the rotations.
     DistributedMoment(action::DistributedMomentLoad): Action<'a>,
+    /// Pressure along the normal of a plate or shell, which follows it, by its present area, Pa.
+    Pressure(action::PressureLoad): Action<'a>,
+    /// Force in global axes per area of a plate or shell without stress, N/m^2.
+    AreaForce(action::AreaForceLoad): Action<'a>,
     /// Spring and damper side by side between two points.
     SpringDamper(spring_damper::SpringDamper): spring_damper::ResolvedSpring<'a>,
     /// Spring and damper side by side between two points, whose forces are tables over length and over its rate.

@@ -2,7 +2,7 @@
 
 use crate::scene::Error;
 use crate::scene::joints::CoordinateKind;
-use crate::scene::resolved::{Cable, Ends, JointCoordinate, Resolved, ResolvedMarker};
+use crate::scene::resolved::{Cable, Ends, JointCoordinate, Plate, Resolved, ResolvedMarker};
 
 /// Place of a load or a motion on bodies.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +15,8 @@ pub enum LoadPlace<'a> {
     Coordinate(JointCoordinate<'a>),
     /// A cable, rod or beam along its line.
     Line(Cable<'a>),
+    /// The surface of a plate or shell.
+    Surface(Plate<'a>),
 }
 
 impl<'a> LoadPlace<'a> {
@@ -23,7 +25,7 @@ impl<'a> LoadPlace<'a> {
         match self {
             Self::Marker(marker) => vec![*marker],
             Self::Ends(ends) => ends.markers(),
-            Self::Coordinate(_) | Self::Line(_) => Vec::new(),
+            Self::Coordinate(_) | Self::Line(_) | Self::Surface(_) => Vec::new(),
         }
     }
 
@@ -34,6 +36,7 @@ impl<'a> LoadPlace<'a> {
             Self::Ends(ends) => ends.second.name,
             Self::Coordinate(on) => on.name(),
             Self::Line(cable) => &cable.body.name,
+            Self::Surface(plate) => &plate.body.name,
         }
     }
 
@@ -41,7 +44,7 @@ impl<'a> LoadPlace<'a> {
     pub fn ends(&self) -> Option<Ends<'a>> {
         match self {
             Self::Ends(ends) => Some(*ends),
-            Self::Marker(_) | Self::Coordinate(_) | Self::Line(_) => None,
+            Self::Marker(_) | Self::Coordinate(_) | Self::Line(_) | Self::Surface(_) => None,
         }
     }
 
@@ -51,7 +54,7 @@ impl<'a> LoadPlace<'a> {
             Self::Marker(marker) => Some(*marker),
             Self::Ends(ends) => Some(ends.second),
             Self::Coordinate(on) => Some(on.ends().second),
-            Self::Line(_) => None,
+            Self::Line(_) | Self::Surface(_) => None,
         }
     }
 
@@ -62,6 +65,7 @@ impl<'a> LoadPlace<'a> {
             Self::Ends(ends) => ends.bodies(),
             Self::Coordinate(on) => on.ends().bodies(),
             Self::Line(cable) => vec![cable.id.body_index()],
+            Self::Surface(plate) => vec![plate.id.index()],
         }
     }
 

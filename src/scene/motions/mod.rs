@@ -261,7 +261,7 @@ impl<const D: usize> Builder<'_, D> {
             let ends = match motion.driven.quantity().place {
                 LoadPlace::Marker(marker) => self.on_marker(marker),
                 LoadPlace::Coordinate(of) => self.ends(of.ends()),
-                LoadPlace::Ends(_) | LoadPlace::Line(_) => continue,
+                LoadPlace::Ends(_) | LoadPlace::Line(_) | LoadPlace::Surface(_) => continue,
             };
             self.hold(primitive, ends);
         }

@@ -153,7 +153,7 @@ impl<'a> Resolved<'a> {
     fn acts_along(&self, cable: Cable<'a>) -> Option<&'a str> {
         let is_inside = |marker: &ResolvedMarker<'a>| match marker.place {
             Place::Along(of, at) => of.id == cable.id && ![0.0, 1.0].contains(&at),
-            Place::Point(..) | Place::Interface(..) => false,
+            Place::Point(..) | Place::Interface(..) | Place::Patch(..) => false,
         };
         if let Some(marker) = self.acted_on().into_iter().find(is_inside) {
             return Some(marker.name);

@@ -35,6 +35,8 @@ impl Body {
             }
             Self::Rigid(body) => body.validate(path, dimension),
             Self::Reduced(body) => body.validate(path, dimension),
+            Self::Plate(body) => body.validate(path, dimension, true),
+            Self::Shell(body) => body.validate(path, dimension, false),
         }?;
         self.motion()
             .validate(&format!("{path}.motion"), dimension)?;
@@ -437,6 +439,11 @@ impl Resolved<'_> {
             let at = |key: &str| format!("{path}.{key}");
             let marker = self.require_marker(&at("marker"), &mass.marker)?;
             let is_reduced = match marker.place {
+                Place::Patch(..) => {
+                    let wanted =
+                        "a marker of another body than a plate or shell; weld a rigid body there";
+                    return Err(expected(&at("marker"), wanted, quoted(&mass.marker)));
+                }
                 Place::Interface(..) => true,
                 Place::Along(cable, _) => cable.is_modal(),
                 Place::Point(..) => false,

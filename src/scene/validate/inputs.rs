@@ -93,7 +93,9 @@ impl<'a> Resolved<'a> {
             | Input::Moment(_)
             | Input::Torque(_)
             | Input::DistributedForce(_)
-            | Input::DistributedMoment(_) => unreachable!("a force or a moment"),
+            | Input::DistributedMoment(_)
+            | Input::Pressure(_)
+            | Input::AreaForce(_) => unreachable!("a force or a moment"),
         })
     }
 

@@ -6,6 +6,7 @@ pub(super) mod checks;
 mod inputs;
 mod lines;
 mod outputs;
+mod patch;
 mod ports;
 mod reduced;
 mod references;
@@ -19,7 +20,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use super::resolved::{ConstraintOwner, ConstraintOwnerId, Resolved};
-use super::{Error, InitialState, Scene};
+use super::{Error, InitialState, PatchBody, Scene};
 pub(super) use references::refuse_point;
 
 use checks::{expected, name, positive, scene_name, sentence, spin, vector};
@@ -109,7 +110,11 @@ impl Scene {
     pub(super) fn elements(&self) -> u64 {
         let cables = self.bodies.iter().filter_map(|body| body.flexible());
         let counts = cables.map(|cable| cable.elements.unwrap_or(1));
-        counts.map(u64::from).sum()
+        let patches = self.bodies.iter().filter_map(|body| body.patch());
+        counts
+            .map(u64::from)
+            .chain(patches.map(PatchBody::elements))
+            .sum()
     }
 
     fn validate_bodies(&self) -> Result<(), Error> {

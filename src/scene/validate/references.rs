@@ -4,7 +4,7 @@ use super::checks::{expected, quoted, unknown, vector};
 use crate::scene::joints::{CoordinateKind, ResolvedJoint};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
-    BodyReference, Cable, Ends, First, Form, JointCoordinate, Pivot, Place, Resolved,
+    BodyReference, Cable, Ends, First, Form, JointCoordinate, Pivot, Place, Plate, Resolved,
     ResolvedMarker, Slider,
 };
 use crate::scene::{Error, LineBody, SceneVector};
@@ -104,6 +104,10 @@ impl<'a> Resolved<'a> {
                 let wanted = "a rigid body; drive one that is welded to the interface";
                 Err(expected(path, wanted, quoted(name)))
             }
+            Place::Patch(..) => {
+                let wanted = "a rigid body; drive one that is welded to the plate or shell";
+                Err(expected(path, wanted, quoted(name)))
+            }
             Place::Point(rigid, _) if rigid.body.inertia().thin().is_some() => {
                 let wanted = "a body with a moment of inertia about every axis";
                 Err(expected(path, wanted, quoted(name)))
@@ -142,7 +146,7 @@ impl<'a> Resolved<'a> {
     ) -> Result<ResolvedMarker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         match marker.place {
-            Place::Along(..) | Place::Interface(..) => Ok(marker),
+            Place::Along(..) | Place::Interface(..) | Place::Patch(..) => Ok(marker),
             Place::Point(..) => {
                 let wanted = "a marker of a cable or a reduced body";
                 Err(expected(path, wanted, quoted(name)))
@@ -166,7 +170,9 @@ impl<'a> Resolved<'a> {
                 Err(modal(path, "a line whose sections are read", &cable))
             }
             Place::Along(..) => Ok(marker),
-            Place::Point(..) | Place::Interface(..) => Err(expected(path, wanted, quoted(name))),
+            Place::Point(..) | Place::Interface(..) | Place::Patch(..) => {
+                Err(expected(path, wanted, quoted(name)))
+            }
         }
     }
 
@@ -221,6 +227,22 @@ impl<'a> Resolved<'a> {
             Some(BodyReference::Cable(cable)) => Ok(*cable),
             _ => Err(self.no_line(path, "cable", |_| true, name)),
         }
+    }
+
+    /// Finds a plate or shell that something acts on.
+    ///
+    /// # Errors
+    /// The body does not exist, or is no plate or shell.
+    pub(crate) fn require_plate(&self, path: &str, name: &str) -> Result<Plate<'a>, Error> {
+        if let Some(BodyReference::Plate(plate)) = self.bodies_by_name.get(name) {
+            return Ok(*plate);
+        }
+        let known = self.bodies.iter().filter_map(|body| match body {
+            BodyReference::Plate(plate) => Some(&*plate.body.name),
+            _ => None,
+        });
+        let wanted = "the name of a plate or shell of this scene";
+        Err(unknown(path, wanted, name, known))
     }
 
     /// Finds a rod or a beam that something acts along.
@@ -332,6 +354,10 @@ impl<'a> Resolved<'a> {
 
     /// Describes a reference to a joint that does not exist.
     pub(crate) fn no_joint(&self, path: &str, name: &str) -> Error {
+        if self.edges.iter().any(|edge| edge.name == name) {
+            let wanted = "a joint of markers (nothing is read or driven at joints of edges yet)";
+            return expected(path, wanted, quoted(name));
+        }
         let known = self.joints.iter().map(|joint| joint.name);
         unknown(path, "a joint of this scene", name, known)
     }

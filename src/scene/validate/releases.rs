@@ -31,9 +31,8 @@ impl Resolved<'_> {
     /// A joint that breaks this rule.
     pub(super) fn check_releases(&self) -> Result<(), Error> {
         let acting = self.acting();
-        let joints = self.joints.iter().enumerate();
-        for (index, joint) in joints.filter(|(_, joint)| joint.release.is_some()) {
-            let path = format!("joints[{index}]");
+        for joint in self.joints.iter().filter(|joint| joint.release.is_some()) {
+            let path = format!("joints[{}]", joint.index);
             let acts = acting.iter().find(|(on, _)| *on == joint.holder);
             let found = match (joint.spring(), acts) {
                 (Some(_), _) => "a spring of its own".into(),

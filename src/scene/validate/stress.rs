@@ -68,7 +68,7 @@ impl<'a> Resolved<'a> {
     fn gauges_by_name(&self) -> impl Iterator<Item = (String, ResolvedGauge<'a>)> {
         let reduced = self.bodies.iter().filter_map(|body| match *body {
             BodyReference::Reduced(reduced) => Some(reduced),
-            BodyReference::Cable(_) | BodyReference::Rigid(_) => None,
+            BodyReference::Cable(_) | BodyReference::Rigid(_) | BodyReference::Plate(_) => None,
         });
         reduced.flat_map(|reduced| {
             let stresses = &reduced.body.contained().details.stresses;

@@ -3,6 +3,7 @@
 
 mod contacts;
 mod fluids;
+mod patches;
 mod planar_beams;
 mod reduced;
 mod releases;
@@ -458,7 +459,7 @@ fn nodes_are_where_something_acts_or_is_cut() {
     let cables: Vec<_> = (resolved.bodies.iter())
         .filter_map(|body| match body {
             BodyReference::Cable(cable) => Some(*cable),
-            BodyReference::Rigid(_) | BodyReference::Reduced(_) => None,
+            BodyReference::Rigid(_) | BodyReference::Reduced(_) | BodyReference::Plate(_) => None,
         })
         .collect();
     assert_eq!(

@@ -173,6 +173,13 @@ fn words(
             let what = "Force per reference length on";
             ("distributed_force", what, NEWTON_PER_METRE, &AXES)
         }
+        (ActionKind::Pressure, _) => ("pressure", "Pressure along the normal of", PASCAL, &[""]),
+        (ActionKind::AreaForce, _) => (
+            "area_force",
+            "Force per area without stress on",
+            PASCAL,
+            &AXES,
+        ),
         (ActionKind::DistributedMoment, false) => {
             let what = "Moment per reference length on";
             ("distributed_moment", what, NEWTON_METRE_PER_METRE, &AXES)

@@ -15,7 +15,7 @@ pub(super) use parameters::set_parameter;
 
 use super::quantities::Quantity;
 use crate::scene::unit::SECOND;
-use crate::scene::{CouplingId, LineId, ReducedId, Resolved, RigidId, Scene};
+use crate::scene::{CouplingId, LineId, PlateId, ReducedId, Resolved, RigidId, Scene};
 
 /// A scalar variable of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,6 +121,18 @@ pub enum Parameter {
     Elements(LineId),
     /// Damping ratio of the modes of a reduced body.
     DampingRatio(ReducedId),
+    /// Young's modulus of a plate or shell.
+    PatchModulus(PlateId),
+    /// Poisson's ratio of a plate or shell.
+    PatchRatio(PlateId),
+    /// Density of a plate or shell.
+    PatchDensity(PlateId),
+    /// Kelvin-Voigt damping time of a plate or shell.
+    PatchDamping(PlateId),
+    /// Thickness of a plate or shell.
+    PatchThickness(PlateId),
+    /// Angle of the first axis of the section of a plate or shell.
+    PatchAngle(PlateId),
     /// Mass of a rigid body.
     Mass(RigidId),
     /// Density of a rigid body that has a shape.

@@ -4,7 +4,8 @@ use super::{AXES, List, Parameter, Source, component};
 use crate::math::space::spins;
 use crate::scene::unit::*;
 use crate::scene::{
-    self, BodyReference, Cable, DampingRatio, Inertia, PortKind, Reduced, Resolved, Rigid, Scene,
+    self, BodyReference, Cable, DampingRatio, Inertia, PatchBody, Plate, PortKind, Reduced,
+    Resolved, Rigid, Scene,
 };
 
 /// Key, meaning, unit, what it stands for, start value.
@@ -17,6 +18,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
             BodyReference::Cable(cable) => add_cable(list, cable, resolved.scene.dimension),
             BodyReference::Rigid(rigid) => add_rigid(list, rigid, resolved.scene.dimension),
             BodyReference::Reduced(reduced) => add_reduced(list, reduced),
+            BodyReference::Plate(plate) => add_plate(list, plate),
         }
     }
     for (i, mass) in resolved.masses.iter().enumerate() {
@@ -25,7 +27,8 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         let row = ("mass", what, Some(KILOGRAM), parameter, mass.mass);
         list.parameters(mass.marker.name, "at", &[row]);
     }
-    for (i, joint) in resolved.joints.iter().enumerate() {
+    for joint in &resolved.joints {
+        let i = joint.index;
         if let Some(time) = joint.release.and_then(|release| release.time) {
             let (what, parameter) = ("Time of the release", Parameter::ReleaseTime(i));
             let row = ("release_time", what, Some(SECOND), parameter, time);
@@ -158,6 +161,36 @@ fn add_reduced(list: &mut List, reduced: &Reduced<'_>) {
     }
 }
 
+/// Numbers of a plate or shell of one material, and of all the angle of its axes and the damping.
+fn add_plate(list: &mut List, plate: &Plate<'_>) {
+    use Parameter::*;
+    let (i, body) = (plate.id, plate.body);
+    let mut rows: Vec<ParameterRow<'_>> = Vec::new();
+    let damping = "Kelvin-Voigt damping time";
+    if let (Some(material), Some(thickness)) = (&body.material, body.thickness) {
+        #[rustfmt::skip] // a table
+        rows.extend([
+            ("youngs_modulus", "Young's modulus", Some(PASCAL), PatchModulus(i), material.youngs_modulus),
+            ("poisson_ratio", "Poisson's ratio", None, PatchRatio(i), material.poisson_ratio),
+            ("density", "Density", Some(DENSITY), PatchDensity(i), material.density),
+            ("damping_time", damping, Some(SECOND), PatchDamping(i), material.damping_time),
+            ("thickness", "Thickness", Some(METRE), PatchThickness(i), thickness),
+        ]);
+    } else {
+        let time = body.damping_time.unwrap_or_default();
+        rows.push(("damping_time", damping, Some(SECOND), PatchDamping(i), time));
+        let what = "Angle of the first axis of the section";
+        rows.push((
+            "axis_angle",
+            what,
+            Some(RADIAN),
+            PatchAngle(i),
+            body.axis_angle,
+        ));
+    }
+    list.parameters(&body.name, "of", &rows);
+}
+
 fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
     let (i, body) = (rigid.id, rigid.body);
     if let Some(density) = body.density {
@@ -232,7 +265,8 @@ fn add_loads(list: &mut List, resolved: &Resolved<'_>) {
 /// Stiffness and damping of hinges, loads and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
-    for (i, joint) in resolved.joints.iter().enumerate() {
+    for joint in &resolved.joints {
+        let i = joint.index;
         if let Some(starts) = joint.spring() {
             let parameters = [HingeStiffness(i), HingeDamping(i)];
             list.damper(joint.name, spring_units(true), parameters, starts);
@@ -298,6 +332,20 @@ fn set_inertia(inertia: &mut Option<Inertia>, axis: usize, value: f64) {
     }
 }
 
+/// Sets a number of the material of a plate or shell, or the damping of its section.
+fn set_patch(body: &mut PatchBody, parameter: Parameter, value: f64) {
+    use Parameter::*;
+    match (parameter, &mut body.material) {
+        (PatchModulus(_), Some(material)) => material.youngs_modulus = value,
+        (PatchRatio(_), Some(material)) => material.poisson_ratio = value,
+        (PatchDensity(_), Some(material)) => material.density = value,
+        (PatchDamping(_), Some(material)) => material.damping_time = value,
+        (PatchDamping(_), None) => body.damping_time = Some(value),
+        (PatchThickness(_), _) => body.thickness = Some(value),
+        _ => body.axis_angle = value,
+    }
+}
+
 /// Puts the value of a parameter into the scene that it came from.
 pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
     use Parameter::*;
@@ -322,6 +370,10 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
         DampingRatio(id) => {
             scene.reduced_mut(id).damping_ratio = scene::DampingRatio::Number(value);
+        }
+        PatchModulus(id) | PatchRatio(id) | PatchDensity(id) | PatchDamping(id)
+        | PatchThickness(id) | PatchAngle(id) => {
+            set_patch(scene.patch_mut(id), parameter, value);
         }
         Mass(id) => scene.rigid_mut(id).mass = Some(value),
         SolidDensity(id) => scene.rigid_mut(id).density = Some(value),

@@ -1,6 +1,7 @@
 //! Loads: what acts on bodies besides gravity and joints. One file a kind. A size that changes is a
 //! [`Signal`]: a function of time or an input.
 
+mod area_load;
 mod bushing;
 mod contact;
 mod convective_inertia;
@@ -17,6 +18,7 @@ mod spatial_moment;
 mod spring;
 mod table_spring;
 
+pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
 pub use contact::{Contact, ContactPoint, ContactSurface};
 pub use convective_inertia::ConvectiveInertia;
@@ -277,6 +279,8 @@ loads! {
     SpatialMoment(SpatialMoment<D>): SpatialMoment<D>,
     /// A dead force per reference length of a cable or a rod.
     DistributedForce(DistributedForce<D>): DistributedForce<D>,
+    /// Pressure or a dead force per area of a plate or shell.
+    AreaLoad(Box<AreaLoad>): AreaLoad,
     /// A moment per reference length of a rod or beam.
     DistributedMoment(Box<DistributedMoment>): DistributedMoment,
     /// A fluid that streams past a cable or a rod.

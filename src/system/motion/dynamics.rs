@@ -337,6 +337,22 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         self.system.add_held(stiffness, self.work);
     }
 
+    /// From now on tangents take the stress that a linear step from the remembered configuration predicts, or the present stress
+    /// (docs/decisions/0076-plates-and-shells.md). Of two configurations that are the same both agree.
+    pub fn predict_stress(&mut self, predicts: bool) {
+        self.work.linearization.predicts = predicts;
+    }
+
+    /// Remembers the configuration of the last tangent.
+    pub fn remember_configuration(&mut self) {
+        let Workspace {
+            kinematics,
+            linearization,
+            ..
+        } = &mut *self.work;
+        linearization.from.copy_from_slice(&kinematics.x);
+    }
+
     /// Solves in place over what the tangent is made in.
     fn solve_tangent(&mut self, x: &mut [f64]) {
         self.operations += SOLVE;

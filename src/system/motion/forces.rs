@@ -1,6 +1,6 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use crate::bodies::{Node, NodeBlock, add_node, map_node};
+use crate::bodies::{NodalMotion, Node, NodeBlock, add_node, map_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::instant::Instant;
@@ -192,7 +192,11 @@ impl<const D: usize> System<D> {
         tangent.clear();
         let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
         let matrices = [&mut *stiffness, &mut *damping];
-        (self.bodies).add_tangent(kinematics.motion(), assembly, matrices);
+        let motion = NodalMotion {
+            from: linearization.predicts.then_some(&linearization.from),
+            ..kinematics.motion()
+        };
+        (self.bodies).add_tangent(motion, assembly, matrices);
         let at = self.instant(time, kinematics);
         for load in &self.loads {
             load.add_tangent(

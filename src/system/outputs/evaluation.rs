@@ -195,6 +195,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             drives: &self.drives,
             x: &self.x,
             v: &self.v,
+            from: None,
         }
     }
 

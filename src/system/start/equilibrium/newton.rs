@@ -160,7 +160,10 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
                 }
                 strength = now;
             }
+            self.model.predict_stress(iteration > 0);
             self.linearize(state);
+            self.model.predict_stress(false);
+            self.model.remember_configuration();
             if !self.correct(&mut shift) {
                 return Err(correction);
             }

@@ -1,0 +1,328 @@
+//! Plates and shells: structured patches of elements through mesh nodes, and points on them with frames that follow.
+//!
+//! Nodes of a patch: two for each mesh node, `(r, r1)` and `(r2, unit r12)`, mesh line by mesh line of the first direction; then two for each
+//! point, its place and three axes, as those of an interface of a reduced body. Points have no coordinates. Place and axes follow from the
+//! mesh nodes of the elements that they stand on.
+
+mod body;
+mod point;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::Vector3;
+
+use super::connectivity::Node;
+use crate::elements::shell::{Corner, ElementCorners, Shell, ShellPack, ShellSection, VECTORS};
+use crate::math::jet::Number;
+use crate::math::lanes::PACK;
+use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
+use crate::math::space::{components, vector};
+use point::{PatchFrame, Term};
+
+/// A point of a patch that something acts on or is read at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchPoint {
+    /// Material coordinates along both directions, in [0, 1].
+    pub at: [f64; 2],
+    /// Lengths of the pad over which it is the mean, m; zeros of a bare point.
+    pub pad: [f64; 2],
+}
+
+/// A plate or shell: `n` by `m` elements.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    first: usize,
+    /// Places of the mesh lines along both directions, m.
+    lines: [Vec<f64>; 2],
+    /// The unstressed surface at mesh nodes.
+    corners: Vec<Corner>,
+    /// Elements, those along the second direction one after the other.
+    elements: Vec<Shell>,
+    packs: Vec<Pack>,
+    points: Vec<PatchFrame>,
+    is_damped: bool,
+}
+
+/// Elements that are computed together, at most [`PACK`].
+#[derive(Clone, Debug)]
+struct Pack {
+    first: usize,
+    count: usize,
+    kernel: ShellPack,
+}
+
+/// Elements in packs.
+fn packs(elements: &[Shell]) -> Vec<Pack> {
+    let (mut packs, mut first) = (Vec::new(), 0);
+    while first < elements.len() {
+        let rest = &elements[first..];
+        let alike = rest.iter().take_while(|element| rest[0].goes_with(element));
+        let count = alike.take(PACK).count();
+        packs.push(Pack {
+            first,
+            count,
+            kernel: Shell::pack(&rest[..count]),
+        });
+        first += count;
+    }
+    packs
+}
+
+impl Patch {
+    /// A patch from node `first` on: places of the mesh lines along both directions from 0 on (m), the unstressed surface at mesh nodes with
+    /// its derivatives by these lengths, `[(n + 1)(m + 1)]`, the section of each element, and points.
+    pub fn new(
+        first: usize,
+        lines: [Vec<f64>; 2],
+        nodes: &[Corner],
+        section: impl Fn(usize, usize) -> ShellSection,
+        points: &[PatchPoint],
+    ) -> Self {
+        let length = |k: usize| lines[k][lines[k].len() - 1];
+        let [n, m] = [0, 1].map(|k| lines[k].len() - 1);
+        let unit = (length(0) * length(1) / (n * m) as f64).sqrt();
+        let scaled = |corner: &Corner| {
+            let [r, r1, r2, r12] = *corner;
+            [r, r1, r2, r12.map(|component| component * unit)]
+        };
+        let mut patch = Self {
+            first,
+            lines,
+            corners: nodes.iter().map(scaled).collect(),
+            elements: Vec::new(),
+            packs: Vec::new(),
+            points: Vec::new(),
+            is_damped: false,
+        };
+        for element in 0..n * m {
+            let at = [element / m, element % m];
+            let corners = patch.mesh_nodes(element).map(|node| patch.corners[node]);
+            let section = section(at[0], at[1]);
+            let sizes = [0, 1].map(|k| patch.lines[k][at[k] + 1] - patch.lines[k][at[k]]);
+            (patch.elements).push(Shell::new(&section, (sizes, unit), &corners));
+        }
+        patch.is_damped = patch.elements.iter().any(Shell::is_damped);
+        patch.packs = packs(&patch.elements);
+        patch.points = points.iter().map(|point| patch.frame(point)).collect();
+        patch
+    }
+
+    /// Numbers of elements along both directions.
+    pub fn divisions(&self) -> [usize; 2] {
+        [0, 1].map(|k| self.lines[k].len() - 1)
+    }
+
+    /// Lengths along both directions, m.
+    pub fn lengths(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.lines[k][self.lines[k].len() - 1])
+    }
+
+    /// Elements, those along the second direction one after the other.
+    pub fn elements(&self) -> &[Shell] {
+        &self.elements
+    }
+
+    /// Mass, kg.
+    pub fn total_mass(&self) -> f64 {
+        let of_element = |element: &Shell| {
+            let weight = element.weight();
+            (0..4).map(|corner| weight[VECTORS * corner]).sum::<f64>()
+        };
+        self.elements.iter().map(of_element).sum()
+    }
+
+    /// First node of a mesh node. The second one follows it.
+    pub fn mesh_node(&self, i: usize, j: usize) -> usize {
+        self.first + 2 * (i * self.lines[1].len() + j)
+    }
+
+    /// First node of the frame of a point.
+    pub fn point_node(&self, index: usize) -> usize {
+        self.first + 2 * (self.corners.len() + index)
+    }
+
+    /// Second nodes of mesh nodes and of points, which hold no positions.
+    pub fn axes_nodes(&self) -> impl Iterator<Item = usize> {
+        self.all().skip(1).step_by(2)
+    }
+
+    /// All its nodes.
+    pub fn all(&self) -> std::ops::Range<usize> {
+        self.first..self.point_node(self.points.len())
+    }
+
+    /// Nodes of the mesh, which have coordinates.
+    pub(super) fn mesh(&self) -> std::ops::Range<usize> {
+        self.first..self.point_node(0)
+    }
+
+    /// Nodes of points.
+    pub(super) fn followers(&self) -> std::ops::Range<usize> {
+        self.mesh().end..self.all().end
+    }
+
+    /// Mesh nodes of an element, corner by corner, among those of the patch.
+    fn mesh_nodes(&self, element: usize) -> [usize; 4] {
+        let across = self.lines[1].len();
+        let (i, j) = (element / (across - 1), element % (across - 1));
+        [0, 1, 2, 3].map(|corner| (i + corner / 2) * across + j + corner % 2)
+    }
+
+    /// First nodes of the corners of an element.
+    fn corner_nodes(&self, element: usize) -> [usize; 4] {
+        self.mesh_nodes(element).map(|node| self.first + 2 * node)
+    }
+
+    /// Nodes whose coordinates forces on a point act on.
+    pub(super) fn acted(&self, point: usize) -> impl Iterator<Item = usize> {
+        self.points[point]
+            .followed()
+            .flat_map(|node| [node, node + 1])
+    }
+
+    /// Coordinates of all its nodes on the unstressed surface.
+    pub fn reference<const D: usize>(&self) -> Vec<Node<D>> {
+        let corner = |corner: &Corner| {
+            let [r, r1, r2, r12] = corner.map(|v| vector::<D, f64>(v).into());
+            [[r, r1], [r2, r12]]
+        };
+        let mut nodes: Vec<Node<D>> = self.corners.iter().flat_map(corner).collect();
+        nodes.resize(2 * (self.corners.len() + self.points.len()), [[0.0; D]; 2]);
+        // Places of nodes count from the first node of the system.
+        let mut all = vec![[[0.0; D]; 2]; self.first];
+        all.append(&mut nodes);
+        self.place_points(&mut all);
+        all.split_off(self.first)
+    }
+
+    /// Vectors of the corners of an element at a configuration, or their rates.
+    pub fn element<const D: usize, N: Number>(
+        &self,
+        element: usize,
+        x: &[Node<D, N>],
+    ) -> ElementCorners<N> {
+        self.corner_nodes(element).map(|node| {
+            let [[r, r1], [r2, r12]] = [x[node], x[node + 1]];
+            [r, r1, r2, r12].map(|v| components::<D, N>(&v.into()))
+        })
+    }
+
+    /// Adds forces on the corners of an element.
+    pub fn add_to<const D: usize, N: Number>(
+        &self,
+        element: usize,
+        force: &ElementCorners<N>,
+        f: &mut [Node<D, N>],
+    ) {
+        for (node, force) in self.corner_nodes(element).into_iter().zip(force) {
+            for (k, force) in force.iter().enumerate() {
+                let sum = f[node + k / 2][k % 2].iter_mut();
+                sum.zip(force).for_each(|(sum, force)| *sum += *force);
+            }
+        }
+    }
+
+    /// Position at a place of an element, `xi` and `eta` in [0, 1], m.
+    pub fn position<const D: usize, N: Number>(
+        &self,
+        [i, j]: [usize; 2],
+        xi: [f64; 2],
+        x: &[Node<D, N>],
+    ) -> [N; 3] {
+        let element = i * (self.lines[1].len() - 1) + j;
+        let weights = self.elements[element].weights(xi.map(N::of), [0, 0]);
+        weighted(&weights, &self.element(element, x))
+    }
+
+    /// Element and place in it of material coordinates along both directions.
+    fn find(&self, at: [f64; 2]) -> (usize, [f64; 2]) {
+        let along = |k: usize| {
+            let (lines, length) = (&self.lines[k], at[k] * self.lengths()[k]);
+            let after = lines.partition_point(|line| *line <= length);
+            let j = after.clamp(1, lines.len() - 1) - 1;
+            (j, (length - lines[j]) / (lines[j + 1] - lines[j]))
+        };
+        let ((i, xi), (j, eta)) = (along(0), along(1));
+        (i * (self.lines[1].len() - 1) + j, [xi, eta])
+    }
+
+    /// The frame of a point: means over its pad of place and derivatives.
+    fn frame(&self, point: &PatchPoint) -> PatchFrame {
+        let (element, xi) = self.find(point.at);
+        let [first, second] = [[1, 0], [0, 1]].map(|orders| {
+            let weights = self.elements[element].weights(xi, orders);
+            let corners = self.mesh_nodes(element).map(|node| self.corners[node]);
+            Vector3::from(weighted(&weights, &corners))
+        });
+        let across = first.cross(&second);
+        let (area, normal) = (across.norm(), across.normalize());
+        let f1 = first.normalize();
+        let f2 = normal.cross(&f1);
+        let dual = [second.cross(&normal) / area, normal.cross(&first) / area];
+        let by = [f1, f2].map(|f| [f.dot(&dual[0]), f.dot(&dual[1])]);
+        let mut frame = PatchFrame::default();
+        let mut total = 0.0;
+        for (at, weight) in self.places(point) {
+            let (element, xi) = self.find(at);
+            let of = &self.elements[element];
+            let [values, along, across] = [[0, 0], [1, 0], [0, 1]].map(|o| of.weights(xi, o));
+            for (corner, node) in self.corner_nodes(element).into_iter().enumerate() {
+                let mut term = Term::at(node);
+                for k in 0..VECTORS {
+                    let number = VECTORS * corner + k;
+                    term.position[k] = weight * values[number];
+                    for (to, by) in term.along.iter_mut().zip(&by) {
+                        to[k] = weight * (by[0] * along[number] + by[1] * across[number]);
+                    }
+                }
+                frame.add(&term);
+            }
+            total += weight;
+        }
+        frame.divide(total);
+        frame
+    }
+
+    /// Places that a point is the mean of, with their weights: itself, or points of quadrature of all elements under its pad.
+    fn places(&self, point: &PatchPoint) -> Vec<([f64; 2], f64)> {
+        let along = |k: usize| -> Vec<QuadraturePoint> {
+            let (length, size) = (self.lengths()[k], 0.5 * point.pad[k]);
+            let middle = point.at[k] * length;
+            let (from, to) = ((middle - size).max(0.0), (middle + size).min(length));
+            if from >= to {
+                return vec![QuadraturePoint {
+                    at: point.at[k],
+                    weight: 1.0,
+                }];
+            }
+            let elements = self.lines[k].windows(2);
+            let parts = elements.filter_map(|line| {
+                let (from, to) = (line[0].max(from), line[1].min(to));
+                (from < to).then_some((from, to))
+            });
+            let points = |(from, to): (f64, f64)| {
+                GAUSS_3.map(|point| QuadraturePoint {
+                    at: (from + (to - from) * point.at) / length,
+                    weight: (to - from) * point.weight,
+                })
+            };
+            parts.flat_map(points).collect()
+        };
+        let (first, second) = (along(0), along(1));
+        let both = first
+            .iter()
+            .flat_map(|a| (second.iter()).map(move |b| ([a.at, b.at], a.weight * b.weight)));
+        both.collect()
+    }
+}
+
+/// Sum of the vectors of all corners of an element, weighted.
+fn weighted<N: Number>(weights: &[N; 16], corners: &ElementCorners<N>) -> [N; 3] {
+    let mut sum = [N::of(0.0); 3];
+    for (weight, vector) in weights.iter().zip(corners.as_flattened()) {
+        for (sum, component) in sum.iter_mut().zip(vector) {
+            *sum += *weight * *component;
+        }
+    }
+    sum
+}

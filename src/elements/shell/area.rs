@@ -1,0 +1,118 @@
+//! Loads per area on an element: pressure that follows the normal, and dead forces per area of the unstressed surface.
+//!
+//! Source: K.-J. Bathe, Finite Element Procedures, 2nd ed. (2014), section 6.2.3 (loads that depend on deformations).
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::tangent::shape;
+use super::{ElementCorners, Shell, VECTORS, mass};
+use crate::math::jet::Number;
+use crate::math::quadrature::GAUSS_3;
+
+/// Number of places of an element where loads per area are known.
+pub const AREA_PLACES: usize = 9;
+
+/// `xi` and `eta` of a place where loads per area are known.
+pub fn area_place(place: usize) -> [f64; 2] {
+    [GAUSS_3[place / 3].at, GAUSS_3[place % 3].at]
+}
+
+/// Weight of a place.
+fn weight(place: usize) -> f64 {
+    GAUSS_3[place / 3].weight * GAUSS_3[place % 3].weight
+}
+
+/// Value of the function of number `k` of an element at a place, and its derivatives by `xi` and `eta`.
+fn functions(k: usize, place: usize) -> [f64; 3] {
+    let (functions, at) = (mass::functions(k), (place / 3 + 1, place % 3 + 1));
+    [(0, 0), (1, 0), (0, 1)].map(|orders| shape(functions, orders, at))
+}
+
+impl Shell {
+    /// Factor of number `k` that makes it one by `xi` and `eta`.
+    fn scale(&self, k: usize) -> f64 {
+        match k % VECTORS {
+            0 => 1.0,
+            vector => self.scales[vector - 1],
+        }
+    }
+
+    /// Derivatives of the position by `xi` and `eta` at a place.
+    fn tangents<N: Number>(&self, e: &ElementCorners<N>, place: usize) -> [Vector3<N>; 2] {
+        let mut sums = [Vector3::zeros(); 2];
+        for (k, vector) in e.as_flattened().iter().enumerate() {
+            let ([_, along, across], scale) = (functions(k, place), self.scale(k));
+            let vector = Vector3::from(*vector);
+            sums[0] += vector * N::of(along * scale);
+            sums[1] += vector * N::of(across * scale);
+        }
+        sums
+    }
+
+    /// Area of the unstressed surface that a place stands for, m^2.
+    pub(super) fn areas(&self, unstressed: &ElementCorners) -> [f64; AREA_PLACES] {
+        std::array::from_fn(|place| {
+            let [first, second] = self.tangents(unstressed, place);
+            first.cross(&second).norm() * weight(place)
+        })
+    }
+
+    /// Forces of pressures at all places along the normal, Pa.
+    pub fn pressure_force<N: Number>(
+        &self,
+        e: &ElementCorners<N>,
+        pressures: &[N; AREA_PLACES],
+    ) -> ElementCorners<N> {
+        let force = |place: usize| {
+            let [first, second] = self.tangents(e, place);
+            first.cross(&second) * (pressures[place] * N::of(weight(place)))
+        };
+        self.on_values(&std::array::from_fn(force))
+    }
+
+    /// Forces of dead loads at all places per area of the unstressed surface, N/m^2.
+    pub fn area_force<N: Number>(&self, loads: &[[N; 3]; AREA_PLACES]) -> ElementCorners<N> {
+        let force = |place: usize| Vector3::from(loads[place]) * N::of(self.areas[place]);
+        self.on_values(&std::array::from_fn(force))
+    }
+
+    /// Forces on the coordinates of forces at all places, N.
+    fn on_values<N: Number>(&self, forces: &[Vector3<N>; AREA_PLACES]) -> ElementCorners<N> {
+        let mut out = [[[N::of(0.0); 3]; VECTORS]; 4];
+        for (k, out) in out.as_flattened_mut().iter_mut().enumerate() {
+            let scale = self.scale(k);
+            for (place, force) in forces.iter().enumerate() {
+                let [value, ..] = functions(k, place);
+                let part = force * N::of(value * scale);
+                out.iter_mut()
+                    .zip(&part)
+                    .for_each(|(out, part)| *out += *part);
+            }
+        }
+        out
+    }
+
+    /// Symmetric part of the stiffness of pressures at all places (Pa), block by block over the vectors of all corners.
+    pub fn pressure_stiffness(
+        &self,
+        e: &ElementCorners,
+        pressures: &[f64; AREA_PLACES],
+    ) -> [[Matrix3<f64>; 16]; 16] {
+        let mut out = [[Matrix3::zeros(); 16]; 16];
+        for (place, pressure) in pressures.iter().enumerate() {
+            let [first, second] = self.tangents(e, place).map(|v| v.cross_matrix());
+            let half = 0.5 * pressure * weight(place);
+            for row in 0..16 {
+                let [value, ..] = functions(row, place);
+                for column in 0..16 {
+                    let [_, along, across] = functions(column, place);
+                    let by = half * value * self.scale(row) * self.scale(column);
+                    let part = (second * along - first * across) * by;
+                    out[row][column] += part;
+                    out[column][row] += part.transpose();
+                }
+            }
+        }
+        out
+    }
+}

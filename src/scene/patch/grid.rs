@@ -1,0 +1,109 @@
+//! Grid of points that a plate or shell is drawn with.
+
+/// Most parts of an element, and parts of a body along a coordinate up to which there are more than one.
+const PARTS: usize = 4;
+const FEW: usize = 24;
+
+/// Points on a plate or shell, some in each element: those along `s2` side by side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PatchGrid {
+    /// Numbers of elements.
+    mesh: [usize; 2],
+    /// Parts of an element.
+    parts: [usize; 2],
+}
+
+impl PatchGrid {
+    /// Grid of a mesh.
+    pub fn new(mesh: [usize; 2]) -> Self {
+        let parts = mesh.map(|count| (FEW / count).clamp(1, PARTS));
+        Self { mesh, parts }
+    }
+
+    /// Numbers of cells along both coordinates.
+    fn cells(&self) -> [usize; 2] {
+        [0, 1].map(|k| self.mesh[k] * self.parts[k])
+    }
+
+    fn index(&self, i: usize, j: usize) -> usize {
+        i * (self.cells()[1] + 1) + j
+    }
+
+    /// Number of points.
+    pub fn count(&self) -> usize {
+        self.cells().map(|cells| cells + 1).iter().product()
+    }
+
+    /// Coordinates `[s1, s2]` of all points.
+    pub fn places(self) -> impl Iterator<Item = [f64; 2]> {
+        let [n, m] = self.cells();
+        let place = move |i: usize, j: usize| [i as f64 / n as f64, j as f64 / m as f64];
+        (0..=n).flat_map(move |i| (0..=m).map(move |j| place(i, j)))
+    }
+
+    /// Element of every point, and its place there, in [0, 1].
+    pub fn in_elements(self) -> impl Iterator<Item = ([usize; 2], [f64; 2])> {
+        let (of, [n, m]) = (self, self.cells());
+        let along = move |k: usize, at: usize| {
+            let element = (at / of.parts[k]).min(of.mesh[k] - 1);
+            let xi = (at - element * of.parts[k]) as f64 / of.parts[k] as f64;
+            (element, xi)
+        };
+        (0..=n).flat_map(move |i| {
+            (0..=m).map(move |j| {
+                let [(a, p), (b, q)] = [along(0, i), along(1, j)];
+                ([a, b], [p, q])
+            })
+        })
+    }
+
+    /// Quadrangles between points, counter-clockwise about the normal.
+    pub fn quads(&self) -> Vec<[usize; 4]> {
+        let [n, m] = self.cells();
+        let cell = |i: usize, j: usize| {
+            [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| self.index(i, j))
+        };
+        (0..n)
+            .flat_map(|i| (0..m).map(move |j| cell(i, j)))
+            .collect()
+    }
+
+    /// Triangles between points.
+    pub fn triangles(&self) -> Vec<[usize; 3]> {
+        let quads = self.quads().into_iter();
+        quads
+            .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .collect()
+    }
+
+    /// Segments of the lines of the mesh, by the points at their ends.
+    pub fn lines(&self) -> Vec<[usize; 2]> {
+        let ([n, m], [p, q]) = (self.cells(), self.parts);
+        let first = (0..=m)
+            .step_by(q)
+            .flat_map(|j| (0..n).map(move |i| [self.index(i, j), self.index(i + 1, j)]));
+        let second = (0..=n)
+            .step_by(p)
+            .flat_map(|i| (0..m).map(move |j| [self.index(i, j), self.index(i, j + 1)]));
+        first.chain(second).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_has_points_lines_and_cells() {
+        let grid = PatchGrid::new([8, 30]);
+        let counts = [grid.count(), grid.quads().len(), grid.triangles().len()];
+        assert_eq!(counts, [25 * 31, 24 * 30, 48 * 30]);
+        assert_eq!(grid.lines().len(), 31 * 24 + 9 * 30);
+        let by_element = grid
+            .in_elements()
+            .map(|([i, j], [p, q])| [(i as f64 + p) / 8.0, (j as f64 + q) / 30.0]);
+        for (a, b) in grid.places().zip(by_element) {
+            assert!((a[0] - b[0]).abs() + (a[1] - b[1]).abs() < 1e-14);
+        }
+    }
+}

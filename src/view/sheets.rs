@@ -1,0 +1,143 @@
+//! Plates and shells that deform: their motion in a run as few modes, found in the run. Pages and glTF then hold points, modes and triangles
+//! once, and amplitudes in every frame, as of reduced bodies.
+//!
+//! Source: L. Sirovich, Turbulence and the dynamics of coherent structures, Q. Appl. Math. 45 (1987) 561-571 (modes of a run); here they are
+//! taken one by one, each from the frame that is farthest from those before.
+
+use nalgebra::Vector3;
+
+use super::numbers::{Numbers, list};
+use crate::scene::{PatchBody, PatchGrid};
+use crate::simulation::Pose;
+
+/// Most modes of a run.
+const MODES: usize = 40;
+/// Distance of a point from where it is, relative to the largest displacement, that is not seen.
+const UNSEEN: f64 = 1e-3;
+/// Modes that a page has room for, when its frames are counted.
+pub(super) const EXPECTED: usize = 12;
+
+/// The motion of a plate or shell in a run.
+#[derive(Clone, Debug)]
+pub(super) struct SheetModes {
+    /// Points where the scene draws them, from the place of the body, m.
+    pub points: Vec<Vector3<f64>>,
+    /// Displacements of the points by each mode, m.
+    pub modes: Vec<Vec<Vector3<f64>>>,
+    /// Largest distance of a point from the place of the body, m.
+    pub reach: f64,
+}
+
+/// Grid that a plate or shell is drawn with.
+pub(super) fn grid_of(body: &PatchBody) -> PatchGrid {
+    PatchGrid::new(body.mesh.map(|count| count as usize))
+}
+
+impl SheetModes {
+    /// Finds modes of a body, by its place among all, from how it is drawn and all frames of a run, and sets its amplitudes in them.
+    pub fn of(drawn: &mut Pose, frames: &mut [Vec<Pose>], body: usize) -> Self {
+        let place = Vector3::from(drawn.nodes[0][0]);
+        let points: Vec<Vector3<f64>> = drawn
+            .surface
+            .iter()
+            .map(|at| Vector3::from(*at) - place)
+            .collect();
+        let moved = |pose: &Pose| -> Vec<Vector3<f64>> {
+            let now = pose.surface.iter().zip(&points);
+            now.map(|(at, point)| Vector3::from(*at) - place - point)
+                .collect()
+        };
+        let mut left: Vec<Vec<Vector3<f64>>> =
+            frames.iter().map(|poses| moved(&poses[body])).collect();
+        let far = |ways: &[Vector3<f64>]| ways.iter().map(Vector3::norm).fold(0.0, f64::max);
+        let all = frames.iter().flat_map(|poses| &poses[body].surface);
+        let reach = all.map(|at| (Vector3::from(*at) - place).norm());
+        let reach = reach.fold(
+            points.iter().map(Vector3::norm).fold(0.0, f64::max),
+            f64::max,
+        );
+        let least = UNSEEN * left.iter().map(|ways| far(ways)).fold(0.0, f64::max);
+        let mut modes: Vec<Vec<Vector3<f64>>> = Vec::new();
+        let mut amplitudes: Vec<Vec<f64>> = vec![Vec::new(); left.len()];
+        while modes.len() < MODES {
+            let sizes = left.iter().map(|ways| far(ways)).enumerate();
+            let Some((farthest, size)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+                break;
+            };
+            if size <= least || size <= 0.0 {
+                break;
+            }
+            let sum = |a: &[Vector3<f64>], b: &[Vector3<f64>]| -> f64 {
+                a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+            };
+            let mode = left[farthest].clone();
+            let square = sum(&mode, &mode);
+            for (ways, amplitudes) in left.iter_mut().zip(&mut amplitudes) {
+                let amplitude = sum(ways, &mode) / square;
+                amplitudes.push(amplitude);
+                for (way, of_mode) in ways.iter_mut().zip(&mode) {
+                    *way -= of_mode * amplitude;
+                }
+            }
+            modes.push(mode);
+        }
+        drawn.amplitudes = vec![0.0; modes.len()];
+        for (poses, amplitudes) in frames.iter_mut().zip(amplitudes) {
+            poses[body].amplitudes = amplitudes;
+        }
+        Self {
+            points,
+            modes,
+            reach,
+        }
+    }
+
+    /// The surface as JSON, and its numbers.
+    pub fn to_json(
+        &self,
+        body: &PatchBody,
+        frames: &[Vec<Pose>],
+        place: usize,
+        numbers: &mut Numbers,
+    ) -> String {
+        let grid = grid_of(body);
+        let points: Vec<Vec<f64>> = self
+            .points
+            .iter()
+            .map(|at| at.iter().copied().collect())
+            .collect();
+        let moved = |point: usize| {
+            self.modes
+                .iter()
+                .flat_map(|ways| <[f64; 3]>::from(ways[point]))
+                .collect()
+        };
+        let moved: Vec<Vec<f64>> = (0..points.len()).map(moved).collect();
+        let amplitudes: Vec<Vec<f64>> = frames
+            .iter()
+            .map(|poses| poses[place].amplitudes.clone())
+            .collect();
+        let [points, moved, amplitudes] =
+            [points, moved, amplitudes].map(|rows| numbers.stepped(&rows));
+        let corners = list(grid.triangles().as_flattened(), ToString::to_string);
+        let edges = list(grid.lines().as_flattened(), ToString::to_string);
+        format!(
+            "\"skin\":{{\"points\":{points},\"modes\":{moved},\"amplitudes\":{amplitudes},\"triangles\":{corners},\"edges\":{edges}}},\"radius\":{:?}",
+            self.reach
+        )
+    }
+
+    /// Place of a marker that is drawn at a point of the surface nearest to it, and how modes move it, as JSON.
+    pub fn marker_to_json(&self, body: &PatchBody, at: [f64; 2]) -> String {
+        let far = |place: [f64; 2]| (place[0] - at[0]).hypot(place[1] - at[1]);
+        let places = grid_of(body).places().map(far).enumerate();
+        let nearest = places
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map_or(0, |(point, _)| point);
+        let point = <[f64; 3]>::from(self.points[nearest]);
+        let modes: Vec<f64> = (self.modes.iter())
+            .flat_map(|ways| <[f64; 3]>::from(ways[nearest]))
+            .collect();
+        format!("\"point\":{point:?},\"modes\":{modes:?}")
+    }
+}
