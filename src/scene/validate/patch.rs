@@ -297,27 +297,34 @@ impl PatchSurface {
                 sector(&at("angle"), *angle)
             }
             Self::Ruled { curves } => {
-                for (k, points) in curves.iter().enumerate() {
-                    counted(&at(&format!("curves[{k}]")), points.len())?;
-                    each(&format!("curves[{k}]"), points)?;
-                }
-                Ok(())
+                let mut curves = curves.iter().enumerate();
+                curves.try_for_each(|(k, points)| row(&at(&format!("curves[{k}]")), points))
             }
-            Self::Points { grid } => {
-                counted(&at("grid"), grid.len())?;
-                for (k, row) in grid.iter().enumerate() {
-                    let place = at(&format!("grid[{k}]"));
-                    counted(&place, row.len())?;
-                    if row.len() != grid[0].len() {
-                        let wanted = format!("{} points, as in the first list", grid[0].len());
-                        return Err(expected(&place, &wanted, row.len()));
-                    }
-                    each(&format!("grid[{k}]"), row)?;
-                }
-                Ok(())
-            }
+            Self::Points { grid } => check_grid(&at("grid"), grid),
         }
     }
+}
+
+/// Points of a curve.
+fn row(path: &str, points: &[SceneVector]) -> Result<(), Error> {
+    counted(path, points.len())?;
+    let mut places = points.iter().enumerate();
+    places.try_for_each(|(k, point)| vector(&format!("{path}[{k}]"), 3, point))
+}
+
+/// Lists of as many points each.
+fn check_grid(path: &str, grid: &[Vec<SceneVector>]) -> Result<(), Error> {
+    counted(path, grid.len())?;
+    for (k, points) in grid.iter().enumerate() {
+        let place = format!("{path}[{k}]");
+        counted(&place, points.len())?;
+        if points.len() != grid[0].len() {
+            let wanted = format!("{} points, as in the first list", grid[0].len());
+            return Err(expected(&place, &wanted, points.len()));
+        }
+        row(&place, points)?;
+    }
+    Ok(())
 }
 
 /// As many points that a curve goes through them.
