@@ -143,6 +143,8 @@ fn markers_edges_and_loads_are_checked() {
         /masses | [{"marker": "panel.tip", "mass": 1}] | masses[0].marker: expected a marker of another body than a plate or shell
         /outputs | [{"kind": "reaction", "joint": "wall"}] | outputs[0].joint: expected a joint of markers (nothing is read or driven at joints of edges yet), found "wall"
         /outputs | [{"kind": "axial_force", "marker": "panel.tip"}] | outputs[0].marker: expected a marker of a cable, found "panel.tip"
+        /outputs | [{"kind": "deflection", "marker": "panel.tip"}] | outputs[0].from: expected another marker of the plate or shell
+        /outputs | [{"kind": "deflection", "marker": "panel.tip", "from": "panel.root"}] | accepted
         /outputs | [{"kind": "orientation", "marker": "roof.top"}] | accepted
         "#,
     );
