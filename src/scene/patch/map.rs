@@ -167,18 +167,18 @@ impl SurfaceMap {
                 [between(p, q), between(dp, dq), q - p, dq - dp]
             }
             Self::Spline(grid) => {
-                let rows = grid.iter().map(|row| {
-                    let of = |k: usize| row.iter().map(move |of| [of[k], of[k + 2]]);
-                    let [value, slope] = [0, 1].map(|k| on_curve(&of(k).collect::<Vec<_>>(), v));
-                    [value, slope]
+                let (row, column) = (
+                    CurvePiece::at(grid.len(), u),
+                    CurvePiece::at(grid[0].len(), v),
+                );
+                // Along `s2` of both rows: the value and the derivative by `s1`, each with its derivative by `s2`.
+                let along = [0, 1].map(|k| {
+                    let ends = [0, 1].map(|l| grid[row.first + k][column.first + l]);
+                    [0, 1].map(|part| column.between(ends.map(|of| [of[part], of[part + 2]])))
                 });
-                let rows: Vec<[[SurfacePoint; 2]; 2]> = rows.collect();
-                let of = |k: usize| -> Vec<[SurfacePoint; 2]> {
-                    rows.iter()
-                        .map(|[value, slope]| [value[k], slope[k]])
-                        .collect()
-                };
-                let [[r, first], [second, mixed]] = [0, 1].map(|k| on_curve(&of(k), u));
+                let [[r, first], [second, mixed]] = [0, 1].map(|part| {
+                    row.between(along.map(|[value, slope]| [value[part], slope[part]]))
+                });
                 [r, first, second, mixed]
             }
         }
@@ -295,16 +295,42 @@ fn slopes(points: &[SurfacePoint]) -> Vec<SurfacePoint> {
 
 /// Value and derivative of a curve through points with derivatives at even steps.
 fn on_curve(points: &[[SurfacePoint; 2]], s: f64) -> [SurfacePoint; 2] {
-    let count = points.len() - 1;
-    let piece = ((s * count as f64) as usize).min(count - 1);
-    let (size, x) = ((count as f64).recip(), s * count as f64 - piece as f64);
-    let ([p, dp], [q, dq]) = (points[piece], points[piece + 1]);
-    let (dp, dq, way) = (dp * size, dq * size, q - p);
-    // In powers of x.
-    let (square, cube) = (way * 3.0 - dp * 2.0 - dq, dp + dq - way * 2.0);
-    let value = p + (dp + (square + cube * x) * x) * x;
-    let slope = dp + (square * 2.0 + cube * (3.0 * x)) * x;
-    [value, slope / size]
+    let piece = CurvePiece::at(points.len(), s);
+    piece.between([points[piece.first], points[piece.first + 1]])
+}
+
+/// A place on a curve through points at even steps.
+#[derive(Clone, Copy)]
+struct CurvePiece {
+    /// Point before it.
+    first: usize,
+    /// Part of the way to the next point.
+    x: f64,
+    /// Way to the next point, of that along the whole curve.
+    size: f64,
+}
+
+impl CurvePiece {
+    fn at(points: usize, s: f64) -> Self {
+        let count = points - 1;
+        let first = ((s * count as f64) as usize).min(count - 1);
+        Self {
+            first,
+            x: s * count as f64 - first as f64,
+            size: (count as f64).recip(),
+        }
+    }
+
+    /// Value and derivative, from those of the points before and after.
+    fn between(&self, [[p, dp], [q, dq]]: [[SurfacePoint; 2]; 2]) -> [SurfacePoint; 2] {
+        let (x, size) = (self.x, self.size);
+        let (dp, dq, way) = (dp * size, dq * size, q - p);
+        // In powers of x.
+        let (square, cube) = (way * 3.0 - dp * 2.0 - dq, dp + dq - way * 2.0);
+        let value = p + (dp + (square + cube * x) * x) * x;
+        let slope = dp + (square * 2.0 + cube * (3.0 * x)) * x;
+        [value, slope / size]
+    }
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use crate::scene::{Error, PatchMarker};
 /// Elements of a plate or shell along each coordinate: factors of finer meshes take gigabytes.
 const MESH: RangeInclusive<u32> = 1..=200;
 /// Most plies of a laminate, and most points of a curve or of a row of a grid.
-const MOST: usize = 1000;
+const MOST: usize = 200;
 /// Parts along each coordinate between which a surface is looked at.
 const PARTS: u32 = 16;
 /// Area of a surface by coordinates, relative to the largest one, below which it collapses.

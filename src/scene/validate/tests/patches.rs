@@ -60,7 +60,7 @@ fn surfaces_and_meshes_are_checked() {
         /bodies/1/surface | {"sphere": {"center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1], "start": [1, 0, 0], "latitudes": [0, 1.6], "angle": 1}} | bodies[1].surface.sphere.latitudes[1]: expected a latitude between the poles
         /bodies/1/surface | {"sphere": {"center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1], "start": [1, 0, 0], "latitudes": [0, 1.5707], "angle": 1}} | bodies[1].surface: expected a surface whose lines along s1 and s2 cross
         /bodies/1/surface | {"sphere": {"center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1], "start": [1, 0, 0], "latitudes": [1, 0], "angle": 1}} | bodies[1].surface.sphere.latitudes[1]: expected more than the first latitude (1 rad), found 0
-        /bodies/1/surface | {"points": {"grid": [[[0, 0, 0], [1, 0, 0]]]}} | bodies[1].surface.points.grid: expected 2 to 1000 points, found 1
+        /bodies/1/surface | {"points": {"grid": [[[0, 0, 0], [1, 0, 0]]]}} | bodies[1].surface.points.grid: expected 2 to 200 points, found 1
         /bodies/1/surface | {"points": {"grid": [[[0, 0, 0], [1, 0, 0]], [[0, 1, 0]]]}} | bodies[1].surface.points.grid[1]
         /bodies/1/surface | {"ruled": {"curves": [[[0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0], [2, 1, 0]]]}} | joints[2].normal
         /bodies/1/element | "plate" | bodies[1].surface: expected a flat surface of a plate
