@@ -191,7 +191,8 @@ impl LaminatePly {
         positive(&at("material.density"), "kg/m^3", material.density)?;
         let ([first, second], ratio) = (material.youngs_modulus, material.poisson_ratio);
         let most = (first / second).sqrt();
-        if !(ratio.abs() < most) {
+        let is_definite = ratio.abs() < most;
+        if !is_definite {
             let wanted =
                 format!("a number between -{most} and {most} (the root of the ratio of moduli)");
             return Err(expected(&at("material.poisson_ratio"), &wanted, ratio));
@@ -285,7 +286,8 @@ impl PatchSurface {
                 positive(&at("radius"), "m", *radius)?;
                 about(&at("axis"), axis, &at("start"), start)?;
                 for (k, found) in latitudes.iter().enumerate() {
-                    if !(found.abs() < FRAC_PI_2) {
+                    let is_between = found.abs() < FRAC_PI_2;
+                    if !is_between {
                         let wanted = "a latitude between the poles (-pi/2 and pi/2 rad)";
                         return Err(expected(&at(&format!("latitudes[{k}]")), wanted, found));
                     }
@@ -396,7 +398,8 @@ fn check_map(path: &str, map: &SurfaceMap, is_plate: bool) -> Result<(), Error> 
     };
     let told = |[u, v]: [f64; 2]| format!("[s1, s2] = [{u}, {v}]");
     let largest = places().map(|at| normal(at).norm()).fold(0.0, f64::max);
-    let collapsed = places().find(|at| !(normal(*at).norm() > COLLAPSED * largest));
+    let has_normal = |at: &[f64; 2]| normal(*at).norm() > COLLAPSED * largest;
+    let collapsed = places().find(|at| !has_normal(at));
     if let Some(at) = collapsed.filter(|_| largest.is_finite()) {
         let wanted = "a surface whose lines along s1 and s2 cross at an angle everywhere";
         return Err(expected(
@@ -426,7 +429,8 @@ fn check_map(path: &str, map: &SurfaceMap, is_plate: bool) -> Result<(), Error> 
         let step = f64::from(PARTS).recip();
         let beside = [[at[0] - step, at[1]], [at[0], at[1] - step]];
         let mut beside = beside.into_iter().filter(|of| of[0] >= 0.0 && of[1] >= 0.0);
-        beside.any(|of| !(normal(*at).dot(&normal(of)) > 0.0))
+        let is_alike = |of: [f64; 2]| normal(*at).dot(&normal(of)) > 0.0;
+        beside.any(|of| !is_alike(of))
     };
     if let Some(at) = places().find(folds) {
         let wanted = "a surface that does not fold over itself";
