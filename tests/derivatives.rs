@@ -41,7 +41,8 @@ fn scenes() -> Vec<PathBuf> {
 fn deflections(scene: &serde_json::Value) -> Vec<serde_json::Value> {
     let bodies = scene["bodies"].as_array().into_iter().flatten();
     let mut lines = bodies.filter(|body| {
-        !["rigid", "auto", "reduced"].contains(&body["element"].as_str().unwrap_or_default())
+        !["rigid", "auto", "reduced", "plate", "shell"]
+            .contains(&body["element"].as_str().unwrap_or_default())
     });
     let found = lines.find_map(|body| {
         let mut names = body["markers"].as_object()?.keys();

@@ -204,7 +204,7 @@ pub struct Pivot<'a> {
     pub axis: Option<[f64; 3]>,
 }
 
-/// What a joint holds of an edge of a plate or shell.
+/// Freedoms that a joint holds of an edge of a plate or shell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EdgeHold {
     /// The edge and the normal along it.
@@ -228,7 +228,7 @@ pub struct ResolvedEdge<'a> {
     pub across: usize,
     /// Whether it is the edge where that coordinate is 1, not 0.
     pub is_last: bool,
-    /// What is held.
+    /// Freedoms that are held.
     pub hold: EdgeHold,
 }
 

@@ -141,3 +141,81 @@ impl SheetModes {
         format!("\"point\":{point:?},\"modes\":{modes:?}")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::view::gltf::gltf;
+    use crate::view::header::header;
+    use crate::view::recording::{Limits, Recording};
+    use crate::view::surface::surfaces;
+
+    /// A soft sheet that spins and falls, held at an edge.
+    fn recording() -> Recording {
+        let scene = json!({"name": "flag", "dimension": 3, "gravity": [0, 0, -9.81],
+            "bodies": [{"name": "flag", "element": "plate", "mesh": [3, 2],
+                "surface": {"rectangle": {"corner": [0.3, 0, 0], "edges": [[1, 0, 0], [0, 0.5, 0]]}},
+                "material": {"youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000, "damping_time": 1e-3}, "thickness": 0.01,
+                "markers": {"tip": [1, 1]}}],
+            "joints": [{"name": "mast", "kind": "pinned", "edges": ["ground", "flag.s1=0"]}],
+            "outputs": [{"kind": "position", "marker": "flag.tip"}],
+            "experiment": {"stop_time": 0.3, "step": 0.01}});
+        let scene = Scene::from_json(&scene.to_string()).expect("a valid scene");
+        Recording::new(&scene, None, &Limits::PAGE, &mut |_, _| ()).expect("a run")
+    }
+
+    /// Few modes give every point of every frame back, the corner as the marker there is read.
+    #[test]
+    fn modes_of_a_run_are_its_motion() {
+        let recording = recording();
+        let sheet = recording.sheets[0].as_ref().expect("a sheet");
+        assert!(
+            (2..=20).contains(&sheet.modes.len()),
+            "{}",
+            sheet.modes.len()
+        );
+        let surface = &surfaces(&recording)[0];
+        assert_eq!(
+            [surface.points.len(), surface.faces.len()],
+            [13 * 9, 12 * 8]
+        );
+        let mut most: f64 = 0.0;
+        for (frame, row) in recording.rows.iter().enumerate() {
+            let place = surface.places(&recording, frame)[0];
+            let drawn = &recording.poses[frame][0].surface;
+            let tip = Vector3::from_column_slice(row);
+            assert!((Vector3::from(drawn[drawn.len() - 1]) - tip).norm() < 1e-12);
+            for (point, at) in drawn.iter().enumerate() {
+                let found = place.at(&surface.local(point, &recording, frame));
+                assert!((found - Vector3::from(*at)).norm() < 2e-3, "{frame}");
+            }
+            most = most.max((tip - Vector3::from_column_slice(&recording.rows[0])).norm());
+        }
+        assert!(most > 0.1, "{most}");
+    }
+
+    /// Pages and glTF hold the modes as those of a reduced body.
+    #[test]
+    fn pages_and_gltf_hold_sheets() {
+        let recording = recording();
+        let modes = recording.sheets[0].as_ref().map_or(0, |of| of.modes.len());
+        let (header, _) = header(&recording);
+        let header: Value = serde_json::from_str(&header).expect("JSON");
+        let skin = &header["bodies"][0]["skin"];
+        let width = |key: &str| {
+            let track = &header["tracks"][skin[key].as_u64().expect("a track") as usize];
+            track["width"].as_u64().expect("a number") as usize
+        };
+        assert_eq!([width("amplitudes"), width("modes")], [modes, 3 * modes]);
+        let marker = &header["markers"][0]["modes"];
+        assert_eq!(marker.as_array().map(Vec::len), Some(3 * modes));
+        let file = gltf(&recording);
+        let length = u32::from_le_bytes(std::array::from_fn(|k| file[12 + k]));
+        let file: Value = serde_json::from_slice(&file[20..20 + length as usize]).expect("JSON");
+        let targets = file["meshes"][0]["primitives"][0]["targets"].as_array();
+        assert_eq!(targets.map(Vec::len), Some(modes));
+    }
+}

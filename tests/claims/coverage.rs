@@ -46,9 +46,9 @@ const TOGETHER: [&str; 7] = [
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
-/// whose element is chosen says is what the element says that it becomes (`elements.rs`). What needs a file has its claims in `reduced.rs`,
+/// whose element is chosen says is what the element says that it becomes (`elements.rs`). Plates and shells have theirs in `patches.rs`. What needs a file has its claims in `reduced.rs`,
 /// what reduces lines to modes in `tests/laws/modal_lines.rs` and `planar_modes.rs`.
-const OWN: [&str; 16] = [
+const OWN: [&str; 27] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
@@ -64,6 +64,17 @@ const OWN: [&str; 16] = [
     "bodies{beam}.modes",
     "bodies{auto}",
     "bodies{reduced}",
+    "bodies{plate}",
+    "bodies{shell}",
+    "joints{clamped}",
+    "joints{pinned}",
+    "joints{symmetry}",
+    "loads{pressure}",
+    "loads{area_force}",
+    "inputs{pressure}",
+    "inputs{area_force}",
+    "initial.loads{pressure}",
+    "initial.loads{area_force}",
     "outputs{stress_tensor}",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.

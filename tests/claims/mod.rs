@@ -8,6 +8,7 @@ mod coverage;
 mod elements;
 mod mutate;
 mod own;
+mod patches;
 mod quantities;
 mod reduced;
 mod scenes;

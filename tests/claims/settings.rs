@@ -64,6 +64,15 @@ macro_rules! keys {
                     let place = part(scene, "bodies", variable);
                     ("DampingRatio", format!("/bodies/{place}/damping_ratio"), "")
                 }
+                // Their claims are in `patches.rs`.
+                Parameter::PatchModulus(_)
+                | Parameter::PatchRatio(_)
+                | Parameter::PatchDensity(_)
+                | Parameter::PatchDamping(_)
+                | Parameter::PatchThickness(_)
+                | Parameter::PatchAngle(_) => {
+                    panic!("{variable}: no specimen has a plate")
+                }
                 // Its claim is in `own.rs`: it changes no result.
                 Parameter::WorkLimit => ("WorkLimit", "/method/work_limit".into(), ""),
             }
@@ -175,12 +184,6 @@ keys! {
     ShearModulus => "bodies", "/material/shear_modulus", "Pa";
     TorsionConstant => "bodies", "/section/torsion_constant", "m4";
     Elements => "bodies", "/elements", "";
-    PatchModulus => "bodies", "/material/youngs_modulus", "Pa";
-    PatchRatio => "bodies", "/material/poisson_ratio", "";
-    PatchDensity => "bodies", "/material/density", "kg/m3";
-    PatchDamping => "bodies", "/material/damping_time", "s";
-    PatchThickness => "bodies", "/thickness", "m";
-    PatchAngle => "bodies", "/axis_angle", "rad";
     Mass => "bodies", "/mass", "kg";
     LumpedMass => "masses", "/mass", "kg";
     ReleaseTime => "joints", "/release_time", "s";

@@ -71,6 +71,9 @@ begin at once, where no one asked for the ringing.
 """
 
 
+MeshItem = TypeAliasType("MeshItem", Annotated[StrictInt, Field(ge=0)])
+
+
 CoordinateKind = TypeAliasType("CoordinateKind", Literal["displacement", "angle"])
 """
 A coordinate of a joint by name.
@@ -327,6 +330,38 @@ class DistributedMomentInput(Part):
     """
 
 
+class PressureInput(Part):
+    """
+    Pressure on a plate or shell, Pa.
+    """
+
+    kind: Literal["pressure"] = "pressure"
+    body: StrictStr
+    """
+    Name of the plate or shell that the pressure acts on.
+    """
+    start: list[StrictFloat] = []
+    """
+    Pressure before the master sets it, along the normal, Pa: one value; 0 by default.
+    """
+
+
+class AreaForceInput(Part):
+    """
+    Force in global axes per area of a plate or shell, N/m^2.
+    """
+
+    kind: Literal["area_force"] = "area_force"
+    body: StrictStr
+    """
+    Name of the plate or shell that the force acts on.
+    """
+    start: list[StrictFloat] = []
+    """
+    Components of the force per area before the master sets it, N/m^2; zeros by default.
+    """
+
+
 class RestLengthInput(Part):
     """
     Length at rest of a spring-damper, m.
@@ -383,6 +418,8 @@ Input = TypeAliasType(
         | TorqueInput
         | DistributedForceInput
         | DistributedMomentInput
+        | PressureInput
+        | AreaForceInput
         | RestLengthInput
         | ReleaseInput
         | CurrentInput,
@@ -462,6 +499,48 @@ class PointOnCable(Part):
     markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
     Name of the cable, then the `body.marker` on its line.
+    """
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
+    """
+
+
+class Clamped(Part):
+    """
+    Holds an edge of a plate or shell on the ground, and the normal along it. The edge may not stretch; beside it the surface may.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["clamped"] = "clamped"
+    edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    `ground`, then the edge, `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
+    """
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
+    """
+
+
+class Pinned(Part):
+    """
+    Holds an edge of a plate or shell on the ground, about which it may rotate.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["pinned"] = "pinned"
+    edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    `ground`, then the edge, `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -1384,6 +1463,118 @@ A quantity that the master reads.
 """
 
 
+class Pad(Part):
+    """
+    Pad of a marker: position and orientation are means over it, and forces are spread over it.
+    """
+
+    at: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
+    """
+    Its middle, `[s1, s2]`.
+    """
+    pad: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
+    """
+    Lengths along `s1` and `s2`, m; what is beyond the edges does not count.
+    """
+
+
+PatchMarkerComponents = TypeAliasType(
+    "PatchMarkerComponents",
+    Annotated[
+        list[StrictFloat],
+        Field(max_length=2, min_length=2, title="PatchMarkerComponents"),
+    ],
+)
+"""
+A point `[s1, s2]`.
+"""
+
+
+PatchMarker = TypeAliasType("PatchMarker", PatchMarkerComponents | Pad)
+"""
+A marker on a plate or shell.
+"""
+
+
+class PatchMaterial(Part):
+    """
+    Isotropic material of a plate or shell.
+    """
+
+    youngs_modulus: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Young's modulus, Pa.
+    """
+    poisson_ratio: Annotated[StrictFloat, Field(gt=-1.0, lt=0.5)]
+    """
+    Poisson's ratio, between -1 and 0.5.
+    """
+    density: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Density, kg/m^3.
+    """
+    damping_time: Annotated[StrictFloat, Field(ge=0.0)] = 0.0
+    """
+    Kelvin-Voigt damping: ratio of viscosity to stiffness, s.
+    """
+
+
+AItem = TypeAliasType("AItem", Annotated[list[StrictFloat], Field(max_length=3, min_length=3)])
+
+
+DItem = TypeAliasType("DItem", Annotated[list[StrictFloat], Field(max_length=3, min_length=3)])
+
+
+BItem = TypeAliasType("BItem", Annotated[list[StrictFloat], Field(max_length=3, min_length=3)])
+
+
+class PatchStiffness(Part):
+    """
+    Stiffness of a section of a plate or shell: forces `N = A e - B k` and moments `M = D k - B e` per length, of strains `e` of the middle
+    surface and curvatures `k`, each along the first axis, along the second and of shear (engineering). The strain at a height is `e - z k`.
+    """
+
+    A: Annotated[list[AItem], Field(max_length=3, min_length=3)]
+    """
+    Membrane stiffness, N/m.
+    """
+    D: Annotated[list[DItem], Field(max_length=3, min_length=3)]
+    """
+    Bending stiffness, N m.
+    """
+    B: Annotated[list[BItem], Field(max_length=3, min_length=3)] = [
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+    ]
+    """
+    Coupling, N; zero where nothing is said.
+    """
+
+
+class PlyMaterial(Part):
+    """
+    Orthotropic material of a ply.
+    """
+
+    youngs_modulus: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
+    """
+    Young's moduli along both axes, Pa.
+    """
+    poisson_ratio: StrictFloat
+    """
+    Poisson's ratio: contraction along the second axis by tension along the first.
+    """
+    shear_modulus: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Shear modulus in the plane, Pa.
+    """
+    density: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Density, kg/m^3.
+    """
+
+
 class ForcePort(Part):
     """
     A force comes in, the motion of the marker goes out.
@@ -2227,6 +2418,31 @@ class Generic(Part):
     """
 
 
+class Symmetry(Part):
+    """
+    Holds an edge of a plate or shell in a plane of symmetry, and the normal there.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["symmetry"] = "symmetry"
+    edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    `ground`, then the edge, `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
+    """
+    normal: Vector
+    """
+    Normal of the plane of symmetry, of any length. The edge lies in the plane, and the surface crosses it at a right angle.
+    """
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
+    """
+
+
 Joint = TypeAliasType(
     "Joint",
     Annotated[
@@ -2243,13 +2459,35 @@ Joint = TypeAliasType(
         | OrientationJoint
         | Distance
         | PointOnCable
-        | Generic,
+        | Generic
+        | Clamped
+        | Pinned
+        | Symmetry,
         Field(discriminator="kind"),
     ],
 )
 """
 A joint between two markers.
 """
+
+
+class LaminatePly(Part):
+    """
+    Ply of a laminate.
+    """
+
+    material: PlyMaterial
+    """
+    Orthotropic material.
+    """
+    thickness: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Thickness, m.
+    """
+    angle: StrictFloat = 0.0
+    """
+    Angle of the first axis of the material from that of the laminate, counter-clockwise about the normal, rad.
+    """
 
 
 class SpringDamperLoad(Part):
@@ -2397,6 +2635,209 @@ The components of a position, or the parts of a quaternion.
 MotionValue = TypeAliasType("MotionValue", Value | MotionValueComponents | MasterInput)
 """
 Course of a driven motion.
+"""
+
+
+class RectangleSurface(Part):
+    """
+    Rectangle or parallelogram, flat.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "rectangle"},
+    )
+    corner: Vector
+    """
+    Corner where `s1` and `s2` are 0, m.
+    """
+    edges: Annotated[list[Vector], Field(max_length=2, min_length=2)]
+    """
+    Edges along `s1` and `s2` from there, m.
+    """
+
+
+class QuadrilateralSurface(Part):
+    """
+    Four corners with straight edges; lines between opposite edges are straight.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "quadrilateral"},
+    )
+    corners: Annotated[list[Vector], Field(max_length=4, min_length=4)]
+    """
+    Corners one after the other, m: at `[0, 0]`, `[1, 0]`, `[1, 1]` and `[0, 1]`.
+    """
+
+
+class AnnulusSurface(Part):
+    """
+    Sector of a ring, flat: `s1` outwards, `s2` around.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "annulus"},
+    )
+    center: Vector
+    """
+    Centre, m.
+    """
+    normal: Vector
+    """
+    Normal, of any length.
+    """
+    start: Vector
+    """
+    Direction of the edge `s2 = 0` from the centre, of any length; its part along the normal does not count.
+    """
+    radii: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
+    """
+    Inner and outer radius, m.
+    """
+    angle: StrictFloat
+    """
+    Angle of the sector, counter-clockwise about the normal, rad.
+    """
+
+
+class CylinderSectorSurface(Part):
+    """
+    Sector of a cylinder: `s1` around, `s2` along the axis. The normal points away from the axis.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "cylinder"},
+    )
+    from_: Vector
+    """
+    Where its axis begins, m.
+    """
+    to: Vector
+    """
+    Where its axis ends, m.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+    start: Vector
+    """
+    Direction of the edge `s1 = 0` from the axis, of any length; its part along the axis does not count.
+    """
+    angle: StrictFloat
+    """
+    Angle of the sector, counter-clockwise about the axis, rad.
+    """
+
+
+class ConeSectorSurface(Part):
+    """
+    Sector of a cone: `s1` around, `s2` along the axis. The normal points away from the axis.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "cone"},
+    )
+    from_: Vector
+    """
+    Where its axis begins, m.
+    """
+    to: Vector
+    """
+    Where its axis ends, m.
+    """
+    radii: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
+    """
+    Radii at both ends of the axis, m.
+    """
+    start: Vector
+    """
+    Direction of the edge `s1 = 0` from the axis, of any length; its part along the axis does not count.
+    """
+    angle: StrictFloat
+    """
+    Angle of the sector, counter-clockwise about the axis, rad.
+    """
+
+
+class SphereSectorSurface(Part):
+    """
+    Sector of a sphere between two latitudes: `s1` around the axis, `s2` from the first latitude to the second. The normal points outwards.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "sphere"},
+    )
+    center: Vector
+    """
+    Centre, m.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+    axis: Vector
+    """
+    Axis from the centre to the upper pole, of any length.
+    """
+    start: Vector
+    """
+    Direction of the edge `s1 = 0`, of any length; its part along the axis does not count.
+    """
+    latitudes: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
+    """
+    Latitudes from the equator, the second above the first, rad. Poles collapse an edge and are refused.
+    """
+    angle: StrictFloat
+    """
+    Angle of the sector, counter-clockwise about the axis, rad.
+    """
+
+
+class RuledSurface(Part):
+    """
+    Straight lines between two smooth curves: `s1` along the curves, `s2` from the first to the second.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "ruled"},
+    )
+    curves: Annotated[list[list[Vector]], Field(max_length=2, min_length=2)]
+    """
+    Points of both curves, m, at least two each: splines go through them, at even steps of `s1`.
+    """
+
+
+class PointsSurface(Part):
+    """
+    Smooth surface through a grid of points.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "points"},
+    )
+    grid: list[list[Vector]]
+    """
+    Points, m: a list for each of the even steps of `s1`, in each a point for each of those of `s2`; at least two of both.
+    """
+
+
+PatchSurface = TypeAliasType(
+    "PatchSurface",
+    Annotated[
+        RectangleSurface
+        | QuadrilateralSurface
+        | AnnulusSurface
+        | CylinderSectorSurface
+        | ConeSectorSurface
+        | SphereSectorSurface
+        | RuledSurface
+        | PointsSurface,
+        under_one_of("rectangle", "quadrilateral", "annulus", "cylinder", "cone", "sphere", "ruled", "points"),
+    ],
+)
+"""
+Middle surface of a plate or shell. Its normal is that of the lines along `s1` and `s2`, in this order. Plates take those that are flat.
 """
 
 
@@ -2962,10 +3403,122 @@ class ReducedBody(Part):
     """
 
 
+class Plate(Part):
+    """
+    Thin plate, flat without stress: stretches and bends. In space.
+    """
+
+    element: Literal["plate"] = "plate"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    surface: PatchSurface
+    """
+    Middle surface without stress, also the configuration at the start. Coordinates `s1` and `s2` run over it from 0 to 1.
+    """
+    mesh: Annotated[list[MeshItem], Field(max_length=2, min_length=2)]
+    """
+    Numbers of elements along `s1` and `s2`.
+    """
+    area_density: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Mass per area, kg/m^2, with `stiffness`.
+    """
+    axis_angle: StrictFloat = 0.0
+    """
+    Angle of the first axis of `laminate` or `stiffness` from the lines along `s1`, counter-clockwise about the normal, rad.
+    """
+    damping_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Kelvin-Voigt damping of `laminate` or `stiffness`: ratio of viscosity to stiffness, s.
+    """
+    laminate: Annotated[list[LaminatePly], Field(validate_default=True)] = []
+    """
+    Plies from the bottom to the top, along the normal of the surface; instead of `material` and `thickness`.
+    """
+    markers: Annotated[dict[str, PatchMarker], Field(validate_default=True)] = {}
+    """
+    Named points: `[s1, s2]`, or one with a pad.
+    """
+    material: PatchMaterial | None = None
+    """
+    Isotropic material, with `thickness`.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Rigid motion at the start; velocity of the corner at `s1 = 0`, `s2 = 0`.
+    """
+    stiffness: PatchStiffness | None = None
+    """
+    Stiffness of a section as matrices; instead of `material` and `thickness`.
+    """
+    thickness: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Thickness, m, with `material`.
+    """
+
+
+class Shell(Part):
+    """
+    Thin shell, flat or curved without stress: stretches and bends. In space.
+    """
+
+    element: Literal["shell"] = "shell"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    surface: PatchSurface
+    """
+    Middle surface without stress, also the configuration at the start. Coordinates `s1` and `s2` run over it from 0 to 1.
+    """
+    mesh: Annotated[list[MeshItem], Field(max_length=2, min_length=2)]
+    """
+    Numbers of elements along `s1` and `s2`.
+    """
+    area_density: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Mass per area, kg/m^2, with `stiffness`.
+    """
+    axis_angle: StrictFloat = 0.0
+    """
+    Angle of the first axis of `laminate` or `stiffness` from the lines along `s1`, counter-clockwise about the normal, rad.
+    """
+    damping_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Kelvin-Voigt damping of `laminate` or `stiffness`: ratio of viscosity to stiffness, s.
+    """
+    laminate: Annotated[list[LaminatePly], Field(validate_default=True)] = []
+    """
+    Plies from the bottom to the top, along the normal of the surface; instead of `material` and `thickness`.
+    """
+    markers: Annotated[dict[str, PatchMarker], Field(validate_default=True)] = {}
+    """
+    Named points: `[s1, s2]`, or one with a pad.
+    """
+    material: PatchMaterial | None = None
+    """
+    Isotropic material, with `thickness`.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Rigid motion at the start; velocity of the corner at `s1 = 0`, `s2 = 0`.
+    """
+    stiffness: PatchStiffness | None = None
+    """
+    Stiffness of a section as matrices; instead of `material` and `thickness`.
+    """
+    thickness: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Thickness, m, with `material`.
+    """
+
+
 Body = TypeAliasType(
     "Body",
     Annotated[
-        Cable | Rod | Beam | AutoBody | RigidBody | ReducedBody,
+        Cable | Rod | Beam | AutoBody | RigidBody | ReducedBody | Plate | Shell,
         Field(discriminator="element"),
     ],
 )
@@ -3091,6 +3644,46 @@ class DistributedMomentLoad(Part):
     """
 
 
+class PressureLoad(Part):
+    """
+    Pressure along the normal of a plate or shell, which follows it, by its present area, Pa.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["pressure"] = "pressure"
+    body: StrictStr
+    """
+    Name of the plate or shell that the pressure acts on.
+    """
+    value: LoadValue
+    """
+    Pressure along the normal, Pa: one value.
+    """
+
+
+class AreaForceLoad(Part):
+    """
+    Force in global axes per area of a plate or shell without stress, N/m^2.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["area_force"] = "area_force"
+    body: StrictStr
+    """
+    Name of the plate or shell that the force acts on.
+    """
+    value: LoadValue
+    """
+    Components of the force per area, N/m^2.
+    """
+
+
 class ContactLoad(Part):
     """
     Contact of a marker, or of the line of a cable, rod or beam, with a surface of the ground: a one-sided spring and damper along the
@@ -3144,6 +3737,8 @@ Load = TypeAliasType(
         | TorqueLoad
         | DistributedForceLoad
         | DistributedMomentLoad
+        | PressureLoad
+        | AreaForceLoad
         | SpringDamperLoad
         | TableSpringLoad
         | JointSpringLoad

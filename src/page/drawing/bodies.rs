@@ -6,7 +6,7 @@ use crate::picture::palette::{BODY, INK, INSIDE};
 use crate::picture::{Skin, Style};
 use crate::scene::{BodyReference, Cable, FileBody, LineBody, PatchBody, PatchGrid, RigidBody};
 
-/// Parts of the polyline that stands for a cable.
+/// Parts of the polyline that stands for a cable, or for an edge that is held.
 const PARTS: u32 = 96;
 /// Most points of the surface of a reduced body.
 const SURFACE_POINTS: usize = 300;
@@ -204,8 +204,16 @@ impl Picture<'_> {
         self.canvas.circle(centre, 0.34 * self.unit, style);
     }
 
-    /// Masses, then markers.
+    /// Edges that joints hold, masses, then markers.
     pub(super) fn marks(&mut self) {
+        for edge in &self.resolved.edges {
+            let geometry = edge.plate.body.geometry();
+            let places = (0..=PARTS).map(|part| f64::from(part) / f64::from(PARTS));
+            let places = places.map(|along| geometry.corner(edge.at(along))[0]);
+            let points: Vec<Point> = places.map(|place| self.at(place)).collect();
+            self.canvas
+                .polyline(&points, Style::line(INK, 0.42 * self.unit));
+        }
         for of in &self.resolved.masses {
             let centre = self.at(of.marker.position);
             self.canvas

@@ -133,7 +133,7 @@ pub enum PatchMarker {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pad {
-    /// Its middle, `[s1, s2]`.
+    /// Middle of the pad, `[s1, s2]`.
     pub at: [f64; 2],
     /// Lengths along `s1` and `s2`, m; what is beyond the edges does not count.
     pub pad: [f64; 2],
@@ -151,7 +151,7 @@ impl<'de> Deserialize<'de> for PatchMarker {
 }
 
 impl PatchMarker {
-    /// Its middle, `[s1, s2]`.
+    /// Middle of the marker, `[s1, s2]`.
     pub fn at(&self) -> [f64; 2] {
         match self {
             Self::Point(at) | Self::Pad(Pad { at, .. }) => *at,

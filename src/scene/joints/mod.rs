@@ -205,7 +205,7 @@ pub trait SceneJoint {
         Ok(())
     }
 
-    /// What it holds of an edge of a plate or shell, if it is a joint of one: its ends are no markers then.
+    /// Returns the freedoms that it holds of an edge of a plate or shell, if it is a joint of one. Its ends are no markers then.
     fn edge(&self) -> Option<EdgeHold> {
         None
     }

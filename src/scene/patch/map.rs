@@ -7,43 +7,43 @@ use crate::math::quadrature::GAUSS_3;
 use crate::scene::SceneVector;
 use crate::scene::description::PatchSurface;
 
-type Point = Vector3<f64>;
+type SurfacePoint = Vector3<f64>;
 
 /// A surface as a map of `[s1, s2]` in `[0, 1]`.
 #[derive(Clone, Debug)]
 pub enum SurfaceMap {
     /// Straight lines between opposite edges, by the corners at `[0, 0]`, `[1, 0]`, `[1, 1]` and `[0, 1]`.
-    Bilinear([Point; 4]),
+    Bilinear([SurfacePoint; 4]),
     /// A curve that rotates about an axis.
     Revolved(Revolved),
     /// Straight lines between two curves, of points with their derivatives.
-    Ruled([Vec<[Point; 2]>; 2]),
+    Ruled([Vec<[SurfacePoint; 2]>; 2]),
     /// Smooth surface through a grid, `[s1][s2]`, of points with both derivatives and the mixed one.
-    Spline(Vec<Vec<[Point; 4]>>),
+    Spline(Vec<Vec<[SurfacePoint; 4]>>),
 }
 
 /// A curve that rotates about an axis.
 #[derive(Clone, Debug)]
 pub struct Revolved {
-    origin: Point,
+    origin: SurfacePoint,
     /// Direction of the curve's plane at the start, the one a right angle further, and the axis: unit vectors.
-    axes: [Point; 3],
+    axes: [SurfacePoint; 3],
     angle: f64,
-    profile: Profile,
+    profile: Meridian,
     /// Which of both coordinates goes around.
     around: usize,
 }
 
-/// A curve beside an axis.
+/// A curve that rotates, beside its axis.
 #[derive(Clone, Copy, Debug)]
-enum Profile {
+enum Meridian {
     /// A line: from and to a height above the origin and a distance from the axis, m.
     Line([[f64; 2]; 2]),
     /// A circle about the origin with a radius, m, between two latitudes, rad.
     Circle(f64, [f64; 2]),
 }
 
-impl Profile {
+impl Meridian {
     /// Height and distance from the axis, with their derivatives.
     fn at(self, w: f64) -> [[f64; 2]; 2] {
         match self {
@@ -61,7 +61,7 @@ impl Profile {
 }
 
 impl Revolved {
-    fn at(&self, at: [f64; 2]) -> [Point; 4] {
+    fn at(&self, at: [f64; 2]) -> [SurfacePoint; 4] {
         let (sin, cos) = (self.angle * at[self.around]).sin_cos();
         let [[height, radius], [rise, growth]] = self.profile.at(at[1 - self.around]);
         let [a, b, axis] = self.axes;
@@ -76,12 +76,12 @@ impl Revolved {
     }
 }
 
-fn point(of: &SceneVector) -> Point {
+fn point(of: &SceneVector) -> SurfacePoint {
     of.full().into()
 }
 
 /// Axes of a rotation about `axis` that begins along what of `start` is across it.
-fn axes(axis: Point, start: Point) -> [Point; 3] {
+fn axes(axis: SurfacePoint, start: SurfacePoint) -> [SurfacePoint; 3] {
     let axis = axis.normalize();
     let out = (start - axis * axis.dot(&start)).normalize();
     [out, axis.cross(&out), axis]
@@ -107,7 +107,7 @@ impl SurfaceMap {
                 origin: point(center),
                 axes: axes(point(normal), point(start)),
                 angle: *angle,
-                profile: Profile::Line(radii.map(|radius| [0.0, radius])),
+                profile: Meridian::Line(radii.map(|radius| [0.0, radius])),
                 around: 1,
             }),
             Cylinder {
@@ -135,11 +135,11 @@ impl SurfaceMap {
                 origin: point(center),
                 axes: axes(point(axis), point(start)),
                 angle: *angle,
-                profile: Profile::Circle(*radius, *latitudes),
+                profile: Meridian::Circle(*radius, *latitudes),
                 around: 0,
             }),
             Ruled { curves } => Self::Ruled(curves.each_ref().map(|points| {
-                let points: Vec<Point> = points.iter().map(point).collect();
+                let points: Vec<SurfacePoint> = points.iter().map(point).collect();
                 let slopes = slopes(&points);
                 points.into_iter().zip(slopes).map(Into::into).collect()
             })),
@@ -148,7 +148,7 @@ impl SurfaceMap {
     }
 
     /// Position, its derivatives by `s1` and `s2`, and the mixed one, m.
-    pub fn at(&self, [u, v]: [f64; 2]) -> [Point; 4] {
+    pub fn at(&self, [u, v]: [f64; 2]) -> [SurfacePoint; 4] {
         match self {
             Self::Bilinear([a, b, c, d]) => {
                 let mixed = a - b + c - d;
@@ -163,29 +163,29 @@ impl SurfaceMap {
             Self::Revolved(of) => of.at([u, v]),
             Self::Ruled(curves) => {
                 let [[p, dp], [q, dq]] = curves.each_ref().map(|curve| on_curve(curve, u));
-                let between = |a: Point, b: Point| a + (b - a) * v;
+                let between = |a: SurfacePoint, b: SurfacePoint| a + (b - a) * v;
                 [between(p, q), between(dp, dq), q - p, dq - dp]
             }
             Self::Spline(grid) => {
-                let rows = grid.iter().map(|row| {
-                    let of = |k: usize| row.iter().map(move |of| [of[k], of[k + 2]]);
-                    let [value, slope] = [0, 1].map(|k| on_curve(&of(k).collect::<Vec<_>>(), v));
-                    [value, slope]
+                let (row, column) = (
+                    CurvePiece::at(grid.len(), u),
+                    CurvePiece::at(grid[0].len(), v),
+                );
+                // Along `s2` of both rows: the value and the derivative by `s1`, each with its derivative by `s2`.
+                let along = [0, 1].map(|k| {
+                    let ends = [0, 1].map(|l| grid[row.first + k][column.first + l]);
+                    [0, 1].map(|part| column.between(ends.map(|of| [of[part], of[part + 2]])))
                 });
-                let rows: Vec<[[Point; 2]; 2]> = rows.collect();
-                let of = |k: usize| -> Vec<[Point; 2]> {
-                    rows.iter()
-                        .map(|[value, slope]| [value[k], slope[k]])
-                        .collect()
-                };
-                let [[r, first], [second, mixed]] = [0, 1].map(|k| on_curve(&of(k), u));
+                let [[r, first], [second, mixed]] = [0, 1].map(|part| {
+                    row.between(along.map(|[value, slope]| [value[part], slope[part]]))
+                });
                 [r, first, second, mixed]
             }
         }
     }
 
     /// Axes at a place, unit vectors: along the lines along `s1`, across them in the surface, and the normal.
-    pub fn axes(&self, at: [f64; 2]) -> [Point; 3] {
+    pub fn axes(&self, at: [f64; 2]) -> [SurfacePoint; 3] {
         let [_, first, second, _] = self.at(at);
         let (along, normal) = (first.normalize(), first.cross(&second).normalize());
         [along, normal.cross(&along), normal]
@@ -224,24 +224,25 @@ fn around(
         origin: from,
         axes: axes(axis, point(start)),
         angle,
-        profile: Profile::Line([[0.0, first], [axis.norm(), last]]),
+        profile: Meridian::Line([[0.0, first], [axis.norm(), last]]),
         around: 0,
     })
 }
 
 /// Derivatives at a grid of points, such that they belong to one smooth surface.
-fn through(grid: &[Vec<SceneVector>]) -> Vec<Vec<[Point; 4]>> {
+fn through(grid: &[Vec<SceneVector>]) -> Vec<Vec<[SurfacePoint; 4]>> {
     let points = grid.iter().map(|row| row.iter().map(point).collect());
-    let points: Vec<Vec<Point>> = points.collect();
-    let along_second = |rows: &[Vec<Point>]| rows.iter().map(|row| slopes(row)).collect::<Vec<_>>();
-    let along_first = |rows: &[Vec<Point>]| {
+    let points: Vec<Vec<SurfacePoint>> = points.collect();
+    let along_second =
+        |rows: &[Vec<SurfacePoint>]| rows.iter().map(|row| slopes(row)).collect::<Vec<_>>();
+    let along_first = |rows: &[Vec<SurfacePoint>]| {
         let columns = (0..rows[0].len()).map(|j| {
-            let column: Vec<Point> = rows.iter().map(|row| row[j]).collect();
+            let column: Vec<SurfacePoint> = rows.iter().map(|row| row[j]).collect();
             slopes(&column)
         });
-        let columns: Vec<Vec<Point>> = columns.collect();
+        let columns: Vec<Vec<SurfacePoint>> = columns.collect();
         let row = |i: usize| columns.iter().map(|column| column[i]).collect();
-        (0..rows.len()).map(row).collect::<Vec<Vec<Point>>>()
+        (0..rows.len()).map(row).collect::<Vec<Vec<SurfacePoint>>>()
     };
     let (first, second) = (along_first(&points), along_second(&points));
     let mixed = along_second(&first);
@@ -254,7 +255,7 @@ fn through(grid: &[Vec<SceneVector>]) -> Vec<Vec<[Point; 4]>> {
 /// ends, so that cubics come out exactly.
 ///
 /// Source: C. de Boor, A Practical Guide to Splines (1978), chapter 4.
-fn slopes(points: &[Point]) -> Vec<Point> {
+fn slopes(points: &[SurfacePoint]) -> Vec<SurfacePoint> {
     let last = points.len() - 1;
     let step = |k: usize| (points[k + 1] - points[k]) * last as f64;
     match last {
@@ -266,7 +267,8 @@ fn slopes(points: &[Point]) -> Vec<Point> {
         _ => {}
     }
     // Each row: what counts before, at and after a point, and the sum.
-    let mut rows: Vec<([f64; 2], Point)> = vec![([1.0, 2.0], (step(0) * 5.0 + step(1)) * 0.5)];
+    let mut rows: Vec<([f64; 2], SurfacePoint)> =
+        vec![([1.0, 2.0], (step(0) * 5.0 + step(1)) * 0.5)];
     for k in 1..=last {
         let (mut row, mut sum, before) = if k < last {
             ([4.0, 1.0], (step(k - 1) + step(k)) * 3.0, 1.0)
@@ -283,7 +285,7 @@ fn slopes(points: &[Point]) -> Vec<Point> {
         sum -= of * factor;
         rows.push((row, sum));
     }
-    let mut found = vec![Point::zeros(); last + 1];
+    let mut found = vec![SurfacePoint::zeros(); last + 1];
     for (k, ([at, after], sum)) in rows.into_iter().enumerate().rev() {
         let beyond = found.get(k + 1).copied().unwrap_or_default();
         found[k] = (sum - beyond * after) / at;
@@ -292,17 +294,43 @@ fn slopes(points: &[Point]) -> Vec<Point> {
 }
 
 /// Value and derivative of a curve through points with derivatives at even steps.
-fn on_curve(points: &[[Point; 2]], s: f64) -> [Point; 2] {
-    let count = points.len() - 1;
-    let piece = ((s * count as f64) as usize).min(count - 1);
-    let (size, x) = ((count as f64).recip(), s * count as f64 - piece as f64);
-    let ([p, dp], [q, dq]) = (points[piece], points[piece + 1]);
-    let (dp, dq, way) = (dp * size, dq * size, q - p);
-    // In powers of x.
-    let (square, cube) = (way * 3.0 - dp * 2.0 - dq, dp + dq - way * 2.0);
-    let value = p + (dp + (square + cube * x) * x) * x;
-    let slope = dp + (square * 2.0 + cube * (3.0 * x)) * x;
-    [value, slope / size]
+fn on_curve(points: &[[SurfacePoint; 2]], s: f64) -> [SurfacePoint; 2] {
+    let piece = CurvePiece::at(points.len(), s);
+    piece.between([points[piece.first], points[piece.first + 1]])
+}
+
+/// A place on a curve through points at even steps.
+#[derive(Clone, Copy)]
+struct CurvePiece {
+    /// Point before it.
+    first: usize,
+    /// Part of the way to the next point.
+    x: f64,
+    /// Way to the next point, of that along the whole curve.
+    size: f64,
+}
+
+impl CurvePiece {
+    fn at(points: usize, s: f64) -> Self {
+        let count = points - 1;
+        let first = ((s * count as f64) as usize).min(count - 1);
+        Self {
+            first,
+            x: s * count as f64 - first as f64,
+            size: (count as f64).recip(),
+        }
+    }
+
+    /// Value and derivative, from those of the points before and after.
+    fn between(&self, [[p, dp], [q, dq]]: [[SurfacePoint; 2]; 2]) -> [SurfacePoint; 2] {
+        let (x, size) = (self.x, self.size);
+        let (dp, dq, way) = (dp * size, dq * size, q - p);
+        // In powers of x.
+        let (square, cube) = (way * 3.0 - dp * 2.0 - dq, dp + dq - way * 2.0);
+        let value = p + (dp + (square + cube * x) * x) * x;
+        let slope = dp + (square * 2.0 + cube * (3.0 * x)) * x;
+        [value, slope / size]
+    }
 }
 
 #[cfg(test)]
@@ -362,12 +390,12 @@ mod tests {
     fn normals_are_as_said() {
         let maps = surfaces();
         let normal = |map: &SurfaceMap| map.axes([0.3, 0.6])[2];
-        assert!((normal(&maps[2]) - Point::new(0.0, 1.0, 2.0).normalize()).norm() < 1e-14);
-        let axis = Point::new(1.0, 1.0, 2.0).normalize();
+        assert!((normal(&maps[2]) - SurfacePoint::new(0.0, 1.0, 2.0).normalize()).norm() < 1e-14);
+        let axis = SurfacePoint::new(1.0, 1.0, 2.0).normalize();
         let at = maps[3].at([0.3, 0.6])[0];
         let out = (at - axis * axis.dot(&at)) / 0.7;
         assert!((normal(&maps[3]) - out).norm() < 1e-14);
-        let out = (maps[5].at([0.3, 0.6])[0] - Point::new(1.0, 1.0, 0.0)) / 2.0;
+        let out = (maps[5].at([0.3, 0.6])[0] - SurfacePoint::new(1.0, 1.0, 0.0)) / 2.0;
         assert!((normal(&maps[5]) - out).norm() < 1e-14);
     }
 
@@ -376,7 +404,7 @@ mod tests {
     fn splines_give_cubics_back() {
         let maps = surfaces();
         let (u, v): (f64, f64) = (0.37, 0.81);
-        let wanted = Point::new(u, v + 0.2 * u * u, 0.3 * u * v - 0.2 * v * v * v);
+        let wanted = SurfacePoint::new(u, v + 0.2 * u * u, 0.3 * u * v - 0.2 * v * v * v);
         assert!((maps[7].at([u, v])[0] - wanted).norm() < 1e-14);
         let [along, around] = maps[2].lengths();
         assert!((along - 1.5).abs() < 1e-12 && (around - 2.5 * 1.25).abs() < 1e-12);

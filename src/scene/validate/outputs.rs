@@ -8,7 +8,7 @@ use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
 use crate::scene::loads::LoadKind;
 use crate::scene::resolved::{
-    self, AngleId, DirectionSource, First, OutputTarget, Reaction, Resolved, ResolvedMarker,
+    self, AngleId, DirectionSource, First, OutputTarget, Place, Reaction, Resolved, ResolvedMarker,
 };
 
 /// Replacement in space for an angle of a marker, in a message.
@@ -238,6 +238,10 @@ impl<'a> Resolved<'a> {
         marker: &ResolvedMarker<'a>,
     ) -> Result<Option<ResolvedMarker<'a>>, Error> {
         let Some(name) = &output.from else {
+            if let Place::Patch(..) = marker.place {
+                let wanted = "another marker of the plate or shell, whose frame is compared with";
+                return Err(expected(&format!("{path}.from"), wanted, "nothing"));
+            }
             return Ok(None);
         };
         let path = format!("{path}.from");

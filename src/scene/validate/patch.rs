@@ -15,7 +15,7 @@ use crate::scene::{Error, PatchMarker};
 /// Elements of a plate or shell along each coordinate: factors of finer meshes take gigabytes.
 const MESH: RangeInclusive<u32> = 1..=200;
 /// Most plies of a laminate, and most points of a curve or of a row of a grid.
-const MOST: usize = 1000;
+const MOST: usize = 200;
 /// Parts along each coordinate between which a surface is looked at.
 const PARTS: u32 = 16;
 /// Area of a surface by coordinates, relative to the largest one, below which it collapses.
@@ -191,7 +191,8 @@ impl LaminatePly {
         positive(&at("material.density"), "kg/m^3", material.density)?;
         let ([first, second], ratio) = (material.youngs_modulus, material.poisson_ratio);
         let most = (first / second).sqrt();
-        if !(ratio.abs() < most) {
+        let is_definite = ratio.abs() < most;
+        if !is_definite {
             let wanted =
                 format!("a number between -{most} and {most} (the root of the ratio of moduli)");
             return Err(expected(&at("material.poisson_ratio"), &wanted, ratio));
@@ -285,7 +286,8 @@ impl PatchSurface {
                 positive(&at("radius"), "m", *radius)?;
                 about(&at("axis"), axis, &at("start"), start)?;
                 for (k, found) in latitudes.iter().enumerate() {
-                    if !(found.abs() < FRAC_PI_2) {
+                    let is_between = found.abs() < FRAC_PI_2;
+                    if !is_between {
                         let wanted = "a latitude between the poles (-pi/2 and pi/2 rad)";
                         return Err(expected(&at(&format!("latitudes[{k}]")), wanted, found));
                     }
@@ -297,27 +299,34 @@ impl PatchSurface {
                 sector(&at("angle"), *angle)
             }
             Self::Ruled { curves } => {
-                for (k, points) in curves.iter().enumerate() {
-                    counted(&at(&format!("curves[{k}]")), points.len())?;
-                    each(&format!("curves[{k}]"), points)?;
-                }
-                Ok(())
+                let mut curves = curves.iter().enumerate();
+                curves.try_for_each(|(k, points)| row(&at(&format!("curves[{k}]")), points))
             }
-            Self::Points { grid } => {
-                counted(&at("grid"), grid.len())?;
-                for (k, row) in grid.iter().enumerate() {
-                    let place = at(&format!("grid[{k}]"));
-                    counted(&place, row.len())?;
-                    if row.len() != grid[0].len() {
-                        let wanted = format!("{} points, as in the first list", grid[0].len());
-                        return Err(expected(&place, &wanted, row.len()));
-                    }
-                    each(&format!("grid[{k}]"), row)?;
-                }
-                Ok(())
-            }
+            Self::Points { grid } => check_grid(&at("grid"), grid),
         }
     }
+}
+
+/// Points of a curve.
+fn row(path: &str, points: &[SceneVector]) -> Result<(), Error> {
+    counted(path, points.len())?;
+    let mut places = points.iter().enumerate();
+    places.try_for_each(|(k, point)| vector(&format!("{path}[{k}]"), 3, point))
+}
+
+/// Lists of as many points each.
+fn check_grid(path: &str, grid: &[Vec<SceneVector>]) -> Result<(), Error> {
+    counted(path, grid.len())?;
+    for (k, points) in grid.iter().enumerate() {
+        let place = format!("{path}[{k}]");
+        counted(&place, points.len())?;
+        if points.len() != grid[0].len() {
+            let wanted = format!("{} points, as in the first list", grid[0].len());
+            return Err(expected(&place, &wanted, points.len()));
+        }
+        row(&place, points)?;
+    }
+    Ok(())
 }
 
 /// As many points that a curve goes through them.
@@ -389,7 +398,8 @@ fn check_map(path: &str, map: &SurfaceMap, is_plate: bool) -> Result<(), Error> 
     };
     let told = |[u, v]: [f64; 2]| format!("[s1, s2] = [{u}, {v}]");
     let largest = places().map(|at| normal(at).norm()).fold(0.0, f64::max);
-    let collapsed = places().find(|at| !(normal(*at).norm() > COLLAPSED * largest));
+    let has_normal = |at: &[f64; 2]| normal(*at).norm() > COLLAPSED * largest;
+    let collapsed = places().find(|at| !has_normal(at));
     if let Some(at) = collapsed.filter(|_| largest.is_finite()) {
         let wanted = "a surface whose lines along s1 and s2 cross at an angle everywhere";
         return Err(expected(
@@ -419,7 +429,8 @@ fn check_map(path: &str, map: &SurfaceMap, is_plate: bool) -> Result<(), Error> 
         let step = f64::from(PARTS).recip();
         let beside = [[at[0] - step, at[1]], [at[0], at[1] - step]];
         let mut beside = beside.into_iter().filter(|of| of[0] >= 0.0 && of[1] >= 0.0);
-        beside.any(|of| !(normal(*at).dot(&normal(of)) > 0.0))
+        let is_alike = |of: [f64; 2]| normal(*at).dot(&normal(of)) > 0.0;
+        beside.any(|of| !is_alike(of))
     };
     if let Some(at) = places().find(folds) {
         let wanted = "a surface that does not fold over itself";

@@ -139,8 +139,8 @@ fn types_and_keys_keep_their_places() {
         scene,
         r#"
         /bodies | [] | bodies: expected at least one body, found none
-        /bodies/0/element | "shell" | bodies[0].element: expected "cable", "rod", "beam", "auto", "rigid" or "reduced", found "shell"
-        /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable", "rod", "beam", "auto", "rigid" or "reduced", found nothing
+        /bodies/0/element | "brick" | bodies[0].element: expected "cable", "rod", "beam", "auto", "rigid", "reduced", "plate" or "shell", found "brick"
+        /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable", "rod", "beam", "auto", "rigid", "reduced", "plate" or "shell", found nothing
         /bodies/0 | 3 | bodies[0]: expected a body { ... }, found 3
         /bodies/0/section | [1e-3, 1e-8] | bodies[0].section: expected an object { ... }, found a list
         /bodies/0/shape | {"line": {}, "arc": {}} | bodies[0].shape: expected an object with one of "line" or "arc" or "helix", found {"arc", "line"}

@@ -118,7 +118,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Deflection of a marker: its place less where the drawn body takes it that the frame at another marker carries, along the carried axes,
-    /// m. Without another marker a chain is in its best rigid fit, and the mean axes carry a reduced body. Zero of what does not bend.
+    /// m. Without another marker a chain is in its best rigid fit, and the mean axes carry a reduced body. Zero of what does not bend, and of a
+    /// plate without another marker.
     pub fn deflection(
         &self,
         system: &System<D>,
@@ -128,7 +129,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     ) -> [N; 3] {
         let line = system.bodies.line(marker.body);
         let mean = system.bodies.mean_axes(marker.body);
-        if line.is_none() && mean.is_none() {
+        let mut patches = system.bodies.patches().iter();
+        let is_patch = patches.any(|patch| patch.all().contains(&marker.nodes[0]));
+        if line.is_none() && mean.is_none() && !is_patch {
             return [N::of(0.0); 3];
         }
         let by = line.map_or(N::of(1.0), |chain| {

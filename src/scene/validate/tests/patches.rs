@@ -60,7 +60,7 @@ fn surfaces_and_meshes_are_checked() {
         /bodies/1/surface | {"sphere": {"center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1], "start": [1, 0, 0], "latitudes": [0, 1.6], "angle": 1}} | bodies[1].surface.sphere.latitudes[1]: expected a latitude between the poles
         /bodies/1/surface | {"sphere": {"center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1], "start": [1, 0, 0], "latitudes": [0, 1.5707], "angle": 1}} | bodies[1].surface: expected a surface whose lines along s1 and s2 cross
         /bodies/1/surface | {"sphere": {"center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1], "start": [1, 0, 0], "latitudes": [1, 0], "angle": 1}} | bodies[1].surface.sphere.latitudes[1]: expected more than the first latitude (1 rad), found 0
-        /bodies/1/surface | {"points": {"grid": [[[0, 0, 0], [1, 0, 0]]]}} | bodies[1].surface.points.grid: expected 2 to 1000 points, found 1
+        /bodies/1/surface | {"points": {"grid": [[[0, 0, 0], [1, 0, 0]]]}} | bodies[1].surface.points.grid: expected 2 to 200 points, found 1
         /bodies/1/surface | {"points": {"grid": [[[0, 0, 0], [1, 0, 0]], [[0, 1, 0]]]}} | bodies[1].surface.points.grid[1]
         /bodies/1/surface | {"ruled": {"curves": [[[0, 0, 0], [1, 0, 0]], [[0, 1, 0], [1, 1, 0], [2, 1, 0]]]}} | joints[2].normal
         /bodies/1/element | "plate" | bodies[1].surface: expected a flat surface of a plate
@@ -143,6 +143,8 @@ fn markers_edges_and_loads_are_checked() {
         /masses | [{"marker": "panel.tip", "mass": 1}] | masses[0].marker: expected a marker of another body than a plate or shell
         /outputs | [{"kind": "reaction", "joint": "wall"}] | outputs[0].joint: expected a joint of markers (nothing is read or driven at joints of edges yet), found "wall"
         /outputs | [{"kind": "axial_force", "marker": "panel.tip"}] | outputs[0].marker: expected a marker of a cable, found "panel.tip"
+        /outputs | [{"kind": "deflection", "marker": "panel.tip"}] | outputs[0].from: expected another marker of the plate or shell
+        /outputs | [{"kind": "deflection", "marker": "panel.tip", "from": "panel.root"}] | accepted
         /outputs | [{"kind": "orientation", "marker": "roof.top"}] | accepted
         "#,
     );

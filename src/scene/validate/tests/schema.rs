@@ -27,7 +27,9 @@ fn the_schema_tells_bodies_apart_by_their_element() {
         .collect();
     assert_eq!(
         elements,
-        ["cable", "rod", "beam", "auto", "rigid", "reduced"]
+        [
+            "cable", "rod", "beam", "auto", "rigid", "reduced", "plate", "shell"
+        ]
     );
     for kind in &kinds {
         assert_eq!(kind["additionalProperties"], json!(false));
