@@ -348,10 +348,12 @@ fn pressures_bend_a_strip_between_edges() -> Result<(), String> {
 fn free_plates_are_accelerated() -> Result<(), String> {
     let surface = json!({"rectangle": {"corner": [1, 2, 3], "edges": [[0, 1, 0], [0, 0, 1]]}});
     let keys = json!({"motion": {"velocity": [1, 2, 3], "spin": [0.1, 0, 0]}});
+    let outputs = ["position", "velocity", "acceleration", "orientation"];
+    let outputs = outputs.map(|kind| json!({"kind": kind, "marker": "p.tip"}));
     let scene = json!({"name": "free", "dimension": 3, "bodies": [body("plate", &surface, [2, 2], &keys)],
         "loads": [{"name": "q", "kind": "pressure", "body": "p", "value": 12}],
         "inputs": [{"kind": "area_force", "body": "p", "start": [2, 3, 4]}],
-        "outputs": ["position", "velocity", "acceleration", "orientation"].map(|kind| json!({"kind": kind, "marker": "p.tip"}))});
+        "outputs": outputs});
     let mut run = Run::new(&scene)?;
     all_near(run.vector("p.tip.position")?, [1.0, 3.0, 3.5], 1e-14);
     // The velocity is that of the corner.
