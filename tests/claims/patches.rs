@@ -171,7 +171,7 @@ fn damping_slows_a_strip() -> Result<(), String> {
     let lost = |keys: &Value, values: &[(&str, f64)]| -> Result<f64, String> {
         let mut scene = strip(keys, [0.0, 0.0, 1e-3 * bending]);
         scene["initial"] = json!("undeformed");
-        scene["outputs"] = json!([{"kind": "energy"}]);
+        scene["outputs"] = json!([{"kind": "work"}]);
         let mut run = Run::set(&scene, values)?;
         run.0.step(2e-3).map_err(|error| error.to_string())?;
         let index = run.index("energy.dissipated")?;
@@ -221,20 +221,23 @@ fn strips_of_matrices_couple() -> Result<(), String> {
         json!({"material": null, "thickness": null, "area_density": 20, "axis_angle": angle,
             "stiffness": {"A": diagonal(a, 2.0 * a), "B": diagonal(first, 0.0), "D": diagonal(d, 2.0 * d)}})
     };
-    let load = 1e-6 * a;
+    // So small that tension does not stiffen it.
+    let load = 1e-9 * a;
     let along = |keys: &Value| tip(&strip(keys, [load, 0.0, 0.0]));
     let found = along(&keys(0.0, 0.0))?;
-    near(found[0], load * LENGTH.powi(2) / (2.0 * a), 1e-11);
+    let plain = load * LENGTH.powi(2) / (2.0 * a);
+    near(found[0], plain, 1e-4 * plain);
     // N = A e - B k, M = D k - B e = 0.
     let (whole, found) = (a * d - b * b, along(&keys(b, 0.0))?);
-    near(found[0], load * LENGTH.powi(2) * d / (2.0 * whole), 1e-9);
-    near(found[2], load * LENGTH.powi(3) * b / (3.0 * whole), 1e-8);
+    near(found[0], plain * a * d / whole, 1e-4 * plain);
+    let bent = load * LENGTH.powi(3) * b / (3.0 * whole);
+    near(found[2], bent, 1e-4 * bent);
     let quarter = std::f64::consts::FRAC_PI_2;
     let turned = along(&keys(0.0, quarter))?;
-    near(turned[0], load * LENGTH.powi(2) / (4.0 * a), 1e-11);
+    near(turned[0], 0.5 * plain, 1e-4 * plain);
     let scene = strip(&keys(0.0, 0.0), [load, 0.0, 0.0]);
     let set = Run::set(&scene, &[("p.axis_angle", quarter)])?.vector("p.tip.position")?;
-    near(set[0] - LENGTH, turned[0], 1e-13);
+    near(set[0] - LENGTH, turned[0], 1e-4 * plain);
     let mut free = strip(&keys(0.0, 0.0), [load, 0.0, 0.0]);
     (free["joints"], free["initial"]) = (json!([]), json!("undeformed"));
     let found = Run::new(&free)?.vector("p.tip.acceleration")?;
@@ -261,7 +264,7 @@ fn plies_add_up() -> Result<(), String> {
         factor * (first * part(bottom, between) + second * part(between, top))
     };
     let [a, b, d] = [1, 2, 3].map(sum);
-    let (load, whole) = (1e-7 * a, a * d - b * b);
+    let (load, whole) = (1e-10 * a, a * d - b * b);
     let found = tip(&strip(&keys, [load, 0.0, 0.0]))?;
     let wanted = [
         load * LENGTH.powi(2) * d / (2.0 * whole),
@@ -348,10 +351,12 @@ fn pressures_bend_a_strip_between_edges() -> Result<(), String> {
 fn free_plates_are_accelerated() -> Result<(), String> {
     let surface = json!({"rectangle": {"corner": [1, 2, 3], "edges": [[0, 1, 0], [0, 0, 1]]}});
     let keys = json!({"motion": {"velocity": [1, 2, 3], "spin": [0.1, 0, 0]}});
+    let outputs = ["position", "velocity", "acceleration", "orientation"];
+    let outputs = outputs.map(|kind| json!({"kind": kind, "marker": "p.tip"}));
     let scene = json!({"name": "free", "dimension": 3, "bodies": [body("plate", &surface, [2, 2], &keys)],
         "loads": [{"name": "q", "kind": "pressure", "body": "p", "value": 12}],
         "inputs": [{"kind": "area_force", "body": "p", "start": [2, 3, 4]}],
-        "outputs": ["position", "velocity", "acceleration", "orientation"].map(|kind| json!({"kind": kind, "marker": "p.tip"}))});
+        "outputs": outputs});
     let mut run = Run::new(&scene)?;
     all_near(run.vector("p.tip.position")?, [1.0, 3.0, 3.5], 1e-14);
     // The velocity is that of the corner.
@@ -360,13 +365,10 @@ fn free_plates_are_accelerated() -> Result<(), String> {
         [1.0, 2.0 - 0.05, 3.0 + 0.1],
         1e-12,
     );
-    // The normal is x; the middle of the plate is half a metre from the marker.
+    // The normal is x. Nothing pulls it to the middle before it has stretched.
     let mass = DENSITY * THICKNESS;
-    let wanted = [14.0 / mass, 3.0 / mass - 0.01 * 0.5, 4.0 / mass];
-    let found = run.vector("p.tip.acceleration")?;
-    near(found[0], wanted[0], 1e-9);
-    near(found[1], wanted[1], 1e-3);
-    near(found[2], wanted[2], 1e-3);
+    let wanted = [14.0 / mass, 3.0 / mass, 4.0 / mass];
+    all_near(run.vector("p.tip.acceleration")?, wanted, 1e-9);
     let mut set = Run::set(&scene, &[("p.area_force[1]", -12.0)])?;
     near(set.vector("p.tip.acceleration")?[0], 0.0, 1e-9);
     Ok(())

@@ -191,6 +191,7 @@ impl Mechanism {
             bodies.add_mass(mass);
         }
         Parts {
+            held: Vec::new(),
             bodies,
             rigid,
             joints,
