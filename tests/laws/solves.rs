@@ -311,6 +311,7 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
             modal: vec![false; x.len()],
             still: vec![false; x.len()],
             sections: Vec::new(),
+            surfaces: Vec::new(),
         };
         let mut tangent: Tangent<2> = Tangent::new(
             elimination,

@@ -165,6 +165,7 @@ impl Case {
             modal: vec![false; x.len()],
             still: vec![false; x.len()],
             sections: Vec::new(),
+            surfaces: Vec::new(),
         };
         let mut tangent: Tangent<3> = Tangent::new(
             &self.elimination,
