@@ -206,9 +206,13 @@ impl<const D: usize> Bodies<D> {
         if self.reduced.is_empty() {
             return largest_rotation(nodes);
         }
-        let turning = nodes
-            .enumerate()
-            .filter(|(node, _)| self.owner(*node) != NodeOwner::Modal);
+        // In the plane a second node has no direction beside its axis.
+        let turns = |node: usize| match self.owner(node) {
+            NodeOwner::Modal => false,
+            NodeOwner::Reduced(.., is_second) => D > 2 || !is_second,
+            _ => true,
+        };
+        let turning = nodes.enumerate().filter(|(node, _)| turns(*node));
         largest_rotation(turning.map(|(_, pair)| pair))
     }
 
