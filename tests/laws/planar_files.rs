@@ -316,3 +316,101 @@ fn a_tilted_body_is_refused() {
         "bodies[0].orientation: expected a rotation about the third axis in the plane, found another one"
     );
 }
+
+/// A strip on a hinge at the origin, with a force that follows its tip and bends it.
+fn hinged() -> Value {
+    let mut scene = strip(2, &json!({"position": [0, 0], "damping_ratio": 0.01}));
+    scene["gravity"] = json!([0, 0]);
+    scene["joints"] =
+        json!([{"name": "pin", "kind": "revolute", "markers": ["ground", "strip.root"]}]);
+    scene["outputs"] = json!([{"kind": "position", "marker": "strip.tip"}, {"kind": "velocity", "marker": "strip.tip"},
+        {"kind": "energy"}]);
+    scene
+}
+
+/// A scene described in a frame that rotates: the strip moves as it does at rest, seen from there.
+#[test]
+fn a_strip_moves_in_a_frame_that_rotates() {
+    let rotation = 40.0;
+    let of = |rotation: f64, spin: f64| {
+        let mut scene = hinged();
+        scene["rotation"] = json!(rotation);
+        scene["bodies"][0]["motion"] = json!({"spin": spin});
+        scene["loads"] = json!([{"name": "push", "kind": "force", "marker": "strip.tip", "follower": true, "value": [5.0, 60.0]}]);
+        started(STRIP, &scene)
+    };
+    let mut resting = of(0.0, 90.0);
+    let mut rotating = of(rotation, 90.0 - rotation);
+    for k in 1..=10_u32 {
+        let time = 0.01 * f64::from(k);
+        for run in [&mut resting, &mut rotating] {
+            run.step(time);
+        }
+        let (sin, cos) = (rotation * time).sin_cos();
+        let seen = |[x, y]: [f64; 2]| [cos * x + sin * y, cos * y - sin * x];
+        let place = seen(resting.read_all("strip.tip.position"));
+        let velocity = seen(resting.read_all("strip.tip.velocity"));
+        let wanted = [
+            place[0],
+            place[1],
+            velocity[0] + rotation * place[1],
+            velocity[1] - rotation * place[0],
+        ];
+        let [x, y]: [f64; 2] = rotating.read_all("strip.tip.position");
+        let [u, v]: [f64; 2] = rotating.read_all("strip.tip.velocity");
+        for (found, wanted) in [x, y, u, v].into_iter().zip(wanted) {
+            assert!(
+                (found - wanted).abs() < 1e-5 * wanted.abs().max(1.0),
+                "{time}: {found}, {wanted}"
+            );
+        }
+    }
+    assert!(resting.read("energy.strain") > 1e-4);
+}
+
+/// A steady start is in balance with centrifugal forces: the strip is bent as it begins, and rotates without change.
+#[test]
+fn a_strip_rotates_steadily() {
+    let mut scene = hinged();
+    scene["bodies"][0]["position"] = json!([0.1, 0.0]);
+    scene["bodies"][0]["orientation"] = json!({"rotation_vector": [0, 0, 1.2]});
+    scene["bodies"].as_array_mut().expect("bodies").push(
+        json!({"name": "hub", "element": "rigid", "mass": 1, "inertia": 1,
+        "position": [0, 0], "markers": {"axle": [0, 0], "rim": [0.1, 0]}}),
+    );
+    scene["joints"] = json!([{"name": "axle", "kind": "revolute", "markers": ["ground", "hub.axle"]},
+        {"name": "foot", "kind": "weld", "markers": ["hub.rim", "strip.root"]}]);
+    scene["motions"] =
+        json!([{"name": "drive", "kind": "angle", "joint": "axle", "value": "100*t"}]);
+    scene["initial"] = json!("steady");
+    let mut run = started(STRIP, &scene);
+    assert!(run.read("energy.strain") > 1e-4);
+    let [x, y]: [f64; 2] = run.read_all("strip.tip.position");
+    for k in 1..=10_u32 {
+        let time = 0.005 * f64::from(k);
+        run.step(time);
+        let (sin, cos) = (100.0 * time).sin_cos();
+        let found: [f64; 2] = run.read_all("strip.tip.position");
+        let off = (found[0] - (cos * x - sin * y)).hypot(found[1] - (sin * x + cos * y));
+        assert!(off < 1e-6, "{time}: {off}");
+    }
+}
+
+/// Full turns in either direction, by implicit steps: a strip that spins about its hinge without loads keeps its energy.
+#[test]
+fn implicit_steps_take_full_turns() {
+    for spin in [30.0, -30.0] {
+        let mut scene = hinged();
+        scene["bodies"][0]["motion"] = json!({"spin": spin});
+        scene["method"] = json!({"integrator": "radau"});
+        scene["accuracy"] = json!({"relative_tolerance": 1e-5});
+        let mut run = started(STRIP, &scene);
+        let before = run.read("energy.kinetic") + run.read("energy.strain");
+        run.step(1.0);
+        let after = run.read("energy.kinetic") + run.read("energy.strain");
+        assert!(
+            (after / before - 1.0).abs() < 1e-3,
+            "{spin}: {before}, {after}"
+        );
+    }
+}
