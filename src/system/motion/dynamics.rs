@@ -322,8 +322,18 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     /// As [`Dynamics::solve`], over small rotations in place of changes of coordinates: equilibria are found in these. Amplitudes of reduced
     /// bodies are counted with them, and are converted.
     pub fn solve_small(&mut self, x: &mut [f64]) {
+        self.to_counted(x);
+        self.solve_counted(x);
+        self.from_counted(x);
+    }
+
+    /// Changes of coordinates become what tangents are made in, where amplitudes of reduced bodies are counted.
+    pub fn to_counted(&self, x: &mut [f64]) {
         self.convert_reduced(Derivative::Back, x);
-        self.solve_tangent(x);
+    }
+
+    /// Reverses [`Self::to_counted`].
+    pub fn from_counted(&self, x: &mut [f64]) {
         self.convert_reduced(Derivative::First, x);
     }
 
@@ -338,7 +348,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     }
 
     /// Solves in place over what the tangent is made in.
-    fn solve_tangent(&mut self, x: &mut [f64]) {
+    pub fn solve_counted(&mut self, x: &mut [f64]) {
         self.operations += SOLVE;
         self.work
             .linearization
@@ -450,7 +460,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn solve(&mut self, x: &mut [f64]) {
         self.system.to_tangent(0, self.work, x);
-        self.solve_tangent(x);
+        self.solve_counted(x);
         self.system.back_from_tangent(0, self.work, x);
     }
 
