@@ -444,6 +444,7 @@ fn eigenvalues_of_a_line_that_spins_are_refused() {
 fn equilibria_under_moments_about_two_axes_are_found() {
     let tip = |model: Value| -> [f64; 3] {
         let mut scene = along_x(&model);
+        scene["outputs"] = json!([{"kind": "position", "marker": "rod.tip"}]);
         scene["loads"] =
             json!([{"name": "twist", "kind": "moment", "marker": "rod.tip", "value": [0, 5, 10]}]);
         scene["initial"] = json!("static_equilibrium");
