@@ -7,7 +7,7 @@ use crate::integrators::{
     Tolerance, VERLET,
 };
 use crate::math::vector::norm;
-use crate::scene::{Error, FileBody, Integrator, Model, Resolved};
+use crate::scene::{Error, Integrator, Model, Resolved};
 use crate::system::{State, System, Workspace, fastest};
 
 /// Explicit methods pay up to a frequency of this many natural rates, times the cube root of the inverse
@@ -156,17 +156,15 @@ fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kin
     }
 }
 
-/// Slowest bending (or stretching) of the first line that bends, with elements or as modes, between supports; else the first natural frequency
-/// of the first reduced body, free; 0 without one.
+/// Slowest bending (or stretching) of the first line that bends, with elements or else as modes, between supports; 0 without one. Free
+/// frequencies of a reduced body of a file say too little about it where joints hold it.
 fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
     let bodies = || resolved.scene.bodies.iter();
     let as_modes = bodies().filter_map(|body| body.cable());
     let as_modes = as_modes.filter(|line| line.model == Model::Modal);
     let mut lines = (bodies().filter_map(|body| body.flexible())).chain(as_modes);
     let Some(cable) = lines.next() else {
-        let deforms = |body: &&FileBody| body.first_modes() > 0;
-        let first = bodies().filter_map(|body| body.reduced()).find(deforms);
-        return first.map_or(0.0, |body| body.contained().model.eigenvalues[0].sqrt());
+        return 0.0;
     };
     let (length, middle) = (cable.shape.length(), cable.section_at(0.5));
     let per_mass = |stiffness: f64| (stiffness / cable.line_density_of(&middle)).sqrt();

@@ -402,7 +402,7 @@ fn what_modes_do_not_describe_is_refused() {
 }
 
 /// A velocity that counts as usual is that of the slowest bending, whatever the line is made of. Steps are measured by it where a scene rests
-/// without gravity.
+/// without gravity. Modes have the size of the distance from the centre of mass, half of the length.
 #[test]
 fn modes_and_elements_have_the_same_scale_of_time() {
     let natural = |model: Value| {
@@ -417,5 +417,74 @@ fn modes_and_elements_have_the_same_scale_of_time() {
         json!({"model": "flexible", "elements": 4}),
     ]
     .map(natural);
-    assert!((modes / elements - 1.0).abs() < 1e-9, "{modes} {elements}");
+    assert!(
+        (2.0 * modes / elements - 1.0).abs() < 1e-9,
+        "{modes} {elements}"
+    );
+}
+
+/// Modes are displacements along axes that rotate: eigenvalues need a frame of the scene that rotates with the body.
+#[test]
+fn eigenvalues_of_a_line_that_spins_are_refused() {
+    let mut scene = along_x(&json!({"model": "modal", "modes": 2}));
+    scene["joints"] = json!([]);
+    scene["outputs"] = json!([{"kind": "eigenvalue", "count": 3}]);
+    let started = |scene: &Value| Run::ready(scene).0.initialize(0.0);
+    assert!(started(&scene).is_ok());
+    scene["bodies"][0]["motion"] = json!({"spin": [0, 0, 20]});
+    let error = started(&scene).expect_err("a refusal").to_string();
+    for words in ["reduced bodies that do not turn in space", "(\"rotation\")"] {
+        assert!(error.contains(words), "{error}");
+    }
+}
+
+/// Moments about two axes have no potential. Their equilibria are those of elements, in a basis where an iteration in the wrong coordinates
+/// found none.
+#[test]
+fn equilibria_under_moments_about_two_axes_are_found() {
+    let tip = |model: Value| -> [f64; 3] {
+        let mut scene = along_x(&model);
+        scene["outputs"] = json!([{"kind": "position", "marker": "rod.tip"}]);
+        scene["loads"] =
+            json!([{"name": "twist", "kind": "moment", "marker": "rod.tip", "value": [0, 5, 10]}]);
+        scene["initial"] = json!("static_equilibrium");
+        let mut run = Run::started(&scene);
+        run.read_all("rod.tip.position")
+    };
+    let exact = tip(json!({"model": "flexible", "elements": 8}));
+    for modes in [0, 4, 8] {
+        let found = tip(json!({"model": "modal", "modes": modes}));
+        for k in 0..3 {
+            assert!(
+                (found[k] - exact[k]).abs() < 2e-5 * LENGTH,
+                "{modes}: {found:?} {exact:?}"
+            );
+        }
+    }
+}
+
+/// A joint holds the forces of dampers that act against it. Stiff modes with damping beyond the critical one then take no more steps than
+/// elements do.
+#[test]
+fn damping_of_stiff_modes_shortens_no_steps() {
+    let steps = |model: Value| {
+        let mut scene = along_x(&model);
+        scene["bodies"][0]["material"]["damping_time"] = json!(1e-3);
+        scene["gravity"] = json!([0, 0, -9.81]);
+        scene["loads"] = json!([{"name": "pull", "kind": "force", "marker": "rod.tip",
+            "value": [0, "10*min(t/0.05,1)^2*(3-2*min(t/0.05,1))", "10*min(t/0.05,1)^2*(3-2*min(t/0.05,1))"]}]);
+        scene["outputs"] = json!([{"kind": "position", "marker": "rod.tip"}]);
+        scene["accuracy"] = json!({"relative_tolerance": 1e-5});
+        scene["method"] = json!({"integrator": "radau"});
+        let mut run = Run::started(&scene);
+        (0..4)
+            .map(|_| {
+                run.0.step(0.05).expect("a step");
+                run.0.report().steps
+            })
+            .sum::<u64>()
+    };
+    let elements = steps(json!({"model": "flexible", "elements": 4}));
+    let modes = steps(json!({"model": "modal", "modes": 8}));
+    assert!(4 * modes < 6 * elements, "{modes} {elements}");
 }

@@ -8,6 +8,15 @@ use place::Place;
 
 const SCENE: &str = include_str!("../../../docs/book/examples/bodies/reduced.json");
 const MODEL: &[u8] = include_bytes!("../../../docs/book/examples/bodies/strip.safetensors");
+/// A file with stress on its surface, and one with second-order displacements of pairs of four of its five modes.
+const BRACKET: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../scenes/bracket.safetensors"
+);
+const PAIRS: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../tests/cases/reduced_bracket/bracket.safetensors"
+);
 
 /// A folder with the scene in a folder of its own, and the file that it names.
 fn place(name: &str) -> Place {
@@ -39,6 +48,19 @@ fn a_file_of_a_reduced_model_is_described() {
         assert!(
             printed.lines().any(|found| found == line),
             "{line}\n{printed}"
+        );
+    }
+    for (file, line) in [
+        (BRACKET, "surface: 120 points, 236 triangles, with stress"),
+        (
+            PAIRS,
+            "second-order terms: of pairs of the first 4 modes; a basis that combines others lacks theirs",
+        ),
+    ] {
+        let (done, printed) = place.printed(&["describe", file]);
+        assert!(
+            done && printed.lines().any(|found| found == line),
+            "{printed}"
         );
     }
     // A free strip: 22.373 / (2 pi) sqrt(E I / m) / L^2 is 64.0 Hz.

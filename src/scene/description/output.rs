@@ -112,7 +112,7 @@ kinds! {
         /// conjugate pairs once, real ones (`frequency` 0) each by itself. With dampers, gyroscopic forces and forces that
         /// follow, inputs held. Of a state in motion or out of equilibrium they are those of the equations of motion at
         /// that instant, as seen from the frame of the scene; cables that turn initially are refused: describe them in a frame
-        /// that turns with them (`rotation`); so are thin rods of space that turn initially.
+        /// that turns with them (`rotation`); so are thin rods of space and reduced bodies that turn initially.
         Eigenvalue(EigenvalueOutput),
     }
 }

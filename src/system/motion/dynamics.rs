@@ -63,7 +63,7 @@ pub trait Dynamics {
     fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]);
     /// Takes out of an acceleration what is against the constraints of the last [`Dynamics::acceleration`].
     fn take_out_normal(&mut self, _a: &mut [f64]) {}
-    /// `R x`, in place.
+    /// `R x`, in place, as part of what is solved next: constraints hold the part of this force that is against them.
     fn apply_damping(&mut self, x: &mut [f64]);
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations.
     fn largest_rotation(&mut self, from: &[f64], to: &[f64]) -> f64;
@@ -322,8 +322,18 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     /// As [`Dynamics::solve`], over small rotations in place of changes of coordinates: equilibria are found in these. Amplitudes of reduced
     /// bodies are counted with them, and are converted.
     pub fn solve_small(&mut self, x: &mut [f64]) {
+        self.to_counted(x);
+        self.solve_counted(x);
+        self.from_counted(x);
+    }
+
+    /// Changes of coordinates become what tangents are made in, where amplitudes of reduced bodies are counted.
+    pub fn to_counted(&self, x: &mut [f64]) {
         self.convert_reduced(Derivative::Back, x);
-        self.solve_tangent(x);
+    }
+
+    /// Reverses [`Self::to_counted`].
+    pub fn from_counted(&self, x: &mut [f64]) {
         self.convert_reduced(Derivative::First, x);
     }
 
@@ -354,7 +364,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     }
 
     /// Solves in place over what the tangent is made in.
-    fn solve_tangent(&mut self, x: &mut [f64]) {
+    pub fn solve_counted(&mut self, x: &mut [f64]) {
         self.operations += SOLVE;
         self.work
             .linearization
@@ -466,7 +476,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn solve(&mut self, x: &mut [f64]) {
         self.system.to_tangent(0, self.work, x);
-        self.solve_tangent(x);
+        self.solve_counted(x);
         self.system.back_from_tangent(0, self.work, x);
     }
 
@@ -497,10 +507,9 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn apply_damping(&mut self, x: &mut [f64]) {
         self.system.to_tangent(0, self.work, x);
-        self.work
-            .linearization
-            .tangent
-            .apply_damping(&self.system.elimination, x);
+        let tangent = &mut self.work.linearization.tangent;
+        tangent.apply_damping(&self.system.elimination, x);
+        tangent.hold_force(x);
         self.system.back_from_tangent(0, self.work, x);
     }
 

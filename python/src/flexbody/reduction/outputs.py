@@ -25,7 +25,9 @@ class BodyOutputs:
         self._model = model
         self.interfaces = [InterfaceRows(name, one, model) for name, one in given.items()]
         self._triangles = _triangles(triangles, len(model.nodes))
-        self._stress = {name: _stress_rows(f"stress[{name!r}]", matrix, model, 1) for name, matrix in (stress or {}).items()}
+        self._stress = {
+            name: _stress_rows(f"stress[{name!r}]", matrix, model, 1) for name, matrix in (stress or {}).items()
+        }
         self._nodal_stress = None
         if nodal_stress is not None:
             if triangles is None:

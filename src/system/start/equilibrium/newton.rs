@@ -344,7 +344,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         let largest = (self.least / EDGE).powi(2);
         let mut mode = seed(state.coordinates.len());
         for _ in 0..POWERS {
-            self.model.solve_small(&mut mode);
+            self.model.solve_counted(&mut mode);
             let size = norm(&mode);
             if !(size.is_finite() && size > 0.0) {
                 return None;
@@ -357,6 +357,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         if value >= -HIDDEN * largest {
             return None;
         }
+        self.model.from_counted(&mut mode);
         let sign = self.side(state, &mode);
         self.mode = mode;
         self.mode.iter_mut().for_each(|m| *m *= sign);

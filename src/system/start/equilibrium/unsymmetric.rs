@@ -28,7 +28,7 @@ const JOINED: f64 = 1e3;
 const PRODUCT: f64 = 3.0;
 
 /// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
-/// factors that stand in where those without are singular. False where no factors are found, or where
+/// factors that stand in where those without are singular. Products and projections are over what is counted. False where no factors are found, or where
 /// `s^2 I + K` is zero on `f`: what moves nothing is no equilibrium.
 pub(super) fn solve<const D: usize>(
     model: &mut DrivenSystem<'_, D>,
@@ -44,6 +44,7 @@ pub(super) fn solve<const D: usize>(
         }
         shift = (3.0 * shift).max(least);
     }
+    model.to_counted(x);
     let right = preconditioned(model, x);
     let scale = norm(&right);
     x.fill(0.0);
@@ -97,6 +98,7 @@ pub(super) fn solve<const D: usize>(
     for (v, factor) in basis.iter().zip(&target[..columns.len()]) {
         x.iter_mut().zip(v).for_each(|(x, v)| *x += factor * v);
     }
+    model.from_counted(x);
     !columns.is_empty() && x.iter().all(|x| x.is_finite())
 }
 
@@ -123,7 +125,7 @@ fn preconditioned<const D: usize>(model: &mut DrivenSystem<'_, D>, f: &[f64]) ->
     model
         .system
         .project_on_tangent_plane(&mut model.work.constraints, &mut x);
-    model.solve_small(&mut x);
+    model.solve_counted(&mut x);
     model
         .system
         .project_on_tangent_plane(&mut model.work.constraints, &mut x);
