@@ -1470,7 +1470,7 @@ class Pad(Part):
 
     at: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
     """
-    Its middle, `[s1, s2]`.
+    Middle of the pad, `[s1, s2]`.
     """
     pad: Annotated[list[StrictFloat], Field(max_length=2, min_length=2)]
     """
