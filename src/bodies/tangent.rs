@@ -49,8 +49,6 @@ pub(super) struct Normals {
     places: Vec<Option<usize>>,
     /// Parts of the stages along the rows.
     parts: [Vec<f64>; STAGES],
-    /// Parts along the rows of a force that the next solve takes as held by the constraints.
-    held: Vec<f64>,
 }
 
 impl Normals {
@@ -58,13 +56,6 @@ impl Normals {
     pub(super) fn measure(&mut self, stage: usize, q: &[f64]) {
         for (row, part) in self.parts[stage].iter_mut().enumerate() {
             *part = self.rows.product(row, q);
-        }
-    }
-
-    /// Takes out of the parts of the first stage what is held, which is none for the next one.
-    fn leave_held(&mut self) {
-        for (part, held) in self.parts[0].iter_mut().zip(&mut self.held) {
-            *part -= std::mem::take(held);
         }
     }
 
@@ -103,7 +94,6 @@ impl<const D: usize> Tangent<D> {
             normals: Normals {
                 places: vec![None; parts.len()],
                 rows: jacobian.rows().clone(),
-                held: parts.clone(),
                 parts: [parts.clone(), parts.clone(), parts],
             },
             y: vec![0.0; elimination.assembly.free()],
@@ -199,7 +189,6 @@ impl<const D: usize> Tangent<D> {
     pub fn solve(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
         let assembly = &elimination.assembly;
         self.normals.measure(0, q);
-        self.normals.leave_held();
         elimination.forces(q);
         assembly.put(q, &mut self.x);
         let scale = 1.0 / self.inertia.0;
@@ -219,14 +208,6 @@ impl<const D: usize> Tangent<D> {
             self.apply(elimination, |tangent| &tangent.damping, q);
         } else {
             q.fill(0.0);
-        }
-    }
-
-    /// Tells of a force in the coordinates `q`, a part of what is solved next, that constraints hold: no correction leaves their tangent plane
-    /// because of it.
-    pub fn hold_force(&mut self, q: &[f64]) {
-        for (row, held) in self.normals.held.iter_mut().enumerate() {
-            *held = self.normals.rows.product(row, q);
         }
     }
 

@@ -462,29 +462,3 @@ fn equilibria_under_moments_about_two_axes_are_found() {
         }
     }
 }
-
-/// A joint holds the forces of dampers that act against it. Stiff modes with damping beyond the critical one then take no more steps than
-/// elements do.
-#[test]
-fn damping_of_stiff_modes_shortens_no_steps() {
-    let steps = |model: Value| {
-        let mut scene = along_x(&model);
-        scene["bodies"][0]["material"]["damping_time"] = json!(1e-3);
-        scene["gravity"] = json!([0, 0, -9.81]);
-        scene["loads"] = json!([{"name": "pull", "kind": "force", "marker": "rod.tip",
-            "value": [0, "10*min(t/0.05,1)^2*(3-2*min(t/0.05,1))", "10*min(t/0.05,1)^2*(3-2*min(t/0.05,1))"]}]);
-        scene["outputs"] = json!([{"kind": "position", "marker": "rod.tip"}]);
-        scene["accuracy"] = json!({"relative_tolerance": 1e-5});
-        scene["method"] = json!({"integrator": "radau"});
-        let mut run = Run::started(&scene);
-        (0..4)
-            .map(|_| {
-                run.0.step(0.05).expect("a step");
-                run.0.report().steps
-            })
-            .sum::<u64>()
-    };
-    let elements = steps(json!({"model": "flexible", "elements": 4}));
-    let modes = steps(json!({"model": "modal", "modes": 8}));
-    assert!(4 * modes < 6 * elements, "{modes} {elements}");
-}

@@ -63,7 +63,7 @@ pub trait Dynamics {
     fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]);
     /// Takes out of an acceleration what is against the constraints of the last [`Dynamics::acceleration`].
     fn take_out_normal(&mut self, _a: &mut [f64]) {}
-    /// `R x`, in place, as part of what is solved next: constraints hold the part of this force that is against them.
+    /// `R x`, in place.
     fn apply_damping(&mut self, x: &mut [f64]);
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations.
     fn largest_rotation(&mut self, from: &[f64], to: &[f64]) -> f64;
@@ -507,9 +507,10 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn apply_damping(&mut self, x: &mut [f64]) {
         self.system.to_tangent(0, self.work, x);
-        let tangent = &mut self.work.linearization.tangent;
-        tangent.apply_damping(&self.system.elimination, x);
-        tangent.hold_force(x);
+        self.work
+            .linearization
+            .tangent
+            .apply_damping(&self.system.elimination, x);
         self.system.back_from_tangent(0, self.work, x);
     }
 
