@@ -208,14 +208,15 @@ impl<const D: usize> Bodies<D> {
         }
         // Amplitudes are no directions. In the plane a second node of a reduced body has none beside its axis. The second node of a mesh node
         // of a plate has one in its first vector.
-        let directions = nodes.enumerate().filter_map(|(node, (from, to))| {
-            match self.owner(node) {
-                NodeOwner::Modal => None,
-                NodeOwner::Reduced(.., true) if D == 2 => None,
-                NodeOwner::Surface => Some((&from[0], &to[0])),
-                _ => Some((&from[1], &to[1])),
-            }
-        });
+        let directions =
+            nodes
+                .enumerate()
+                .filter_map(|(node, (from, to))| match self.owner(node) {
+                    NodeOwner::Modal => None,
+                    NodeOwner::Reduced(.., true) if D == 2 => None,
+                    NodeOwner::Surface => Some((&from[0], &to[0])),
+                    _ => Some((&from[1], &to[1])),
+                });
         largest_rotation(directions)
     }
 

@@ -17,7 +17,7 @@ use crate::math::jet::Number;
 use crate::math::lanes::PACK;
 use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
 use crate::math::space::{components, vector};
-use point::{PatchFrame, Term};
+use point::{MeshWeights, PatchFrame};
 
 /// A point of a patch that something acts on or is read at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -267,7 +267,7 @@ impl Patch {
             let of = &self.elements[element];
             let [values, along, across] = [[0, 0], [1, 0], [0, 1]].map(|o| of.weights(xi, o));
             for (corner, node) in self.corner_nodes(element).into_iter().enumerate() {
-                let mut term = Term::at(node);
+                let mut term = MeshWeights::at(node);
                 for k in 0..VECTORS {
                     let number = VECTORS * corner + k;
                     term.position[k] = weight * values[number];

@@ -6,9 +6,7 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::bodies::{
-    LineStance, Marker, Node, Patch, ReducedBody, axes_at, combined, completed,
-};
+use crate::bodies::{LineStance, Marker, Node, Patch, ReducedBody, axes_at, combined, completed};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId, ModalLine, PatchGrid};
 use crate::system::{Evaluation, State};

@@ -48,7 +48,10 @@ fn deflection(kind: &str, elements: u32) -> f64 {
 fn squares_under_pressure_bend_as_the_series_say() {
     let off = |kind, elements, exact: f64| (deflection(kind, elements) / exact - 1.0).abs();
     let [coarse, fine] = [4, 8].map(|elements| off("pinned", elements, 0.004_062_352_66));
-    assert!(fine < 1e-4 && coarse / fine > 2_f64.powf(3.7), "{coarse:e} {fine:e}");
+    assert!(
+        fine < 1e-4 && coarse / fine > 2_f64.powf(3.7),
+        "{coarse:e} {fine:e}"
+    );
     assert!(off("clamped", 8, 0.001_265_32) < 1e-4);
 }
 
@@ -59,7 +62,8 @@ fn an_end_moment_rolls_a_strip_to_a_circle() {
     let mut scene = plate([1.0, width], [16, 1], 1e-3, 0.0);
     hold(&mut scene, "clamped", &["s1=0"]);
     // The moment that turns the end by one rotation; against the second axis it lifts the end.
-    let moment = json!({"name": "M", "kind": "moment", "marker": "p.end", "value": [0, -TAU * width, 0]});
+    let moment =
+        json!({"name": "M", "kind": "moment", "marker": "p.end", "value": [0, -TAU * width, 0]});
     let mut run = at_rest(scene, &moment);
     let [x, y, z] = run.read_all("p.end.position");
     let off = x.hypot(z).max((y - 0.5 * width).abs());
@@ -76,7 +80,10 @@ fn a_strip_under_an_end_force_is_the_elastica() {
         hold(&mut scene, "clamped", &["s1=0"]);
         let force = json!({"name": "F", "kind": "force", "marker": "p.end", "value": [0, 0, 0.4]});
         let [x, _, z] = at_rest(scene, &force).read_all("p.end.position");
-        assert!((x - 0.671_06).abs() < 3e-5 && (z - 0.669_97).abs() < 3e-5, "{h}: {x} {z}");
+        assert!(
+            (x - 0.671_06).abs() < 3e-5 && (z - 0.669_97).abs() < 3e-5,
+            "{h}: {x} {z}"
+        );
     }
 }
 
@@ -99,11 +106,17 @@ fn frequencies_of_squares_are_the_published_ones() {
         scene["outputs"] = json!([{"kind": "natural_frequency", "count": rigid + exact.len()}]);
         let mut run = Run::started(&scene);
         for k in 0..rigid {
-            assert!(run.read(&format!("natural_frequency[{}]", k + 1)) < 1e-3, "{kind} {k}");
+            assert!(
+                run.read(&format!("natural_frequency[{}]", k + 1)) < 1e-3,
+                "{kind} {k}"
+            );
         }
         for (k, exact) in exact.iter().enumerate() {
             let found = TAU * run.read(&format!("natural_frequency[{}]", rigid + k + 1));
-            assert!((found / exact - 1.0).abs() < 1.2e-3, "{kind} {k}: {found} for {exact}");
+            assert!(
+                (found / exact - 1.0).abs() < 1.2e-3,
+                "{kind} {k}: {found} for {exact}"
+            );
         }
     }
 }
@@ -117,22 +130,36 @@ fn a_laminate_bends_under_tension() {
     let body = scene["bodies"][0].as_object_mut().expect("a body");
     body.remove("material");
     body.remove("thickness");
-    let diagonal = |first: f64, others: f64| [[first, 0.0, 0.0], [0.0, others, 0.0], [0.0, 0.0, others]];
-    body.insert("stiffness".into(), json!({"A": diagonal(a, a), "B": diagonal(b, 0.0), "D": diagonal(d, d)}));
+    let diagonal =
+        |first: f64, others: f64| [[first, 0.0, 0.0], [0.0, others, 0.0], [0.0, 0.0, others]];
+    body.insert(
+        "stiffness".into(),
+        json!({"A": diagonal(a, a), "B": diagonal(b, 0.0), "D": diagonal(d, d)}),
+    );
     body.insert("area_density".into(), json!(1.0));
     hold(&mut scene, "clamped", &["s1=0"]);
-    let force = json!({"name": "F", "kind": "force", "marker": "p.end", "value": [0.1 * tension, 0, 0]});
+    let force =
+        json!({"name": "F", "kind": "force", "marker": "p.end", "value": [0.1 * tension, 0, 0]});
     let [x, _, z] = at_rest(scene, &force).read_all("p.end.position");
     let determinant = a * d - b * b;
     let (curvature, strain) = (tension * b / determinant, tension * d / determinant);
-    assert!((z.abs() / (0.5 * curvature) - 1.0).abs() < 1e-3, "{z} for {}", 0.5 * curvature);
-    assert!(((x - 1.0) / strain - 1.0).abs() < 1e-3, "{} for {strain}", x - 1.0);
+    assert!(
+        (z.abs() / (0.5 * curvature) - 1.0).abs() < 1e-3,
+        "{z} for {}",
+        0.5 * curvature
+    );
+    assert!(
+        ((x - 1.0) / strain - 1.0).abs() < 1e-3,
+        "{} for {strain}",
+        x - 1.0
+    );
 }
 
 /// A thin soft plate that flies and spins about an axis that is none of its principal ones.
 fn flying(method: &str) -> Value {
     let mut scene = plate([1.0, 0.7], [3, 2], 0.02, 0.3);
-    scene["bodies"][0]["motion"] = json!({"velocity": [0.3, -0.2, 0.5], "angular_velocity": [0.4, 0.7, 1.1]});
+    scene["bodies"][0]["motion"] =
+        json!({"velocity": [0.3, -0.2, 0.5], "angular_velocity": [0.4, 0.7, 1.1]});
     scene["outputs"] = json!([{"kind": "energy"}, {"kind": "momentum"}, {"kind": "angular_momentum"}, {"kind": "center_of_mass"}]);
     scene["method"] = json!({"integrator": method});
     scene["accuracy"] = json!({"relative_tolerance": 1e-8});
@@ -148,17 +175,29 @@ fn a_plate_that_flies_keeps_momentum_and_energy() {
         run.step(1.5);
         for ((name, before), after) in names.iter().zip(&before).zip(run.outputs()) {
             if name.contains("momentum") {
-                assert!((after - before).abs() < 1e-8, "{method} {name}: {before} {after}");
+                assert!(
+                    (after - before).abs() < 1e-8,
+                    "{method} {name}: {before} {after}"
+                );
             }
         }
         let total = |values: &[f64]| {
-            let own = names.iter().zip(values).filter(|(name, _)| name.ends_with("total") || *name == "energy");
+            let own = names
+                .iter()
+                .zip(values)
+                .filter(|(name, _)| name.ends_with("total") || *name == "energy");
             own.map(|(_, value)| value).sum::<f64>()
         };
         let (first, last) = (total(&before), total(&run.outputs()));
-        assert!((last - first).abs() < 1e-6 * first.abs() && first > 0.0, "{method} {first} {last}");
+        assert!(
+            (last - first).abs() < 1e-6 * first.abs() && first > 0.0,
+            "{method} {first} {last}"
+        );
         // It bends: the spin stretches it and the plate is soft.
-        assert!(names.iter().any(|name| name.contains("energy")), "{names:?}");
+        assert!(
+            names.iter().any(|name| name.contains("energy")),
+            "{names:?}"
+        );
     }
 }
 
@@ -172,8 +211,7 @@ fn a_plate_on_a_hinge_is_a_physical_pendulum() {
         json!({"rectangle": {"corner": [0, 0, 0], "edges": [[side, 0, 0], [0, 0, -side]]}});
     scene["bodies"][0]["markers"]["top"] = json!({"at": [0.5, 0], "pad": [0.2, 0]});
     scene["gravity"] = json!([0, 0, -gravity]);
-    scene["joints"] =
-        json!([{"name": "hinge", "kind": "revolute", "markers": ["ground", "p.top"], "axis": [1, 0, 0]}]);
+    scene["joints"] = json!([{"name": "hinge", "kind": "revolute", "markers": ["ground", "p.top"], "axis": [1, 0, 0]}]);
     scene["outputs"] = json!([{"kind": "natural_frequency", "count": 1}]);
     let found = TAU * Run::started(&scene).read("natural_frequency[1]");
     let exact = (gravity * 0.5 * side / (side * side / 3.0)).sqrt();
@@ -195,15 +233,27 @@ fn pressure_and_damping_keep_the_books() {
     run.step(0.8);
     let after = run.outputs();
     let of = |values: &[f64], part: &str| {
-        let own = names.iter().zip(values).filter(|(name, _)| name.contains(part));
+        let own = names
+            .iter()
+            .zip(values)
+            .filter(|(name, _)| name.contains(part));
         own.map(|(_, value)| *value).sum::<f64>()
     };
-    let stored: f64 = ["kinetic", "strain"].iter().map(|part| of(&after, part) - of(&before, part)).sum();
+    let stored: f64 = ["kinetic", "strain"]
+        .iter()
+        .map(|part| of(&after, part) - of(&before, part))
+        .sum();
     let supplied = of(&after, "supplied");
     let dissipated = of(&after, "dissipated");
     let off = (supplied - dissipated - stored).abs();
-    assert!(supplied > 0.1 && dissipated > 1e-4, "{names:?} {supplied} {dissipated}");
-    assert!(off < 1e-6 * supplied, "{supplied} {dissipated} {stored}: {off:e}");
+    assert!(
+        supplied > 0.1 && dissipated > 1e-4,
+        "{names:?} {supplied} {dissipated}"
+    );
+    assert!(
+        off < 1e-6 * supplied,
+        "{supplied} {dissipated} {stored}: {off:e}"
+    );
 }
 
 /// Which direction comes first does not matter.
@@ -214,11 +264,15 @@ fn directions_may_be_exchanged() {
         scene["bodies"][0]["surface"]["rectangle"]["edges"] = edges;
         scene["bodies"][0]["markers"]["corner"] = json!(corner);
         hold(&mut scene, "clamped", &[edge]);
-        let force = json!({"name": "F", "kind": "force", "marker": "p.corner", "value": [0.1, -0.2, 2]});
+        let force =
+            json!({"name": "F", "kind": "force", "marker": "p.corner", "value": [0.1, -0.2, 2]});
         at_rest(scene, &force).read_all::<3>("p.corner.position")
     };
     let first = run(json!([[1.2, 0, 0], [0, 0.7, 0.1]]), [3, 2], "s1=0", [1, 1]);
     let second = run(json!([[0, 0.7, 0.1], [1.2, 0, 0]]), [2, 3], "s2=0", [1, 1]);
-    let off = first.iter().zip(&second).fold(0.0, |sum: f64, (a, b)| sum.max((a - b).abs()));
+    let off = first
+        .iter()
+        .zip(&second)
+        .fold(0.0, |sum: f64, (a, b)| sum.max((a - b).abs()));
     assert!(off < 1e-9, "{first:?} {second:?}");
 }

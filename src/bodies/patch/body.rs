@@ -16,14 +16,14 @@ use crate::math::space::{Vector, spin_matrix};
 use crate::math::sparse::Matrix;
 
 /// Adds forces of all packs.
-struct AddForce<'a, const D: usize> {
+struct AddPatchForce<'a, const D: usize> {
     patch: &'a Patch,
     motion: (&'a [Node<D>], &'a [Node<D>]),
     force: &'a mut [Node<D>],
     power: &'a mut f64,
 }
 
-impl<const D: usize> Vectorized for AddForce<'_, D> {
+impl<const D: usize> Vectorized for AddPatchForce<'_, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (patch, (x, v)) = (self.patch, self.motion);
@@ -52,7 +52,7 @@ impl<const D: usize> Vectorized for AddForce<'_, D> {
 }
 
 /// Adds tangents of all packs.
-struct AddTangent<'a, const D: usize> {
+struct AddPatchTangent<'a, const D: usize> {
     patch: &'a Patch,
     motion: NodalMotion<'a, D>,
     assembly: &'a Assembly<D>,
@@ -60,7 +60,7 @@ struct AddTangent<'a, const D: usize> {
     damping: &'a mut Matrix<f64>,
 }
 
-impl<const D: usize> Vectorized for AddTangent<'_, D> {
+impl<const D: usize> Vectorized for AddPatchTangent<'_, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (patch, motion) = (self.patch, self.motion);
@@ -334,7 +334,7 @@ impl<const D: usize> BodyPart<D> for Patch {
         (f, _): (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
         let mut power = 0.0;
-        vectorized(AddForce {
+        vectorized(AddPatchForce {
             patch: self,
             motion: motion.pair(),
             force: f,
@@ -361,7 +361,7 @@ impl<const D: usize> BodyPart<D> for Patch {
         assembly: &Assembly<D>,
         [stiffness, damping]: [&mut Matrix<f64>; 2],
     ) {
-        vectorized(AddTangent {
+        vectorized(AddPatchTangent {
             patch: self,
             motion,
             assembly,

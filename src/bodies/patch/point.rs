@@ -16,7 +16,7 @@ use crate::math::space::{components, vector};
 
 /// Weights of the vectors of a mesh node.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Term {
+pub(super) struct MeshWeights {
     /// First node of the mesh node.
     pub node: usize,
     /// In the place.
@@ -25,7 +25,7 @@ pub(super) struct Term {
     pub along: [[f64; VECTORS]; 2],
 }
 
-impl Term {
+impl MeshWeights {
     /// Without any weight.
     pub fn at(node: usize) -> Self {
         Self {
@@ -39,7 +39,7 @@ impl Term {
 /// A point of a patch with axes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PatchFrame {
-    terms: Vec<Term>,
+    terms: Vec<MeshWeights>,
 }
 
 /// Derivatives along both directions, and what follows from them.
@@ -122,7 +122,7 @@ fn vectors<const D: usize, N: Number>(node: usize, x: &[Node<D, N>]) -> [Vector3
 
 impl PatchFrame {
     /// Adds weights.
-    pub fn add(&mut self, term: &Term) {
+    pub fn add(&mut self, term: &MeshWeights) {
         let Some(own) = self.terms.iter_mut().find(|own| own.node == term.node) else {
             return self.terms.push(*term);
         };
@@ -134,12 +134,12 @@ impl PatchFrame {
 
     /// Divides all weights. Terms without any are left out.
     pub fn divide(&mut self, by: f64) {
-        let weights = |term: &mut Term| {
+        let weights = |term: &mut MeshWeights| {
             term.position = term.position.map(|weight| weight / by);
             term.along = term.along.map(|of| of.map(|weight| weight / by));
         };
         self.terms.iter_mut().for_each(weights);
-        let weighs = |term: &Term| {
+        let weighs = |term: &MeshWeights| {
             let along = term.along.as_flattened();
             (term.position.iter().chain(along)).any(|weight| *weight != 0.0)
         };
@@ -334,7 +334,7 @@ impl Patch {
             }
             let stiffness = turning_stiffness(&frame.sums(x).1, &on_axes);
             let halves = frame.terms.iter().flat_map(|term| [(term, 0), (term, 1)]);
-            let halves: Vec<(&Term, usize)> = halves.collect();
+            let halves: Vec<(&MeshWeights, usize)> = halves.collect();
             for (a, (first, of_first)) in halves.iter().enumerate() {
                 for (second, of_second) in &halves[..=a] {
                     let mut block = no_block::<D>();

@@ -30,12 +30,14 @@ pub(super) struct StageSections {
 }
 
 impl StageSections {
-    /// Of nodes of lines with their sections, and of mesh nodes of plates and shells.
+    /// Starts with nodes of lines and their sections, and with mesh nodes of plates and shells.
     pub fn new(lines: &[(usize, usize)], surfaces: &[usize]) -> Self {
-        let lines = lines.iter().map(|(node, frame)| (*node, RotatesWith::Section(*frame)));
-        let surfaces = surfaces.iter().flat_map(|node| {
-            [*node, *node + 1].map(|own| (own, RotatesWith::Surface(*node)))
-        });
+        let lines = lines
+            .iter()
+            .map(|(node, frame)| (*node, RotatesWith::Section(*frame)));
+        let surfaces = surfaces
+            .iter()
+            .flat_map(|node| [*node, *node + 1].map(|own| (own, RotatesWith::Surface(*node))));
         let nodes: Vec<_> = lines.chain(surfaces).collect();
         let axes = vec![Axes::default(); nodes.len()];
         Self {

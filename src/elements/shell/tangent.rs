@@ -74,7 +74,7 @@ const fn pairs() -> [(Corner, Corner); 10] {
 /// Blocks of a pair of corners: by vector of the one (`r`, `r1`, `r2`, `r12`), vector of the other, and both axes.
 pub(super) type PairBlocks<N> = [[[[N; 3]; 3]; 4]; 4];
 
-/// What of the tangent is wanted.
+/// Part of the tangent that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     /// Stiffness, that of stresses included.
@@ -99,7 +99,7 @@ pub(super) const fn shape(
     TABLE[orders.0][alpha][i] * TABLE[orders.1][beta][j]
 }
 
-/// What the tangent needs of an element at all places.
+/// Surface, stress and frames of an element at all places.
 pub(super) struct Tangent<N> {
     grid: Grid<N>,
     frames: [[Frame<N>; 3]; 3],
@@ -225,7 +225,7 @@ impl<N: Real> Tangent<N> {
         *out = [[[[zero; 3]; 3]; 4]; 4];
         for i in 0..3 {
             for j in 0..3 {
-                self.add_place(kernel, (a, b), (i, j), part, read, out);
+                self.add_place((kernel, read), (a, b), (i, j), part, out);
             }
         }
         if part == Part::Whole {
@@ -237,11 +237,10 @@ impl<N: Real> Tangent<N> {
     #[inline(always)]
     fn add_place<P, R: Read<P, N>>(
         &self,
-        kernel: &Kernel<P>,
+        (kernel, read): (&Kernel<P>, R),
         (a, b): (Corner, Corner),
         (i, j): (usize, usize),
         part: Part,
-        read: R,
         out: &mut PairBlocks<N>,
     ) {
         let normal = &self.frames[i][j].normal;

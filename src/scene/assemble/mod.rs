@@ -260,9 +260,7 @@ impl Resolved<'_> {
             }
             resolved::BodyReference::Cable(_)
             | resolved::BodyReference::Rigid(_)
-            | resolved::BodyReference::Plate(_) => {
-                (Matrix3::identity(), Vector3::zeros())
-            }
+            | resolved::BodyReference::Plate(_) => (Matrix3::identity(), Vector3::zeros()),
         }
     }
 

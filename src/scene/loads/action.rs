@@ -331,7 +331,7 @@ impl<const D: usize> Builder<'_, D> {
             patch: self.patch_index(plate),
             action: match action.kind {
                 ActionKind::Pressure => AreaAction::Pressure(everywhere(components)),
-                _ => AreaAction::Force(everywhere(components)),
+                _ => AreaAction::Force(Box::new(everywhere(components))),
             },
         }))
     }

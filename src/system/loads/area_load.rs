@@ -44,21 +44,21 @@ impl<const K: usize> AreaValues<K> {
     }
 }
 
-/// What acts on the area.
+/// Action on an area.
 #[derive(Clone, Debug)]
 pub enum AreaAction {
     /// Pressure along the normal `r1 x r2`, Pa.
     Pressure(AreaValues<1>),
     /// Force per area of the unstressed surface in global components, N/m^2.
-    Force(AreaValues<3>),
+    Force(Box<AreaValues<3>>),
 }
 
 /// A load on a plate or shell.
 #[derive(Clone, Debug)]
 pub struct AreaLoad {
-    /// Its place among the plates and shells.
+    /// Index among the plates and shells.
     pub patch: usize,
-    /// What acts.
+    /// The action.
     pub action: AreaAction,
 }
 
