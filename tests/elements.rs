@@ -338,7 +338,7 @@ fn what_is_refused_says_why_it_would_be_needed() {
         ),
         (
             |s| s["bodies"][0]["element"] = json!("any"),
-            "bodies[0].element: expected \"cable\", \"rod\", \"beam\", \"auto\", \"rigid\" or \"reduced\", found \"any\"",
+            "bodies[0].element: expected \"cable\", \"rod\", \"beam\", \"auto\", \"rigid\", \"reduced\", \"plate\" or \"shell\", found \"any\"",
         ),
     ];
     for (edit, told) in refused {
@@ -414,6 +414,7 @@ fn shear_decides_by_what_it_moves_in_the_experiment() {
         let mut scene = sheared(height, 1e-6);
         scene["accuracy"] = json!({"error": 1e-3});
         scene["bodies"][0]["elements"] = json!("auto");
+        scene["bodies"][0]["model"] = json!("flexible");
         let scene = read(&scene).expect("a scene");
         let (packaged, planned) = planned(&scene);
         let chosen = &planned.elements[0];

@@ -120,9 +120,7 @@ impl NodeBlocks {
         }
         let (nodes, change) = by_rates.changes(|node, call| bodies.for_each_partial(node, x, call));
         let (_, turned) = by_rates.changes(|node, call| {
-            for (owner, partial) in bodies.partials_of_rates(node, x, v).iter().flatten() {
-                call(*owner, partial);
-            }
+            bodies.for_each_partial_of_rates(node, (x, v), call);
         });
         debug_assert_eq!(nodes, self.nodes);
         self.whole += change.transpose() * &by_rates.whole * turned;

@@ -244,14 +244,24 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
-    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand; of section frames, which are
-    /// linearized at rest, nothing.
-    pub(in crate::bodies) fn partials_of_rates(
+    /// Calls with the derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand, for each node of
+    /// [`Self::for_each_partial`]. Frames that follow others are linearized at rest, where these are zero.
+    pub(in crate::bodies) fn for_each_partial_of_rates(
         &self,
         node: usize,
-        x: &[Node<D>],
-        v: &[Node<D>],
-    ) -> Partials<D> {
+        (x, v): (&[Node<D>], &[Node<D>]),
+        call: &mut dyn FnMut(usize, &NodeBlock<D>),
+    ) {
+        if self.follows_many(node) {
+            return self.for_each_partial(node, x, |owner, _| call(owner, &no_block()));
+        }
+        for (owner, partial) in self.partials_of_rates(node, x, v).iter().flatten() {
+            call(*owner, partial);
+        }
+    }
+
+    /// [`Self::for_each_partial_of_rates`] of nodes that follow one body or section.
+    fn partials_of_rates(&self, node: usize, x: &[Node<D>], v: &[Node<D>]) -> Partials<D> {
         match self.owner(node) {
             NodeOwner::Rigid(index, is_second) => {
                 let frame = &self.rigid[index];
