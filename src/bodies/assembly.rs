@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use nalgebra::SMatrix;
+
 use super::connectivity::{Cluster, ConnectivityRow, Dependent, Node, clusters, no_node};
 use super::layout::{
     Entry, FreeRange, MultiplierConstraint, Tied, alone, components, entries, held, runs,
@@ -16,6 +18,20 @@ pub type NodeBlock<const D: usize> = [[[[f64; D]; 2]; D]; 2];
 /// A matrix over two nodes that is zero.
 pub const fn no_block<const D: usize>() -> NodeBlock<D> {
     [[[[0.0; D]; 2]; D]; 2]
+}
+
+/// A matrix over two nodes, by its parts over a vector of the one and a vector of the other.
+pub fn block_of_parts<const D: usize>(
+    part: impl Fn(usize, usize) -> SMatrix<f64, D, D>,
+) -> NodeBlock<D> {
+    let mut block = no_block();
+    for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let part = part(p, q);
+        for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
+            block[p][r][q][c] = part[(r, c)];
+        }
+    }
+    block
 }
 
 /// Where the coordinates of a node are.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::assembly::{Assembly, NodeBlock, no_block};
+use super::assembly::{Assembly, block_of_parts, no_block};
 use super::connectivity::Node;
 use super::winch::{Length, Winch};
 use crate::elements::{BlockPack, Element, ElementMotion, Nodal, NodalView, shape};
@@ -25,29 +25,41 @@ pub struct Chain<E: Element<D>, const D: usize> {
 
 /// Elements that are computed together, at most [`PACK`].
 #[derive(Clone, Debug)]
-struct Pack<P> {
-    elements: Range<usize>,
-    kernel: P,
+pub(super) struct Pack<P> {
+    /// Indices of the elements.
+    pub elements: Range<usize>,
+    /// Constants of all these elements.
+    pub kernel: P,
 }
 
-/// Elements that have forces of their own.
-fn packs<E: Element<D>, const D: usize>(elements: &[E]) -> Vec<Pack<E::Pack>> {
+/// Groups those of some elements that count, where each `goes_with` the first of its pack and `pack` joins them.
+pub(super) fn packs<E, P>(
+    elements: &[E],
+    counts: impl Fn(&E) -> bool,
+    goes_with: impl Fn(&E, &E) -> bool,
+    pack: impl Fn(&[E]) -> P,
+) -> Vec<Pack<P>> {
     let (mut packs, mut start) = (Vec::new(), 0);
     while start < elements.len() {
         let rest = &elements[start..];
-        if !rest[0].resists() {
+        if !counts(&rest[0]) {
             start += 1;
             continue;
         }
-        let alike = |element: &&E| element.resists() && rest[0].goes_with(element);
+        let alike = |element: &&E| counts(element) && goes_with(&rest[0], element);
         let count = rest.iter().take_while(alike).take(PACK).count();
         packs.push(Pack {
             elements: start..start + count,
-            kernel: E::pack(&rest[..count]),
+            kernel: pack(&rest[..count]),
         });
         start += count;
     }
     packs
+}
+
+/// Packs of the elements of a line that have forces of their own.
+fn line_packs<E: Element<D>, const D: usize>(elements: &[E]) -> Vec<Pack<E::Pack>> {
+    packs(elements, E::resists, E::goes_with, E::pack)
 }
 
 impl<E: Element<D>, const D: usize> Chain<E, D> {
@@ -55,7 +67,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
     pub fn new(elements: Vec<E>, first: usize) -> Self {
         Self {
             is_damped: elements.iter().any(Element::is_damped),
-            packs: packs(&elements),
+            packs: line_packs(&elements),
             elements,
             first,
             winch: None,
@@ -89,7 +101,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
             let own = [j == 0 && free[0], j == last && free[1]];
             self.elements[j] = self.elements[j].with_free_ends(&self.element(j, shape), own);
         }
-        self.packs = packs(&self.elements);
+        self.packs = line_packs(&self.elements);
     }
 
     /// Gives elements without bending stiffness one (N m^2), from the shape with these nodal
@@ -98,7 +110,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         for j in 0..self.elements.len() {
             self.elements[j] = self.elements[j].with_bending(&self.element(j, shape), stiffness);
         }
-        self.packs = packs(&self.elements);
+        self.packs = line_packs(&self.elements);
     }
 
     /// Mean of the axial strain in the middle of the elements.
@@ -317,13 +329,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
             let m = element.mass();
             let [a, b] = self.nodes(j);
             for (row, column, at) in [(a, a, (0, 0)), (b, a, (2, 0)), (b, b, (2, 2))] {
-                let mut block: NodeBlock<D> = no_block();
-                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    let part = axes * m[(at.0 + p, at.1 + q)];
-                    for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
-                        block[p][r][q][c] = part[(r, c)];
-                    }
-                }
+                let block = block_of_parts(|p, q| axes * m[(at.0 + p, at.1 + q)]);
                 assembly.add(row, column, &block, matrix);
             }
         }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SMatrix};
 
 use super::LineChain;
-use super::assembly::{Assembly, Links, no_block};
+use super::assembly::{Assembly, Links, block_of_parts};
 use super::body::{BodyPart, Momentum, NodalMotion};
 use super::connectivity::{Node, no_node};
 use super::linearized::{ElementTangent, LinearTerms, LinearizationPoint};
@@ -233,13 +233,7 @@ fn add_blocks<const D: usize>(
     matrix: &mut General<f64>,
 ) {
     for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-        let mut block = no_block();
-        for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let part = &blocks[2 * a + p][2 * b + q];
-            for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
-                block[p][r][q][c] = part[(r, c)];
-            }
-        }
+        let block = block_of_parts(|p, q| blocks[2 * a + p][2 * b + q]);
         let place = (nodes[a], nodes[b]);
         assembly.add_block(place, &block, matrix, &mut |_, _, _| {});
     }

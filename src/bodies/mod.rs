@@ -32,7 +32,7 @@ pub mod winch;
 
 pub use all::Bodies;
 pub use articulated::{Articulated, Link};
-pub use assembly::{Assembly, Links, NodeBlock, no_block};
+pub use assembly::{Assembly, Links, NodeBlock, block_of_parts, no_block};
 pub use body::NodalMotion;
 pub use chain::Chain;
 pub use connectivity::{

@@ -11,10 +11,12 @@ mod tests;
 
 use nalgebra::Vector3;
 
+use super::chain::{Pack, packs};
 use super::connectivity::Node;
-use crate::elements::shell::{Corner, ElementCorners, Shell, ShellPack, ShellSection, VECTORS};
+use crate::elements::shell::{
+    Corner, ElementCorners, Shell, ShellPack, ShellSection, VECTORS, axis_components,
+};
 use crate::math::jet::Number;
-use crate::math::lanes::PACK;
 use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
 use crate::math::space::{components, vector};
 use point::{MeshWeights, PatchFrame};
@@ -38,34 +40,9 @@ pub struct Patch {
     corners: Vec<Corner>,
     /// Elements, those along the second direction one after the other.
     elements: Vec<Shell>,
-    packs: Vec<Pack>,
+    packs: Vec<Pack<ShellPack>>,
     points: Vec<PatchFrame>,
     is_damped: bool,
-}
-
-/// Elements that are computed together, at most [`PACK`].
-#[derive(Clone, Debug)]
-struct Pack {
-    first: usize,
-    count: usize,
-    kernel: ShellPack,
-}
-
-/// Elements in packs.
-fn packs(elements: &[Shell]) -> Vec<Pack> {
-    let (mut packs, mut first) = (Vec::new(), 0);
-    while first < elements.len() {
-        let rest = &elements[first..];
-        let alike = rest.iter().take_while(|element| rest[0].goes_with(element));
-        let count = alike.take(PACK).count();
-        packs.push(Pack {
-            first,
-            count,
-            kernel: Shell::pack(&rest[..count]),
-        });
-        first += count;
-    }
-    packs
 }
 
 impl Patch {
@@ -102,7 +79,7 @@ impl Patch {
             (patch.elements).push(Shell::new(&section, (sizes, unit), &corners));
         }
         patch.is_damped = patch.elements.iter().any(Shell::is_damped);
-        patch.packs = packs(&patch.elements);
+        patch.packs = packs(&patch.elements, |_| true, Shell::goes_with, Shell::pack);
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
         patch
     }
@@ -125,8 +102,8 @@ impl Patch {
     /// Mass, kg.
     pub fn total_mass(&self) -> f64 {
         let of_element = |element: &Shell| {
-            let weight = element.weight();
-            (0..4).map(|corner| weight[VECTORS * corner]).sum::<f64>()
+            let masses = element.weight().iter().step_by(VECTORS);
+            masses.sum::<f64>()
         };
         self.elements.iter().map(of_element).sum()
     }
@@ -201,10 +178,7 @@ impl Patch {
         element: usize,
         x: &[Node<D, N>],
     ) -> ElementCorners<N> {
-        self.corner_nodes(element).map(|node| {
-            let [[r, r1], [r2, r12]] = [x[node], x[node + 1]];
-            [r, r1, r2, r12].map(|v| components::<D, N>(&v.into()))
-        })
+        self.corner_nodes(element).map(|node| corner(node, x))
     }
 
     /// Adds forces on the corners of an element.
@@ -249,17 +223,12 @@ impl Patch {
     /// The frame of a point: means over its pad of place and derivatives.
     fn frame(&self, point: &PatchPoint) -> PatchFrame {
         let (element, xi) = self.find(point.at);
-        let [first, second] = [[1, 0], [0, 1]].map(|orders| {
+        let corners = self.mesh_nodes(element).map(|node| self.corners[node]);
+        let tangents = [[1, 0], [0, 1]].map(|orders| {
             let weights = self.elements[element].weights(xi, orders);
-            let corners = self.mesh_nodes(element).map(|node| self.corners[node]);
             Vector3::from(weighted(&weights, &corners))
         });
-        let across = first.cross(&second);
-        let (area, normal) = (across.norm(), across.normalize());
-        let f1 = first.normalize();
-        let f2 = normal.cross(&f1);
-        let dual = [second.cross(&normal) / area, normal.cross(&first) / area];
-        let by = [f1, f2].map(|f| [f.dot(&dual[0]), f.dot(&dual[1])]);
+        let by = axis_components(&tangents, 0.0);
         let mut frame = PatchFrame::default();
         let mut total = 0.0;
         for (at, weight) in self.places(point) {
@@ -314,6 +283,12 @@ impl Patch {
             .flat_map(|a| (second.iter()).map(move |b| ([a.at, b.at], a.weight * b.weight)));
         both.collect()
     }
+}
+
+/// Vectors of a mesh node with this first node, or their rates.
+fn corner<const D: usize, N: Number>(node: usize, x: &[Node<D, N>]) -> Corner<N> {
+    let [[r, r1], [r2, r12]] = [x[node], x[node + 1]];
+    [r, r1, r2, r12].map(|v| components::<D, N>(&v.into()))
 }
 
 /// Sum of the vectors of all corners of an element, weighted.

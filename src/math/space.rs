@@ -23,6 +23,12 @@ pub fn vector<const D: usize, N: Number>(components: [N; 3]) -> Vector<D, N> {
     Vector::from_row_slice(&components[..D])
 }
 
+/// Orthonormal axes of the plane that two vectors span: along the first, across it on the side of the second, and the normal.
+pub fn tangent_axes(first: &Vector3<f64>, second: &Vector3<f64>) -> [Vector3<f64>; 3] {
+    let (along, normal) = (first.normalize(), first.cross(second).normalize());
+    [along, normal.cross(&along), normal]
+}
+
 /// Whether a vector and its derivatives are zero; `==` compares values alone.
 pub fn is_nothing<const D: usize, N: Number>(v: &Vector<D, N>) -> bool {
     v.iter().all(|part| part.largest() == 0.0)

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::resolved::{BodyReference, Place, ResolvedMarker};
+use super::resolved::{BodyReference, Place, Resolved, ResolvedMarker};
 use super::{Action, Body, FileBody, LineBody, RigidBody, Scene};
 use crate::math::function::Function;
 use crate::system::Signal;
@@ -28,8 +28,14 @@ pub fn remarks(scene: &Scene) -> Vec<String> {
     let mut found: Vec<String> = (kinds.iter())
         .filter_map(|slip| told(scene.bodies.iter().map(slip)))
         .collect();
-    found.extend(unpaired(scene));
-    found.extend(bare_point(scene));
+    // What follows from names is asked of scenes alone that have such bodies.
+    let of_names = |body: &Body| body.reduced().is_some() || body.patch().is_some();
+    if scene.bodies.iter().any(of_names)
+        && let Ok(resolved) = scene.resolve()
+    {
+        found.extend(unpaired(&resolved));
+        found.extend(bare_point(&resolved));
+    }
     found
 }
 
@@ -48,8 +54,7 @@ fn told(found: impl Iterator<Item = Option<String>>) -> Option<String> {
 }
 
 /// Reduced bodies whose files lack second-order displacements that they need.
-fn unpaired(scene: &Scene) -> Option<String> {
-    let resolved = scene.resolve().ok()?;
+fn unpaired(resolved: &Resolved<'_>) -> Option<String> {
     told(resolved.bodies.iter().map(|body| match body {
         BodyReference::Reduced(reduced) if resolved.lacks_pairs(*reduced) => {
             Some(without_pairs(reduced.body))
@@ -159,8 +164,7 @@ fn left_out(body: &Body) -> Option<String> {
 }
 
 /// A point of a plate or shell without a pad that something holds or loads in the surface: there displacements have no limit.
-fn bare_point(scene: &Scene) -> Option<String> {
-    let resolved = scene.resolve().ok()?;
+fn bare_point(resolved: &Resolved<'_>) -> Option<String> {
     let joints = resolved
         .joints
         .iter()

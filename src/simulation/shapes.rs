@@ -373,17 +373,17 @@ fn outlines<const D: usize>(
     parts: &dyn Fn(usize) -> u32,
 ) -> Vec<Vec<[f64; 3]>> {
     let bodies = assembled.system.bodies();
-    let of = |body: usize| match assembled.modal_line(body) {
-        _ if assembled.patch(body).is_some() => {
-            let patch = assembled.patch(body).into_iter();
-            patch.flat_map(|patch| patch_points(patch, x)).collect()
+    let of = |body: usize| {
+        if let Some(patch) = assembled.patch(body) {
+            return patch_points(patch, x);
         }
-        Some((line, body)) => line
-            .sections(body, x)
-            .into_iter()
-            .map(|(at, _)| at)
-            .collect(),
-        None => bodies.outline(body, x, parts),
+        match assembled.modal_line(body) {
+            Some((line, body)) => {
+                let sections = line.sections(body, x).into_iter();
+                sections.map(|(at, _)| at).collect()
+            }
+            None => bodies.outline(body, x, parts),
+        }
     };
     (0..bodies.ranges.len()).map(of).collect()
 }

@@ -7,7 +7,7 @@
 use nalgebra::Vector3;
 
 use super::numbers::{Numbers, list};
-use crate::scene::{PatchBody, PatchGrid};
+use crate::scene::PatchBody;
 use crate::simulation::Pose;
 
 /// Most modes of a run.
@@ -26,11 +26,6 @@ pub(super) struct SheetModes {
     pub modes: Vec<Vec<Vector3<f64>>>,
     /// Largest distance of a point from the place of the body, m.
     pub reach: f64,
-}
-
-/// Grid that a plate or shell is drawn with.
-pub(super) fn grid_of(body: &PatchBody) -> PatchGrid {
-    PatchGrid::new(body.mesh.map(|count| count as usize))
 }
 
 impl SheetModes {
@@ -100,7 +95,7 @@ impl SheetModes {
         place: usize,
         numbers: &mut Numbers,
     ) -> String {
-        let grid = grid_of(body);
+        let grid = body.grid();
         let points: Vec<Vec<f64>> = self
             .points
             .iter()
@@ -130,7 +125,7 @@ impl SheetModes {
     /// Place of a marker that is drawn at a point of the surface nearest to it, and how modes move it, as JSON.
     pub fn marker_to_json(&self, body: &PatchBody, at: [f64; 2]) -> String {
         let far = |place: [f64; 2]| (place[0] - at[0]).hypot(place[1] - at[1]);
-        let places = grid_of(body).places().map(far).enumerate();
+        let places = body.grid().places().map(far).enumerate();
         let nearest = places
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .map_or(0, |(point, _)| point);

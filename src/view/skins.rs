@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::numbers::{Numbers, list};
 use super::recording::Recording;
-use super::sheets::{EXPECTED, grid_of};
+use super::sheets::EXPECTED;
 use crate::elements::reduced::Interface;
 use crate::picture::Skin;
 use crate::scene::{BodyReference, Container, Scene};
@@ -201,7 +201,7 @@ pub(super) fn size(scene: &Scene) -> [usize; 2] {
     });
     let sheets = scene.bodies.iter().filter_map(|body| body.patch());
     let sheets = sheets.map(|body| {
-        let grid = grid_of(body);
+        let grid = body.grid();
         let points = grid.count() * 3 * 2 * (1 + EXPECTED);
         [points + grid.triangles().len() * 3 * CORNER, EXPECTED]
     });

@@ -6,7 +6,6 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::header::mesh;
 use super::recording::Recording;
 use super::sections::{has_corners, sections};
-use super::sheets::grid_of;
 use super::skins::{MovingStress, seen_modes};
 use crate::elements::shape;
 use crate::math::rotation::{self, Quaternion};
@@ -405,7 +404,7 @@ fn star(reduced: &FileBody, body: usize, size: f64) -> BodySurface {
 /// A plate or shell with the modes of its run.
 fn sheet(recording: &Recording, patch: &PatchBody, body: usize) -> BodySurface {
     let mut built = Built::default();
-    let quads = grid_of(patch).quads().into_iter();
+    let quads = patch.grid().quads().into_iter();
     built.faces = quads.map(|corners| corners.to_vec()).collect();
     let sheet = recording.sheets[body].as_ref();
     let points = sheet.map_or(&[][..], |sheet| &sheet.points);

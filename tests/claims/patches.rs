@@ -1,9 +1,9 @@
 //! Keys of plates and shells, of their edges and of loads on them: claims in closed form. Most are of strips under small loads, of which
 //! bicubic elements find the displacements of nodes exactly.
 
-use flexbody::scene::Scene;
-use flexbody::simulation::Simulation;
 use serde_json::{Value, json};
+
+use crate::laws::runs::Run;
 
 /// Length and width of the strip, m.
 const LENGTH: f64 = 2.0;
@@ -14,40 +14,14 @@ const YOUNG: f64 = 3e9;
 const RATIO: f64 = 0.3;
 const DENSITY: f64 = 1200.0;
 
-struct Run(Simulation);
-
-impl Run {
-    /// A scene with parameters or inputs set.
-    fn set(scene: &Value, values: &[(&str, f64)]) -> Result<Self, String> {
-        let scene = Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?;
-        let mut run = Self(Simulation::new(scene));
-        for (name, value) in values {
-            let index = run.index(name)?;
-            let set = run.0.set_real(index, *value);
-            set.map_err(|error| error.to_string())?;
-        }
-        run.0.initialize(0.0).map_err(|error| error.to_string())?;
-        run.0.start().map_err(|error| error.to_string())?;
-        Ok(run)
-    }
-
-    fn new(scene: &Value) -> Result<Self, String> {
-        Self::set(scene, &[])
-    }
-
-    fn index(&self, name: &str) -> Result<usize, String> {
-        let place = self.0.variables().iter().position(|v| v.name == name);
-        place.ok_or_else(|| format!("{name}: no such variable"))
-    }
-
-    fn vector(&mut self, name: &str) -> Result<[f64; 3], String> {
-        let mut vector = [0.0; 3];
-        for (k, part) in vector.iter_mut().enumerate() {
-            let index = self.index(&format!("{name}[{}]", k + 1))?;
-            *part = self.0.real(index).map_err(|error| error.to_string())?;
-        }
-        Ok(vector)
-    }
+/// A run of a scene with parameters or inputs set.
+fn started_with(scene: &Value, values: &[(&str, f64)]) -> Run {
+    let mut run = Run::ready(scene);
+    values
+        .iter()
+        .for_each(|(name, value)| run.set(name, *value));
+    run.start();
+    run
 }
 
 fn near(found: f64, expected: f64, within: f64) {
@@ -99,9 +73,9 @@ fn strip(keys: &Value, value: [f64; 3]) -> Value {
         "outputs": [{"kind": "position", "marker": "p.tip"}, {"kind": "acceleration", "marker": "p.tip"}]})
 }
 
-fn tip(scene: &Value) -> Result<[f64; 3], String> {
-    let [x, y, z] = Run::new(scene)?.vector("p.tip.position")?;
-    Ok([x - LENGTH, y - 0.5 * WIDTH, z])
+fn tip(scene: &Value) -> [f64; 3] {
+    let [x, y, z] = Run::started(scene).read_all::<3>("p.tip.position");
+    [x - LENGTH, y - 0.5 * WIDTH, z]
 }
 
 /// Stiffness against stretching and bending of a strip of the material that cannot contract.
@@ -112,34 +86,33 @@ fn stiffness(young: f64, ratio: f64, thickness: f64) -> [f64; 2] {
 
 /// `material`, `thickness`, `clamped`, `symmetry` and `area_force`: tip of a strip by a force along it and one across it.
 #[test]
-fn strips_stretch_and_bend() -> Result<(), String> {
-    let claims = |young: f64, ratio: f64, thickness: f64| -> Result<(), String> {
+fn strips_stretch_and_bend() {
+    let claims = |young: f64, ratio: f64, thickness: f64| {
         let keys = json!({"thickness": thickness,
             "material": {"youngs_modulus": young, "poisson_ratio": ratio, "density": DENSITY}});
         let [stretching, bending] = stiffness(young, ratio, thickness);
         let along = 1e-6 * stretching;
         let wanted = along * LENGTH.powi(2) / (2.0 * stretching);
         near(
-            tip(&strip(&keys, [along, 0.0, 0.0]))?[0],
+            tip(&strip(&keys, [along, 0.0, 0.0]))[0],
             wanted,
             1e-5 * wanted,
         );
         let across = 1e-5 * bending;
         let wanted = across * LENGTH.powi(4) / (8.0 * bending);
         near(
-            tip(&strip(&keys, [0.0, 0.0, across]))?[2],
+            tip(&strip(&keys, [0.0, 0.0, across]))[2],
             wanted,
             1e-5 * wanted,
         );
-        Ok(())
     };
-    claims(YOUNG, RATIO, THICKNESS)?;
+    claims(YOUNG, RATIO, THICKNESS);
     claims(2.0 * YOUNG, -0.2, 0.7 * THICKNESS)
 }
 
 /// Parameters do what their keys do.
 #[test]
-fn parameters_are_keys() -> Result<(), String> {
+fn parameters_are_keys() {
     let [_, bending] = stiffness(YOUNG, RATIO, THICKNESS);
     let scene = strip(&json!({}), [0.0, 0.0, 1e-5 * bending]);
     let deflection = |young: f64, ratio: f64, thickness: f64| {
@@ -151,50 +124,47 @@ fn parameters_are_keys() -> Result<(), String> {
         ("p.poisson_ratio", 0.1, deflection(YOUNG, 0.1, THICKNESS)),
         ("p.thickness", 0.03, deflection(YOUNG, RATIO, 0.03)),
     ] {
-        let found = Run::set(&scene, &[(name, value)])?.vector("p.tip.position")?[2];
+        let found = started_with(&scene, &[(name, value)]).read_all::<3>("p.tip.position")[2];
         near(found, wanted, 1e-5 * wanted);
     }
     // Without edges and in no equilibrium it is accelerated as a whole.
     let mut free = scene.clone();
     (free["joints"], free["initial"]) = (json!([]), json!("undeformed"));
-    let found = Run::set(&free, &[("p.density", 700.0)])?.vector("p.tip.acceleration")?;
+    let found = started_with(&free, &[("p.density", 700.0)]).read_all::<3>("p.tip.acceleration");
     let wanted = 1e-5 * bending / (700.0 * THICKNESS);
     near(found[2], wanted, 1e-9 * wanted);
-    Ok(())
 }
 
 /// `damping_time`, of a material and of matrices, and its parameter: the power that a strip dissipates as it begins to vibrate.
 #[test]
-fn damping_slows_a_strip() -> Result<(), String> {
+fn damping_slows_a_strip() {
     let [_, bending] = stiffness(YOUNG, RATIO, THICKNESS);
     let damped = |time: f64| json!({"youngs_modulus": YOUNG, "poisson_ratio": RATIO, "density": DENSITY, "damping_time": time});
-    let lost = |keys: &Value, values: &[(&str, f64)]| -> Result<f64, String> {
+    let lost = |keys: &Value, values: &[(&str, f64)]| -> f64 {
         let mut scene = strip(keys, [0.0, 0.0, 1e-3 * bending]);
         scene["initial"] = json!("undeformed");
         scene["outputs"] = json!([{"kind": "work"}]);
-        let mut run = Run::set(&scene, values)?;
-        run.0.step(2e-3).map_err(|error| error.to_string())?;
-        let index = run.index("energy.dissipated")?;
-        run.0.real(index).map_err(|error| error.to_string())
+        let mut run = started_with(&scene, values);
+        run.step(2e-3);
+        run.read("energy.dissipated")
     };
-    let one = lost(&json!({"material": damped(1e-6)}), &[])?;
+    let one = lost(&json!({"material": damped(1e-6)}), &[]);
     assert!(one > 0.0);
     near(
-        lost(&json!({"material": damped(2e-6)}), &[])? / one,
+        lost(&json!({"material": damped(2e-6)}), &[]) / one,
         2.0,
         0.02,
     );
     near(
-        lost(&json!({}), &[("p.damping_time", 2e-6)])? / one,
+        lost(&json!({}), &[("p.damping_time", 2e-6)]) / one,
         2.0,
         0.02,
     );
     let matrices = matrices();
-    let of_matrices = lost(&matrices, &[("p.damping_time", 2e-6)])?;
+    let of_matrices = lost(&matrices, &[("p.damping_time", 2e-6)]);
     let mut keys = matrices;
     keys["damping_time"] = json!(1e-6);
-    near(of_matrices / lost(&keys, &[])?, 2.0, 0.02);
-    Ok(())
+    near(of_matrices / lost(&keys, &[]), 2.0, 0.02);
 }
 
 /// The section of the material as matrices.
@@ -214,7 +184,7 @@ fn matrices() -> Value {
 
 /// `stiffness` with `area_density`: a strip of matrices, with and without coupling, and `axis_angle`, which rotates them.
 #[test]
-fn strips_of_matrices_couple() -> Result<(), String> {
+fn strips_of_matrices_couple() {
     let (a, d, b) = (5e7, 2e3, 1e5);
     let diagonal = |first: f64, others: f64| json!([[first, 0, 0], [0, others, 0], [0, 0, others]]);
     let keys = |first: f64, angle: f64| {
@@ -224,30 +194,29 @@ fn strips_of_matrices_couple() -> Result<(), String> {
     // So small that tension does not stiffen it.
     let load = 1e-9 * a;
     let along = |keys: &Value| tip(&strip(keys, [load, 0.0, 0.0]));
-    let found = along(&keys(0.0, 0.0))?;
+    let found = along(&keys(0.0, 0.0));
     let plain = load * LENGTH.powi(2) / (2.0 * a);
     near(found[0], plain, 1e-4 * plain);
     // N = A e - B k, M = D k - B e = 0.
-    let (whole, found) = (a * d - b * b, along(&keys(b, 0.0))?);
+    let (whole, found) = (a * d - b * b, along(&keys(b, 0.0)));
     near(found[0], plain * a * d / whole, 1e-4 * plain);
     let bent = load * LENGTH.powi(3) * b / (3.0 * whole);
     near(found[2], bent, 1e-4 * bent);
     let quarter = std::f64::consts::FRAC_PI_2;
-    let turned = along(&keys(0.0, quarter))?;
+    let turned = along(&keys(0.0, quarter));
     near(turned[0], 0.5 * plain, 1e-4 * plain);
     let scene = strip(&keys(0.0, 0.0), [load, 0.0, 0.0]);
-    let set = Run::set(&scene, &[("p.axis_angle", quarter)])?.vector("p.tip.position")?;
+    let set = started_with(&scene, &[("p.axis_angle", quarter)]).read_all::<3>("p.tip.position");
     near(set[0] - LENGTH, turned[0], 1e-4 * plain);
     let mut free = strip(&keys(0.0, 0.0), [load, 0.0, 0.0]);
     (free["joints"], free["initial"]) = (json!([]), json!("undeformed"));
-    let found = Run::new(&free)?.vector("p.tip.acceleration")?;
+    let found = Run::started(&free).read_all::<3>("p.tip.acceleration");
     near(found[0], load / 20.0, 1e-9 * load);
-    Ok(())
 }
 
 /// `laminate`: two plies across each other, from the bottom to the top, stretch and bend a strip as their integrals say.
 #[test]
-fn plies_add_up() -> Result<(), String> {
+fn plies_add_up() {
     let (first, second, ratio, shear, density) = (4e10, 1e10, 0.3, 4e9, 1900.0);
     let (thin, thick) = (2e-3, 5e-3);
     let quarter = std::f64::consts::FRAC_PI_2;
@@ -265,7 +234,7 @@ fn plies_add_up() -> Result<(), String> {
     };
     let [a, b, d] = [1, 2, 3].map(sum);
     let (load, whole) = (1e-10 * a, a * d - b * b);
-    let found = tip(&strip(&keys, [load, 0.0, 0.0]))?;
+    let found = tip(&strip(&keys, [load, 0.0, 0.0]));
     let wanted = [
         load * LENGTH.powi(2) * d / (2.0 * whole),
         load * LENGTH.powi(3) * b / (3.0 * whole),
@@ -275,14 +244,13 @@ fn plies_add_up() -> Result<(), String> {
     let load = 1e-4 * a;
     let mut free = strip(&keys, [load, 0.0, 0.0]);
     (free["joints"], free["initial"]) = (json!([]), json!("undeformed"));
-    let found = Run::new(&free)?.vector("p.tip.acceleration")?;
+    let found = Run::started(&free).read_all::<3>("p.tip.acceleration");
     near(found[0], load / (density * (thin + thick)), 1e-9 * load);
-    Ok(())
 }
 
 /// Twist of a rectangle, of which three corners are held and the fourth is pushed: `w = P a b / 4 D66`. The markers are points.
 #[test]
-fn corners_twist_a_plate() -> Result<(), String> {
+fn corners_twist_a_plate() {
     let shear = 4e9;
     let keys = |given: bool| {
         let markers = json!({"a": [0, 0], "b": [1, 0], "c": [0, 1], "d": [1, 1]});
@@ -304,17 +272,16 @@ fn corners_twist_a_plate() -> Result<(), String> {
             "joints": [pin("a"), pin("b"), pin("c")],
             "loads": [{"name": "push", "kind": "force", "marker": "p.d", "value": [0, 0, push]}],
             "initial": "static_equilibrium", "outputs": [{"kind": "position", "marker": "p.d"}]});
-        let found = Run::new(&scene)?.vector("p.d.position")?[2];
+        let found = Run::started(&scene).read_all::<3>("p.d.position")[2];
         let wanted = push * LENGTH * WIDTH / (4.0 * twisting);
         near(found, wanted, 1e-4 * wanted);
     }
-    Ok(())
 }
 
 /// `pinned`, and the load and input `pressure`: a strip between hinges that may slide along it would have a deflection of
 /// `5 q L^4 / 384 D`, and one between clamps a fifth of it.
 #[test]
-fn pressures_bend_a_strip_between_edges() -> Result<(), String> {
+fn pressures_bend_a_strip_between_edges() {
     let [_, bending] = stiffness(YOUNG, RATIO, THICKNESS);
     let pressure = 1e-5 * bending;
     let scene = |kind: &str, by_input: bool| {
@@ -337,19 +304,18 @@ fn pressures_bend_a_strip_between_edges() -> Result<(), String> {
     };
     for (kind, part) in [("pinned", 5.0), ("clamped", 1.0)] {
         for by_input in [false, true] {
-            let found = Run::new(&scene(kind, by_input))?.vector("p.tip.position")?[2];
+            let found = Run::started(&scene(kind, by_input)).read_all::<3>("p.tip.position")[2];
             let wanted = part * pressure * LENGTH.powi(4) / (384.0 * bending);
             near(found, wanted, 1e-4 * wanted);
         }
     }
-    let mut set = Run::set(&scene("pinned", true), &[("p.pressure", 0.0)])?;
-    near(set.vector("p.tip.position")?[2], 0.0, 1e-15);
-    Ok(())
+    let mut set = started_with(&scene("pinned", true), &[("p.pressure", 0.0)]);
+    near(set.read_all::<3>("p.tip.position")[2], 0.0, 1e-15);
 }
 
 /// The input `area_force`, `motion`, and the directions of pressure: a free plate is accelerated as a whole.
 #[test]
-fn free_plates_are_accelerated() -> Result<(), String> {
+fn free_plates_are_accelerated() {
     let surface = json!({"rectangle": {"corner": [1, 2, 3], "edges": [[0, 1, 0], [0, 0, 1]]}});
     let keys = json!({"motion": {"velocity": [1, 2, 3], "spin": [0.1, 0, 0]}});
     let outputs = ["position", "velocity", "acceleration", "orientation"];
@@ -358,26 +324,25 @@ fn free_plates_are_accelerated() -> Result<(), String> {
         "loads": [{"name": "q", "kind": "pressure", "body": "p", "value": 12}],
         "inputs": [{"kind": "area_force", "body": "p", "start": [2, 3, 4]}],
         "outputs": outputs});
-    let mut run = Run::new(&scene)?;
-    all_near(run.vector("p.tip.position")?, [1.0, 3.0, 3.5], 1e-14);
+    let mut run = Run::started(&scene);
+    all_near(run.read_all::<3>("p.tip.position"), [1.0, 3.0, 3.5], 1e-14);
     // The velocity is that of the corner.
     all_near(
-        run.vector("p.tip.velocity")?,
+        run.read_all::<3>("p.tip.velocity"),
         [1.0, 2.0 - 0.05, 3.0 + 0.1],
         1e-12,
     );
     // The normal is x. Nothing pulls it to the middle before it has stretched.
     let mass = DENSITY * THICKNESS;
     let wanted = [14.0 / mass, 3.0 / mass, 4.0 / mass];
-    all_near(run.vector("p.tip.acceleration")?, wanted, 1e-9);
-    let mut set = Run::set(&scene, &[("p.area_force[1]", -12.0)])?;
-    near(set.vector("p.tip.acceleration")?[0], 0.0, 1e-9);
-    Ok(())
+    all_near(run.read_all::<3>("p.tip.acceleration"), wanted, 1e-9);
+    let mut set = started_with(&scene, &[("p.area_force[1]", -12.0)]);
+    near(set.read_all::<3>("p.tip.acceleration")[0], 0.0, 1e-9);
 }
 
 /// Markers of all surfaces are where these say, with pads at the mean.
 #[test]
-fn surfaces_are_as_described() -> Result<(), String> {
+fn surfaces_are_as_described() {
     let (sin, cos) = 0.5_f64.sin_cos();
     let cases = [
         (
@@ -420,7 +385,7 @@ fn surfaces_are_as_described() -> Result<(), String> {
         let keys = json!({"markers": {"tip": [0.5, 0.5]}});
         let scene = json!({"name": "surface", "dimension": 3, "bodies": [body(element, &surface, [2, 2], &keys)],
             "outputs": [{"kind": "position", "marker": "p.tip"}]});
-        let found = Run::new(&scene)?.vector("p.tip.position")?;
+        let found = Run::started(&scene).read_all::<3>("p.tip.position");
         for (found, wanted) in found.into_iter().zip(wanted) {
             near(found, wanted, 1e-12);
         }
@@ -430,9 +395,8 @@ fn surfaces_are_as_described() -> Result<(), String> {
     let scene = json!({"name": "pad", "dimension": 3, "bodies": [body("plate", &surface, [2, 2], &keys)],
         "outputs": [{"kind": "position", "marker": "p.tip"}]});
     all_near(
-        Run::new(&scene)?.vector("p.tip.position")?,
+        Run::started(&scene).read_all::<3>("p.tip.position"),
         [0.05, 0.5, 0.0],
         1e-14,
     );
-    Ok(())
 }

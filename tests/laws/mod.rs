@@ -46,7 +46,7 @@ mod random;
 mod reactions;
 mod restored;
 mod rigid;
-mod runs;
+pub mod runs;
 mod same;
 mod settled_rods;
 mod sheared;

@@ -1,18 +1,22 @@
 //! Patches as bodies.
 
-use super::{Pack, Patch};
-use crate::bodies::assembly::{Assembly, Links, no_block};
+use std::ops::Range;
+
+use super::Patch;
+use crate::bodies::assembly::{Assembly, Links, NodeBlock, block_of_parts, no_block};
 use crate::bodies::body::{BodyPart, Momentum, NodalMotion};
+use crate::bodies::chain::Pack;
 use crate::bodies::connectivity::{Node, no_node};
 use crate::bodies::linearized::{ElementTangent, LinearTerms, LinearizationPoint};
 use crate::bodies::map::Rotations;
 use crate::bodies::probe::{NodeBlocks, Nodes};
 use crate::bodies::setup::NodeNumber;
 use crate::bodies::stages::RotatingNodes;
-use crate::elements::shell::{CornerPack, PackBlocks, VECTORS};
+use crate::elements::shell::{CornerPack, PackBlocks, ShellPack, VECTORS};
 use crate::math::jet::{Jet, Number};
 use crate::math::lanes::{PACK, Simd, Vectorized, vectorized};
-use crate::math::space::{Vector, spin_matrix};
+use crate::math::rotation::Quaternion;
+use crate::math::space::{Vector, components, spin_matrix, vector};
 use crate::math::sparse::Matrix;
 
 /// Adds forces of all packs.
@@ -36,8 +40,8 @@ impl<const D: usize> Vectorized for AddPatchForce<'_, D> {
             } else {
                 pack.kernel.force(simd, (&e, None), &mut f)
             };
-            for lane in 0..pack.count {
-                let nodes = patch.corner_nodes(pack.first + lane);
+            for (lane, element) in pack.elements.clone().enumerate() {
+                let nodes = patch.corner_nodes(element);
                 for corner in 0..4 {
                     for k in 0..VECTORS {
                         let sum = &mut self.force[nodes[corner] + k / 2][k % 2];
@@ -84,14 +88,10 @@ impl<const D: usize> Vectorized for AddPatchTangent<'_, D> {
                 } else {
                     &mut *stiffness
                 };
-                let lanes = group * S::F64_LANES..pack.count.min((group + 1) * S::F64_LANES);
-                for lane in lanes {
-                    patch.add_blocks(
-                        (pack.first + lane, lane),
-                        pair,
-                        of,
-                        (assembly, &mut *matrix),
-                    );
+                let elements = pack.elements.clone().enumerate();
+                let of_group = elements.skip(group * S::F64_LANES).take(S::F64_LANES);
+                for (lane, element) in of_group {
+                    patch.add_blocks((element, lane), pair, of, (assembly, &mut *matrix));
                 }
             };
             (pack.kernel).tangent(simd, &e, (rates, before), &mut blocks, call);
@@ -102,9 +102,10 @@ impl<const D: usize> Vectorized for AddPatchTangent<'_, D> {
 impl Patch {
     /// Copies vectors of the corners of the elements of a pack, or their rates. The last element fills up.
     #[inline(always)]
-    fn read<const D: usize>(&self, pack: &Pack, x: &[Node<D>], e: &mut CornerPack) {
+    fn read<const D: usize>(&self, pack: &Pack<ShellPack>, x: &[Node<D>], e: &mut CornerPack) {
+        let Range { start, end } = pack.elements;
         for lane in 0..PACK {
-            let nodes = self.corner_nodes(pack.first + lane.min(pack.count - 1));
+            let nodes = self.corner_nodes((start + lane).min(end - 1));
             for corner in 0..4 {
                 for k in 0..VECTORS {
                     let vector = &x[nodes[corner] + k / 2][k % 2];
@@ -187,13 +188,8 @@ impl Patch {
             let nodes = self.element_nodes(index);
             for (a, first) in nodes.iter().enumerate() {
                 for (b, second) in nodes.iter().enumerate().take(a + 1) {
-                    let mut block = no_block::<D>();
-                    for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                        let part = axes * element.mass()[(2 * a + p, 2 * b + q)];
-                        for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
-                            block[p][r][q][c] = part[(r, c)];
-                        }
-                    }
+                    let mass = element.mass();
+                    let block = block_of_parts(|p, q| axes * mass[(2 * a + p, 2 * b + q)]);
                     assembly.add(*first, *second, &block, matrix);
                 }
             }
@@ -259,12 +255,7 @@ impl<const D: usize> BodyPart<D> for Patch {
         rotating.surfaces.extend(self.mesh().step_by(2));
     }
 
-    fn place(
-        &self,
-        _from: &[crate::math::rotation::Quaternion],
-        _rotations: &mut Rotations,
-        x: &mut [Node<D>],
-    ) {
+    fn place(&self, _from: &[Quaternion], _rotations: &mut Rotations, x: &mut [Node<D>]) {
         self.place_points(x);
     }
 
@@ -292,7 +283,7 @@ impl<const D: usize> BodyPart<D> for Patch {
         &self,
         f: &[Node<D>],
         x: &[Node<D>],
-        add: &mut impl FnMut(usize, usize, &crate::bodies::assembly::NodeBlock<D>),
+        add: &mut impl FnMut(usize, usize, &NodeBlock<D>),
     ) {
         self.geometric_blocks(f, x, add);
     }
@@ -317,7 +308,7 @@ impl<const D: usize> BodyPart<D> for Patch {
     }
 
     fn add_weight(&self, gravity: &Vector<D>, f: &mut [Node<D>]) {
-        let gravity = crate::math::space::components(gravity);
+        let gravity = components(gravity);
         for (index, element) in self.elements.iter().enumerate() {
             let weight = element.weight();
             let force = std::array::from_fn(|corner| {
@@ -417,7 +408,7 @@ impl<const D: usize> BodyPart<D> for Patch {
     fn add_momentum<N: Number>(&self, motion: NodalMotion<'_, D, N>, sum: &mut Momentum<D, N>) {
         for (index, element) in self.elements.iter().enumerate() {
             let [at, rates] = [motion.x, motion.v].map(|x| self.element(index, x));
-            let to_vector = |v: &[N; 3]| crate::math::space::vector::<D, N>(*v);
+            let to_vector = |v: &[N; 3]| vector::<D, N>(*v);
             for (row, place) in at.as_flattened().iter().enumerate() {
                 let mut momentum = Vector::<D, N>::zeros();
                 for (column, rate) in rates.as_flattened().iter().enumerate() {

@@ -6,11 +6,11 @@
 
 use nalgebra::Vector3;
 
-use super::Patch;
+use super::{Patch, corner};
 use crate::bodies::assembly::{NodeBlock, no_block};
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{Axes, axes_at, axis_rates, set_axes_at};
-use crate::elements::shell::VECTORS;
+use crate::elements::shell::{SurfaceFrame, VECTORS};
 use crate::math::jet::{Jet, Number};
 use crate::math::space::{components, vector};
 
@@ -53,15 +53,14 @@ struct Tangents<N: Number> {
 
 impl<N: Number> Tangents<N> {
     fn of([first, second]: &[Vector3<N>; 2]) -> Self {
-        let across = first.cross(second);
-        let area = across.norm();
-        let normal = across / area;
+        let SurfaceFrame { normal, dual } = SurfaceFrame::of(&(*first).into(), &(*second).into());
+        let normal = Vector3::from(normal);
         let along = first + second.cross(&normal);
         let stretch = along.norm();
         let along = along / stretch;
         Self {
             axes: [along, normal.cross(&along), normal],
-            dual: [second.cross(&normal) / area, normal.cross(first) / area],
+            dual: dual.map(Vector3::from),
             stretch,
         }
     }
@@ -114,12 +113,6 @@ impl<N: Number> Tangents<N> {
     }
 }
 
-/// Vectors of a mesh node.
-fn vectors<const D: usize, N: Number>(node: usize, x: &[Node<D, N>]) -> [Vector3<N>; VECTORS] {
-    let [[r, r1], [r2, r12]] = [x[node], x[node + 1]];
-    [r, r1, r2, r12].map(|v| components::<D, N>(&v.into()).into())
-}
-
 impl PatchFrame {
     /// Adds weights.
     pub fn add(&mut self, term: &MeshWeights) {
@@ -155,7 +148,8 @@ impl PatchFrame {
     fn sums<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> (Vector3<N>, [Vector3<N>; 2]) {
         let (mut position, mut along) = (Vector3::zeros(), [Vector3::zeros(); 2]);
         for term in &self.terms {
-            for (k, v) in vectors(term.node, x).iter().enumerate() {
+            for (k, v) in corner(term.node, x).into_iter().enumerate() {
+                let v = Vector3::from(v);
                 position += v * N::of(term.position[k]);
                 along[0] += v * N::of(term.along[0][k]);
                 along[1] += v * N::of(term.along[1][k]);

@@ -8,23 +8,16 @@ use crate::bodies::assembly::NodeBlock;
 use crate::bodies::body::{BodyPart, NodalMotion};
 use crate::bodies::connectivity::{Node, add_node, no_node};
 use crate::bodies::frame::axes_at;
+use crate::elements::rod::tests::Noise;
 use crate::elements::shell::{Corner, ShellSection};
 
 type Nodes = Vec<Node<3>>;
 
-/// Numbers that look random, between -1 and 1.
-fn random(seed: &mut u64) -> f64 {
-    *seed = seed
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-}
-
 /// Nodes that look random; those of points are zero.
-fn field(patch: &Patch, size: f64, seed: &mut u64) -> Nodes {
+fn field(patch: &Patch, size: f64, seed: &mut Noise) -> Nodes {
     let mut nodes = vec![no_node(); patch.all().end];
     for node in patch.mesh() {
-        nodes[node] = nodes[node].map(|v| v.map(|_| size * random(seed)));
+        nodes[node] = nodes[node].map(|v| v.map(|_| size * seed.next()));
     }
     nodes
 }
@@ -66,7 +59,7 @@ fn patch() -> Patch {
 }
 
 /// A configuration that is not the reference, with its points.
-fn configuration(patch: &Patch, seed: &mut u64) -> Nodes {
+fn configuration(patch: &Patch, seed: &mut Noise) -> Nodes {
     let mut x: Nodes = vec![no_node(); 2];
     x.extend(patch.reference::<3>());
     let disturbed = field(patch, 0.05, seed);
@@ -125,7 +118,7 @@ fn points_lie_on_the_surface_and_rotate_with_it() {
 
 #[test]
 fn rates_and_accelerations_of_points_are_derivatives() {
-    let (patch, mut seed) = (patch(), 3);
+    let (patch, mut seed) = (patch(), Noise(3));
     let x = configuration(&patch, &mut seed);
     let [mut v, mut a] = [0, 1].map(|_| field(&patch, 1.0, &mut seed));
     patch.place_point_rates(&x, &mut v);
@@ -153,13 +146,13 @@ fn rates_and_accelerations_of_points_are_derivatives() {
 
 #[test]
 fn forces_on_points_do_the_same_work_on_the_mesh() {
-    let (patch, mut seed) = (patch(), 11);
+    let (patch, mut seed) = (patch(), Noise(11));
     let x = configuration(&patch, &mut seed);
     let mut v = field(&patch, 1.0, &mut seed);
     patch.place_point_rates(&x, &mut v);
     let mut f = vec![no_node(); x.len()];
     for node in patch.followers() {
-        f[node] = f[node].map(|v| v.map(|_| random(&mut seed)));
+        f[node] = f[node].map(|v| v.map(|_| seed.next()));
     }
     let power = product(&f, &v);
     // The same through derivatives.
@@ -181,11 +174,11 @@ fn forces_on_points_do_the_same_work_on_the_mesh() {
 
 #[test]
 fn stiffness_of_forces_on_axes_is_the_symmetric_derivative() {
-    let (patch, mut seed) = (patch(), 23);
+    let (patch, mut seed) = (patch(), Noise(23));
     let x = configuration(&patch, &mut seed);
     let mut on_points = vec![no_node(); x.len()];
     for node in patch.followers() {
-        on_points[node] = on_points[node].map(|v| v.map(|_| random(&mut seed)));
+        on_points[node] = on_points[node].map(|v| v.map(|_| seed.next()));
     }
     let [u, v] = [0, 1].map(|_| field(&patch, 1.0, &mut seed));
     let mut by_blocks = 0.0;
@@ -219,7 +212,7 @@ fn stiffness_of_forces_on_axes_is_the_symmetric_derivative() {
 
 #[test]
 fn forces_of_a_patch_in_lanes_are_those_of_its_elements() {
-    let (patch, mut seed) = (patch(), 31);
+    let (patch, mut seed) = (patch(), Noise(31));
     let (x, v) = (
         configuration(&patch, &mut seed),
         field(&patch, 1.0, &mut seed),

@@ -10,7 +10,7 @@ use nalgebra::{SVector, Vector3};
 
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{Axes, axes_at, combined};
-use crate::math::space::{Vector, components, vector};
+use crate::math::space::{Vector, components, tangent_axes, vector};
 
 /// What a node rotates with.
 #[derive(Clone, Copy, Debug)]
@@ -104,16 +104,11 @@ fn place<const D: usize>(nodes: &[(usize, RotatesWith)], x: &[Node<D>], axes: &m
     for ((_, with), axes) in nodes.iter().zip(axes) {
         *axes = match with {
             RotatesWith::Section(frame) => axes_at(*frame, x),
-            RotatesWith::Surface(node) => tangent_axes(*node, x),
+            RotatesWith::Surface(node) => {
+                let derivatives = [x[*node][1], x[node + 1][0]];
+                let [first, second] = derivatives.map(|v| components(&Vector::from(v)).into());
+                tangent_axes(&first, &second)
+            }
         };
     }
-}
-
-/// Unit vectors along the first derivative at a mesh node and across it, and the normal.
-fn tangent_axes<const D: usize>(node: usize, x: &[Node<D>]) -> Axes {
-    let [first, second] = [x[node][1], x[node + 1][0]];
-    let [first, second] = [first, second].map(|v| Vector3::from(components(&Vector::<D>::from(v))));
-    let normal = first.cross(&second).normalize();
-    let along = first.normalize();
-    [along, normal.cross(&along), normal]
 }

@@ -4,8 +4,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{Inertia, LineOf, Parameters};
-use crate::elements::{ElementPolynomial, StrainMeasure, shape};
+use super::{Inertia, Parameters};
+use crate::elements::{ElementPolynomial, shape};
 use crate::math::quadrature::GAUSS_5;
 
 /// Factors along an element of the stiffnesses and the mass of [`Parameters`], 1 by default, and the mass of the fluid
@@ -51,20 +51,36 @@ impl SectionVariation {
     }
 }
 
+/// Consistent mass matrix of a line of length `l` (m), relative to its mass.
+fn consistent(l: f64) -> SMatrix<f64, 4, 4> {
+    let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
+    let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
+    let (f, g) = (l * l / 105.0, l * l / 140.0);
+    SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]])
+}
+
+/// A consistent mass matrix with what quadratic and cubic parts of the velocity count more often than once.
+fn corrected(
+    consistent: SMatrix<f64, 4, 4>,
+    l: f64,
+    inertia: Inertia,
+    bends: bool,
+) -> SMatrix<f64, 4, 4> {
+    let [quadratic, cubic] = match inertia {
+        Inertia::Consistent => [0.0, 0.0],
+        Inertia::Corrected if bends => [1.0, 23.0 / 3.0],
+        Inertia::Corrected => [0.6, 23.0 / 3.0],
+    };
+    let second = SVector::from([0.0, -l / 12.0, 0.0, l / 12.0]);
+    let third = SVector::from([0.1, 0.05 * l, -0.1, 0.05 * l]);
+    consistent
+        + second * second.transpose() * (quadratic / 5.0)
+        + third * third.transpose() * (cubic / 7.0)
+}
+
 /// Mass matrix of a line of this length (m) with a mass of 1 kg/m that bends.
 pub(in crate::elements) fn line_mass(length: f64, inertia: Inertia) -> SMatrix<f64, 4, 4> {
-    let parameters = Parameters {
-        length,
-        axial_stiffness: 0.0,
-        bending_stiffness: 0.0,
-        line_of: LineOf::Cable,
-        line_density: 1.0,
-        axial_damping_time: 0.0,
-        bending_damping_time: 0.0,
-        strain: StrainMeasure::ThetaPrime,
-        inertia,
-    };
-    mass(&parameters, &SectionVariation::default(), true)
+    corrected(consistent(length), length, inertia, true) * length
 }
 
 /// Mass matrix of a cable with or without bending stiffness, that of the fluid which moves along with it.
@@ -73,30 +89,16 @@ pub(super) fn mass(
     taper: &SectionVariation,
     bends: bool,
 ) -> SMatrix<f64, 4, 4> {
-    let l = parameters.length;
-    let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
-    let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
-    let (f, g) = (l * l / 105.0, l * l / 140.0);
-    let mean = taper.mean_moved(parameters);
-    let mut consistent =
-        SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
-    if !taper.moves_evenly() {
+    let (l, mean) = (parameters.length, taper.mean_moved(parameters));
+    let consistent = if taper.moves_evenly() {
+        consistent(l)
+    } else {
         let terms = GAUSS_5.iter().map(|point| {
             let values = shape::values(point.at, l);
             let weight = point.weight * taper.moved(parameters, point.at) / mean;
             values * values.transpose() * weight
         });
-        consistent = terms.sum();
-    }
-    let [quadratic, cubic] = match parameters.inertia {
-        Inertia::Consistent => [0.0, 0.0],
-        Inertia::Corrected if bends => [1.0, 23.0 / 3.0],
-        Inertia::Corrected => [0.6, 23.0 / 3.0],
+        terms.sum()
     };
-    let second = SVector::from([0.0, -l / 12.0, 0.0, l / 12.0]);
-    let third = SVector::from([0.1, 0.05 * l, -0.1, 0.05 * l]);
-    let mass = consistent
-        + second * second.transpose() * (quadratic / 5.0)
-        + third * third.transpose() * (cubic / 7.0);
-    mass * (mean * l)
+    corrected(consistent, l, parameters.inertia, bends) * (mean * l)
 }

@@ -42,7 +42,7 @@ mod statics;
 pub(in crate::elements) mod stretch;
 pub(in crate::elements) mod tangent;
 #[cfg(test)]
-pub(in crate::elements) mod tests;
+pub(crate) mod tests;
 pub(in crate::elements) mod vectors;
 
 use crate::elements::ElementMotion;

@@ -14,7 +14,7 @@ mod helix;
 type V = Vector3<f64>;
 
 /// Numbers between -1 and 1 that look random.
-pub(in crate::elements) struct Noise(pub u64);
+pub(crate) struct Noise(pub u64);
 
 impl Noise {
     pub fn next(&mut self) -> f64 {

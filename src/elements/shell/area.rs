@@ -9,13 +9,8 @@ use super::{ElementCorners, Shell, VECTORS, mass};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_3;
 
-/// Number of places of an element where loads per area are known.
-pub const AREA_PLACES: usize = 9;
-
-/// `xi` and `eta` of a place where loads per area are known.
-pub fn area_place(place: usize) -> [f64; 2] {
-    [GAUSS_3[place / 3].at, GAUSS_3[place % 3].at]
-}
+/// Places of quadrature of an element.
+const PLACES: usize = 9;
 
 /// Weight of a place.
 fn weight(place: usize) -> f64 {
@@ -49,41 +44,33 @@ impl Shell {
         sums
     }
 
-    /// Area of the unstressed surface that a place stands for, m^2.
-    pub(super) fn areas(&self, unstressed: &ElementCorners) -> [f64; AREA_PLACES] {
-        std::array::from_fn(|place| {
+    /// Forces on the functions per force per area of the unstressed surface, m^2 (and m^3 of derivatives).
+    pub(super) fn area_weights(&self, unstressed: &ElementCorners) -> [f64; 16] {
+        let areas: [f64; PLACES] = std::array::from_fn(|place| {
             let [first, second] = self.tangents(unstressed, place);
             first.cross(&second).norm() * weight(place)
+        });
+        std::array::from_fn(|k| {
+            let places = areas.iter().enumerate();
+            let sum: f64 = places
+                .map(|(place, area)| functions(k, place)[0] * area)
+                .sum();
+            sum * self.scale(k)
         })
     }
 
-    /// Forces of pressures at all places along the normal, Pa.
+    /// Forces of a pressure along the normal, Pa.
     pub fn pressure_force<N: Number>(
         &self,
         e: &ElementCorners<N>,
-        pressures: &[N; AREA_PLACES],
+        pressure: N,
     ) -> ElementCorners<N> {
-        let force = |place: usize| {
-            let [first, second] = self.tangents(e, place);
-            first.cross(&second) * (pressures[place] * N::of(weight(place)))
-        };
-        self.on_values(&std::array::from_fn(force))
-    }
-
-    /// Forces of dead loads at all places per area of the unstressed surface, N/m^2.
-    pub fn area_force<N: Number>(&self, loads: &[[N; 3]; AREA_PLACES]) -> ElementCorners<N> {
-        let force = |place: usize| Vector3::from(loads[place]) * N::of(self.areas[place]);
-        self.on_values(&std::array::from_fn(force))
-    }
-
-    /// Forces on the coordinates of forces at all places, N.
-    fn on_values<N: Number>(&self, forces: &[Vector3<N>; AREA_PLACES]) -> ElementCorners<N> {
         let mut out = [[[N::of(0.0); 3]; VECTORS]; 4];
-        for (k, out) in out.as_flattened_mut().iter_mut().enumerate() {
-            let scale = self.scale(k);
-            for (place, force) in forces.iter().enumerate() {
-                let [value, ..] = functions(k, place);
-                let part = force * N::of(value * scale);
+        for place in 0..PLACES {
+            let [first, second] = self.tangents(e, place);
+            let force = first.cross(&second) * (pressure * N::of(weight(place)));
+            for (k, out) in out.as_flattened_mut().iter_mut().enumerate() {
+                let part = force * N::of(functions(k, place)[0] * self.scale(k));
                 out.iter_mut()
                     .zip(&part)
                     .for_each(|(out, part)| *out += *part);
@@ -92,14 +79,23 @@ impl Shell {
         out
     }
 
-    /// Symmetric part of the stiffness of pressures at all places (Pa), block by block over the vectors of all corners.
+    /// Forces of a dead load per area of the unstressed surface, N/m^2.
+    pub fn area_force<N: Number>(&self, load: &[N; 3]) -> ElementCorners<N> {
+        std::array::from_fn(|corner| {
+            std::array::from_fn(|k| {
+                load.map(|component| component * N::of(self.area_weights[VECTORS * corner + k]))
+            })
+        })
+    }
+
+    /// Symmetric part of the stiffness of a pressure (Pa), block by block over the vectors of all corners.
     pub fn pressure_stiffness(
         &self,
         e: &ElementCorners,
-        pressures: &[f64; AREA_PLACES],
+        pressure: f64,
     ) -> [[Matrix3<f64>; 16]; 16] {
         let mut out = [[Matrix3::zeros(); 16]; 16];
-        for (place, pressure) in pressures.iter().enumerate() {
+        for place in 0..PLACES {
             let [first, second] = self.tangents(e, place).map(|v| v.cross_matrix());
             let half = 0.5 * pressure * weight(place);
             for row in 0..16 {

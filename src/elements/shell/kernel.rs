@@ -63,16 +63,17 @@ impl<S: Simd> Read<[f64; PACK], Lanes<S>> for Group<S> {
     }
 }
 
-/// Normal and dual vectors at an inner place.
-#[derive(Clone, Copy)]
-pub(super) struct Frame<N> {
+/// Normal and dual vectors of a surface at a place.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceFrame<N> {
     /// Unit normal.
     pub normal: Vector<N>,
     /// Vectors `r^1` and `r^2` with `r^a . r_b = 1` where `a = b`, 0 elsewhere, in the tangent plane.
     pub dual: [Vector<N>; 2],
 }
 
-impl<N: Real> Frame<N> {
+impl<N: Real> SurfaceFrame<N> {
+    /// From the derivatives of the position by both coordinates.
     #[inline(always)]
     pub fn of(first: &Vector<N>, second: &Vector<N>) -> Self {
         let across = cross(first, second);
@@ -202,9 +203,9 @@ fn along_second_derivatives<N: Real>(
 
 /// Curvatures, and the frames that they were found with.
 #[inline(always)]
-pub(super) fn curvature<N: Real>(grid: &Grid<N>) -> (Components<N>, [[Frame<N>; 3]; 3]) {
+pub(super) fn curvature<N: Real>(grid: &Grid<N>) -> (Components<N>, [[SurfaceFrame<N>; 3]; 3]) {
     let like = grid.first[0][1][1];
-    let frame = Frame {
+    let frame = SurfaceFrame {
         normal: like,
         dual: [like; 2],
     };
@@ -212,7 +213,8 @@ pub(super) fn curvature<N: Real>(grid: &Grid<N>) -> (Components<N>, [[Frame<N>; 
     let mut out = [[[like[0]; 3]; 3]; 3];
     for i in 0..3 {
         for j in 0..3 {
-            frames[i][j] = Frame::of(&grid.first[0][i + 1][j + 1], &grid.first[1][i + 1][j + 1]);
+            frames[i][j] =
+                SurfaceFrame::of(&grid.first[0][i + 1][j + 1], &grid.first[1][i + 1][j + 1]);
             let components = along_second_derivatives(grid, (i, j), &frames[i][j].normal);
             for k in 0..3 {
                 out[k][i][j] = components[k];
@@ -226,14 +228,14 @@ pub(super) fn curvature<N: Real>(grid: &Grid<N>) -> (Components<N>, [[Frame<N>; 
 #[inline(always)]
 pub(super) fn strain_rate<N: Real>(
     grid: &Grid<N>,
-    frames: &[[Frame<N>; 3]; 3],
+    frames: &[[SurfaceFrame<N>; 3]; 3],
     rates: &Grid<N>,
 ) -> Strain<N> {
     let membrane = products(grid, rates, true);
     let mut curvature = membrane;
     for i in 0..3 {
         for j in 0..3 {
-            let Frame { normal, dual } = &frames[i][j];
+            let SurfaceFrame { normal, dual } = &frames[i][j];
             let direct = along_second_derivatives(rates, (i, j), normal);
             let u1 = dot(&rates.first[0][i + 1][j + 1], normal);
             let u2 = dot(&rates.first[1][i + 1][j + 1], normal);
@@ -404,11 +406,15 @@ impl<N: Real> Stress<N> {
 
 /// Forces on the derivatives of the position of stress, against the strains.
 #[inline(always)]
-fn forces<N: Real>(grid: &Grid<N>, frames: &[[Frame<N>; 3]; 3], stress: &Stress<N>) -> Grid<N> {
+fn forces<N: Real>(
+    grid: &Grid<N>,
+    frames: &[[SurfaceFrame<N>; 3]; 3],
+    stress: &Stress<N>,
+) -> Grid<N> {
     let mut out = Grid::zeros(grid.first[0][1][1][0]);
     for i in 0..3 {
         for j in 0..3 {
-            let Frame { normal, dual } = &frames[i][j];
+            let SurfaceFrame { normal, dual } = &frames[i][j];
             let [m11, m22, m12] = at(&stress.moment, i, j);
             let m12 = m12 + m12;
             let p = times(&grid.second[0][i][j], m11);

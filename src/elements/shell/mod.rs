@@ -18,8 +18,9 @@ use super::line::times;
 use super::shape;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-pub use area::{AREA_PLACES, area_place};
+use crate::math::space::tangent_axes;
 use grid::{Corners, Grid, WEIGHTS};
+pub use kernel::SurfaceFrame;
 use kernel::{Group, Kernel, Read, Single, curvature, metric};
 pub use mass::Mass;
 pub use section::{Ply, ShellSection, Stiffness};
@@ -64,8 +65,10 @@ pub struct Shell {
     scales: [f64; 3],
     kernel: Kernel<f64>,
     mass: Mass,
-    /// Area of the unstressed surface that each of [`AREA_PLACES`] stands for, m^2.
-    areas: [f64; AREA_PLACES],
+    /// Forces on the functions per uniform acceleration of space, kg.
+    weight: [f64; 16],
+    /// Forces on the functions per force per area of the unstressed surface, m^2.
+    area_weights: [f64; 16],
 }
 
 /// Up to [`PACK`] elements.
@@ -113,23 +116,20 @@ fn unscaled<N: Real>(f: &Corners<N>, scales: &[N; 3]) -> ElementCorners<N> {
     out
 }
 
-/// Covariant stiffness at a place times the area that it stands for: vectors `R_1`, `R_2` of the unstressed surface there.
-fn covariant(
-    section: &ShellSection,
-    first: &Vector3<f64>,
-    second: &Vector3<f64>,
-    weight: f64,
-) -> [[f64; 6]; 3] {
-    let across = first.cross(second);
-    let area = across.norm();
-    let normal = across / area;
-    let along = first.normalize();
-    let (sin, cos) = section.angle.sin_cos();
-    let f1 = along * cos + normal.cross(&along) * sin;
-    let f2 = normal.cross(&f1);
-    let dual = [second.cross(&normal) / area, normal.cross(first) / area];
-    let components = [f1, f2].map(|f| [f.dot(&dual[0]), f.dot(&dual[1])]);
-    let by: Matrix3<f64> = strain_transformation(components);
+/// Components `f_k . r^a` of orthonormal axes `f_1`, `f_2` of the tangent plane, `[k][a]`: the first is rotated by an angle (rad) about the
+/// normal from the first derivative of the position. Derivatives along these axes are sums of those by the coordinates times them.
+pub fn axis_components([first, second]: &[Vector3<f64>; 2], angle: f64) -> [[f64; 2]; 2] {
+    let dual = SurfaceFrame::of(&(*first).into(), &(*second).into()).dual;
+    let [along, across, _] = tangent_axes(first, second);
+    let (sin, cos) = angle.sin_cos();
+    let axes = [along * cos + across * sin, across * cos - along * sin];
+    axes.map(|axis| dual.map(|dual| axis.dot(&Vector3::from(dual))))
+}
+
+/// Covariant stiffness at a place times the area that it stands for: derivatives of the unstressed surface there.
+fn covariant(section: &ShellSection, tangents: &[Vector3<f64>; 2], weight: f64) -> [[f64; 6]; 3] {
+    let area = tangents[0].cross(&tangents[1]).norm();
+    let by: Matrix3<f64> = strain_transformation(axis_components(tangents, section.angle));
     [&section.membrane, &section.coupling, &section.bending].map(|law| {
         let law = rotated(law, &by);
         let entry = |r: usize, c: usize| 0.5 * (law[r][c] + law[c][r]) * area * weight;
@@ -156,12 +156,9 @@ impl Shell {
         let mut laws = [[[[0.0; 6]; 3]; 3]; 3];
         for i in 0..3 {
             for j in 0..3 {
-                let [first, second] = [0, 1].map(|of| Vector3::from(grid.first[of][i + 1][j + 1]));
-                let weight = WEIGHTS[i] * WEIGHTS[j];
-                for (law, at) in covariant(section, &first, &second, weight)
-                    .into_iter()
-                    .enumerate()
-                {
+                let tangents = [0, 1].map(|of| grid.first[of][i + 1][j + 1].into());
+                let stiffness = covariant(section, &tangents, WEIGHTS[i] * WEIGHTS[j]);
+                for (law, at) in stiffness.into_iter().enumerate() {
                     laws[law][i][j] = at;
                 }
             }
@@ -173,14 +170,18 @@ impl Shell {
             curvature: curvature(&grid).0,
             damping_time: section.damping_time,
         };
+        let mass = mass::mass(corners, (sizes, unit), section.area_density);
+        let ones =
+            SVector::<f64, 16>::from_fn(|k, _| f64::from(u8::from(k.is_multiple_of(VECTORS))));
         let mut element = Self {
             sizes,
             scales,
             kernel,
-            mass: mass::mass(corners, (sizes, unit), section.area_density),
-            areas: [0.0; AREA_PLACES],
+            weight: (mass * ones).into(),
+            mass,
+            area_weights: [0.0; 16],
         };
-        element.areas = element.areas(corners);
+        element.area_weights = element.area_weights(corners);
         element
     }
 
@@ -195,9 +196,8 @@ impl Shell {
     }
 
     /// Forces on the functions per uniform acceleration of space, kg.
-    pub fn weight(&self) -> SVector<f64, 16> {
-        let ones = SVector::from_fn(|k, _| f64::from(u8::from(k.is_multiple_of(VECTORS))));
-        self.mass * ones
+    pub fn weight(&self) -> &[f64; 16] {
+        &self.weight
     }
 
     /// Whether it dissipates.

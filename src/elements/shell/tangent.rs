@@ -4,7 +4,7 @@
 
 use super::grid::{AT, Corners, Grid, PLACES};
 use super::kernel::{
-    Components, Frame, Kernel, Read, Strain, Stress, apply, at, curvature, strain_rate,
+    Components, Kernel, Read, Strain, Stress, SurfaceFrame, apply, at, curvature, strain_rate,
 };
 use crate::elements::line::{dot, times};
 use crate::elements::rod::vectors::{Vector, plus};
@@ -102,7 +102,7 @@ pub(super) const fn shape(
 /// Surface, stress and frames of an element at all places.
 pub(super) struct Tangent<N> {
     grid: Grid<N>,
-    frames: [[Frame<N>; 3]; 3],
+    frames: [[SurfaceFrame<N>; 3]; 3],
     stress: Stress<N>,
     /// Membrane forces at the samples of their strains.
     samples: Components<N>,
@@ -182,7 +182,7 @@ impl<N: Real> Tangent<N> {
                 membrane[2] = plus(second, number(h1), &plus(first, number(h2), &membrane[2]));
             }
         }
-        let Frame { dual, .. } = &self.frames[i][j];
+        let SurfaceFrame { dual, .. } = &self.frames[i][j];
         let slopes = [
             shape(functions, (1, 0), place),
             shape(functions, (0, 1), place),

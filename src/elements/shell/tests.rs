@@ -5,16 +5,9 @@
 use nalgebra::{Matrix3, Rotation3, SMatrix, Vector3};
 
 use super::*;
+use crate::elements::rod::tests::Noise;
 use crate::math::jet::Jet;
 use crate::math::lanes::{Vectorized, vectorized};
-
-/// Numbers that look random, between -1 and 1.
-fn random(seed: &mut u64) -> f64 {
-    *seed = seed
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-}
 
 fn laminate() -> ShellSection {
     let ply = |angle: f64, thickness: f64| Ply {
@@ -33,7 +26,7 @@ fn laminate() -> ShellSection {
 }
 
 /// A curved surface of 0.8 x 0.5 m, disturbed by `by`.
-fn corners(by: f64, seed: &mut u64) -> ElementCorners {
+fn corners(by: f64, seed: &mut Noise) -> ElementCorners {
     std::array::from_fn(|corner| {
         let (x, y) = (0.8 * (corner / 2) as f64, 0.5 * (corner % 2) as f64);
         let flat = [
@@ -42,12 +35,12 @@ fn corners(by: f64, seed: &mut u64) -> ElementCorners {
             [0.1, 1.0, 0.3 * x],
             [0.0, 0.0, 0.3],
         ];
-        flat.map(|v| v.map(|component| component + by * random(seed)))
+        flat.map(|v| v.map(|component| component + by * seed.next()))
     })
 }
 
 fn element(section: &ShellSection) -> Shell {
-    Shell::new(section, ([0.8, 0.5], 0.3), &corners(0.03, &mut 5))
+    Shell::new(section, ([0.8, 0.5], 0.3), &corners(0.03, &mut Noise(5)))
 }
 
 fn changed(e: &ElementCorners, by: &ElementCorners, factor: f64) -> ElementCorners {
@@ -66,7 +59,7 @@ fn product(a: &ElementCorners, b: &ElementCorners) -> f64 {
 
 #[test]
 fn forces_are_slopes_of_the_energy() {
-    let (element, mut seed) = (element(&laminate()), 17);
+    let (element, mut seed) = (element(&laminate()), Noise(17));
     let at = corners(0.1, &mut seed);
     let (force, _) = element.force(&at, &[[[0.0; 3]; 4]; 4]);
     let mut largest = 0.0_f64;
@@ -85,14 +78,14 @@ fn forces_are_slopes_of_the_energy() {
 
 #[test]
 fn rigid_motion_stores_no_energy() {
-    let (element, at) = (element(&laminate()), corners(0.03, &mut 5));
+    let (element, at) = (element(&laminate()), corners(0.03, &mut Noise(5)));
     let rotation = Rotation3::from_euler_angles(0.4, -1.1, 2.0);
     let moved = at.map(|corner| {
         let mut vectors = corner.map(|v| <[f64; 3]>::from(rotation * Vector3::from(v)));
         vectors[0] = std::array::from_fn(|d| vectors[0][d] + 0.7);
         vectors
     });
-    let strained = element.energy(&corners(0.1, &mut 9));
+    let strained = element.energy(&corners(0.1, &mut Noise(9)));
     assert!(
         element.energy(&moved).abs() < 1e-26 * strained,
         "{:e}",
@@ -186,7 +179,7 @@ fn in_lanes(
 
 #[test]
 fn lanes_agree_with_numbers_and_tangents_with_differences() {
-    let (element, mut seed) = (element(&laminate()), 29);
+    let (element, mut seed) = (element(&laminate()), Noise(29));
     let at: Vec<_> = (0..3).map(|_| corners(0.1, &mut seed)).collect();
     let rates: Vec<_> = (0..3).map(|_| corners(1.0, &mut seed)).collect();
     let still = [[[0.0; 3]; 4]; 4];
@@ -230,7 +223,7 @@ fn lanes_agree_with_numbers_and_tangents_with_differences() {
 
 #[test]
 fn predicted_stress_is_that_of_a_linear_step() {
-    let (element, mut seed) = (element(&laminate()), 41);
+    let (element, mut seed) = (element(&laminate()), Noise(41));
     let from = corners(0.05, &mut seed);
     let way = corners(1.0, &mut seed);
     let still = [[[0.0; 3]; 4]; 4];

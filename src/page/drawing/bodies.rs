@@ -4,7 +4,7 @@ use super::picture::{Picture, seen};
 use crate::page::canvas::Point;
 use crate::picture::palette::{BODY, INK, INSIDE};
 use crate::picture::{Skin, Style};
-use crate::scene::{BodyReference, Cable, FileBody, LineBody, PatchBody, PatchGrid, RigidBody};
+use crate::scene::{BodyReference, Cable, FileBody, LineBody, PatchBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable, or for an edge that is held.
 const PARTS: u32 = 96;
@@ -31,7 +31,7 @@ pub(super) fn outline(body: BodyReference<'_>, dimension: usize) -> Vec<[f64; 3]
         },
         BodyReference::Plate(plate) => {
             let geometry = plate.body.geometry();
-            let places = PatchGrid::new(plate.body.mesh.map(|count| count as usize)).places();
+            let places = plate.body.grid().places();
             places.map(|at| geometry.corner(at)[0]).collect()
         }
     }
@@ -173,7 +173,7 @@ impl Picture<'_> {
 
     /// Triangles of a plate or shell, and the lines of its mesh, or of a fine one its edges.
     fn sheet(&mut self, body: &PatchBody, points: &[Point]) {
-        let grid = PatchGrid::new(body.mesh.map(|count| count as usize));
+        let grid = body.grid();
         let inside = Style {
             stroke: "none",
             width: 0.0,

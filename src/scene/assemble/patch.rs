@@ -29,17 +29,13 @@ impl<const D: usize> Builder<'_, D> {
 
     /// A marker of a plate or shell, with the line along `s1` as direction.
     pub(super) fn on_patch(&self, plate: Plate<'_>, index: usize) -> Marker {
-        let body = plate.id.index();
-        let node = self
-            .patch_of(body)
-            .map_or(0, |patch| patch.point_node(index));
-        Marker::framed(body, node, [0.0; 3], [1.0, 0.0, 0.0])
+        let node = self.patch_of(plate).point_node(index);
+        Marker::framed(plate.id.index(), node, [0.0; 3], [1.0, 0.0, 0.0])
     }
 
-    /// The patch of a body, which is a plate or shell.
-    fn patch_of(&self, body: usize) -> Option<&Patch> {
-        let index = self.patches.iter().position(|of| *of == body)?;
-        self.parts.bodies.patches().get(index)
+    /// The patch of a plate or shell.
+    fn patch_of(&self, plate: Plate<'_>) -> &Patch {
+        &self.parts.bodies.patches()[self.patch_index(plate)]
     }
 
     /// Index among the patches of a plate or shell.
@@ -51,10 +47,7 @@ impl<const D: usize> Builder<'_, D> {
     /// Rows of joints of edges.
     pub(super) fn edges(&mut self) {
         for edge in &self.resolved.edges {
-            let Some(patch) = self.patch_of(edge.plate.id.index()) else {
-                continue;
-            };
-            let rows: Vec<_> = edge_nodes(patch, edge)
+            let rows: Vec<_> = edge_nodes(self.patch_of(edge.plate), edge)
                 .into_iter()
                 .flat_map(|node| self.edge_rows(edge, node))
                 .collect();

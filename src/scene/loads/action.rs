@@ -10,8 +10,7 @@ use crate::scene::description::{Acting, ActionKind, ActsOn, LoadValue, is_false}
 use crate::scene::resolved::{Pivot, Plate};
 use crate::system::Direction;
 use crate::system::loads::{
-    AreaAction, AreaLoad, AreaValues, DistributedForce, DistributedMoment, Force, Moment,
-    SpatialMoment,
+    AreaAction, AreaLoad, DistributedForce, DistributedMoment, Force, Moment, SpatialMoment,
 };
 
 /// The axis of the plane.
@@ -223,14 +222,6 @@ impl<'a> ActingLoad<'a> for Action<'a> {
     }
 }
 
-/// Components that are the same all over a plate or shell.
-fn everywhere<const K: usize>(components: &[Signal]) -> AreaValues<K> {
-    AreaValues {
-        uniform: each(components),
-        along: std::array::from_fn(|_| Vec::new()),
-    }
-}
-
 /// The components of a load as functions of time.
 fn signals(
     path: &str,
@@ -330,8 +321,8 @@ impl<const D: usize> Builder<'_, D> {
         AppliedLoad::AreaLoad(Box::new(AreaLoad {
             patch: self.patch_index(plate),
             action: match action.kind {
-                ActionKind::Pressure => AreaAction::Pressure(everywhere(components)),
-                _ => AreaAction::Force(Box::new(everywhere(components))),
+                ActionKind::Pressure => AreaAction::Pressure(components[0].clone()),
+                _ => AreaAction::Force(Box::new(each(components))),
             },
         }))
     }

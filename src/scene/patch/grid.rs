@@ -1,5 +1,7 @@
 //! Grid of points that a plate or shell is drawn with.
 
+use crate::scene::description::PatchBody;
+
 /// Most parts of an element, and parts of a body along a coordinate up to which there are more than one.
 const PARTS: usize = 4;
 const FEW: usize = 24;
@@ -11,6 +13,13 @@ pub struct PatchGrid {
     mesh: [usize; 2],
     /// Parts of an element.
     parts: [usize; 2],
+}
+
+impl PatchBody {
+    /// Grid that it is drawn with.
+    pub fn grid(&self) -> PatchGrid {
+        PatchGrid::new(self.mesh.map(|count| count as usize))
+    }
 }
 
 impl PatchGrid {

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::PARTS;
 use crate::math::quadrature::GAUSS_3;
+use crate::math::space::tangent_axes;
 use crate::scene::SceneVector;
 use crate::scene::description::PatchSurface;
 
@@ -187,8 +188,7 @@ impl SurfaceMap {
     /// Axes at a place, unit vectors: along the lines along `s1`, across them in the surface, and the normal.
     pub fn axes(&self, at: [f64; 2]) -> [SurfacePoint; 3] {
         let [_, first, second, _] = self.at(at);
-        let (along, normal) = (first.normalize(), first.cross(&second).normalize());
-        [along, normal.cross(&along), normal]
+        tangent_axes(&first, &second)
     }
 
     /// Mean lengths of the lines along `s1` and `s2`, m.

@@ -1,56 +1,19 @@
 //! Loads per area on a plate or shell: pressure along its normal, which follows the surface, and dead forces per area of the unstressed
 //! surface.
 
-use super::{Add, ForceElement, Instant};
-use crate::bodies::{Bodies, Node, Patch, no_block};
-use crate::elements::shell::{AREA_PLACES, ElementCorners};
+use super::{Add, ForceElement, Instant, hold};
+use crate::bodies::{Bodies, Node, Patch, block_of_parts};
+use crate::elements::shell::ElementCorners;
 use crate::math::jet::Number;
 use crate::system::signal::Signal;
-
-/// Numbers per area: the same everywhere, or known at [`AREA_PLACES`] places of each element.
-#[derive(Clone, Debug)]
-pub struct AreaValues<const K: usize> {
-    /// Components that are the same everywhere; zero of those that change.
-    pub uniform: [Signal; K],
-    /// Components that change, at the places of every element in turn; empty of those that do not.
-    pub along: [Vec<Signal>; K],
-}
-
-impl<const K: usize> AreaValues<K> {
-    /// Values at all places of an element.
-    fn at<const D: usize, N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        element: usize,
-    ) -> [[N; K]; AREA_PLACES] {
-        let uniform = self.uniform.each_ref().map(|signal| signal.value(at));
-        std::array::from_fn(|place| {
-            std::array::from_fn(|k| {
-                let here = self.along[k].get(AREA_PLACES * element + place);
-                here.map_or(uniform[k], |signal| signal.value(at))
-            })
-        })
-    }
-
-    fn signals(&self) -> impl Iterator<Item = &Signal> {
-        self.uniform.iter().chain(self.along.iter().flatten())
-    }
-
-    fn hold<const D: usize>(&mut self, at: Instant<'_, D>, fraction: f64) {
-        let along = self.along.iter_mut().flatten();
-        for signal in self.uniform.iter_mut().chain(along) {
-            *signal = signal.held(at, fraction);
-        }
-    }
-}
 
 /// Action on an area.
 #[derive(Clone, Debug)]
 pub enum AreaAction {
     /// Pressure along the normal `r1 x r2`, Pa.
-    Pressure(AreaValues<1>),
+    Pressure(Signal),
     /// Force per area of the unstressed surface in global components, N/m^2.
-    Force(Box<AreaValues<3>>),
+    Force(Box<[Signal; 3]>),
 }
 
 /// A load on a plate or shell.
@@ -76,11 +39,10 @@ impl AreaLoad {
         let patch = self.of(at.bodies);
         let of = &patch.elements()[element];
         match &self.action {
-            AreaAction::Pressure(values) => {
-                let pressures = values.at(at, element).map(|[pressure]| pressure);
-                of.pressure_force(&patch.element(element, at.x), &pressures)
+            AreaAction::Pressure(pressure) => {
+                of.pressure_force(&patch.element(element, at.x), pressure.value(at))
             }
-            AreaAction::Force(values) => of.area_force(&values.at(at, element)),
+            AreaAction::Force(load) => of.area_force(&load.each_ref().map(|of| of.value(at))),
         }
     }
 
@@ -110,23 +72,18 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
 
     /// Of pressure the symmetric part: all of it but at edges that move freely.
     fn add_tangent(&self, at: Instant<'_, D>, add: Add<'_, D>, _damping: Add<'_, D>) {
-        let AreaAction::Pressure(values) = &self.action else {
+        let AreaAction::Pressure(pressure) = &self.action else {
             return;
         };
-        let patch = self.of(at.bodies);
+        let (patch, pressure) = (self.of(at.bodies), pressure.value(at));
         for (index, element) in patch.elements().iter().enumerate() {
-            let pressures = values.at(at, index).map(|[pressure]| pressure);
-            let blocks = element.pressure_stiffness(&patch.element(index, at.x), &pressures);
+            let blocks = element.pressure_stiffness(&patch.element(index, at.x), pressure);
             let nodes = patch.element_nodes(index);
             for (i, a) in nodes.iter().enumerate() {
                 for (j, b) in nodes.iter().enumerate().take(i + 1) {
-                    let mut block = no_block::<D>();
-                    for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                        let part = &blocks[2 * i + p][2 * j + q];
-                        for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
-                            block[p][r][q][c] = part[(r, c)];
-                        }
-                    }
+                    let block = block_of_parts::<D>(|p, q| {
+                        blocks[2 * i + p][2 * j + q].fixed_view::<D, D>(0, 0).into()
+                    });
                     add(*a, *b, &block);
                 }
             }
@@ -143,15 +100,15 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
 
     fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
         match &mut self.action {
-            AreaAction::Pressure(values) => values.hold(at, fraction),
-            AreaAction::Force(values) => values.hold(at, fraction),
+            AreaAction::Pressure(pressure) => *pressure = pressure.held(at, fraction),
+            AreaAction::Force(load) => hold(load.as_mut_slice(), at, fraction),
         }
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
         match &self.action {
-            AreaAction::Pressure(values) => values.signals().for_each(call),
-            AreaAction::Force(values) => values.signals().for_each(call),
+            AreaAction::Pressure(pressure) => call(pressure),
+            AreaAction::Force(load) => load.iter().for_each(call),
         }
     }
 
