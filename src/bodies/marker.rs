@@ -56,6 +56,18 @@ impl Marker {
         }
     }
 
+    /// A vector that is a weighted sum of those of two nodes, or of one that stands twice, as a direction; the position is that of the first.
+    pub fn weighted(body: usize, nodes: [usize; 2], weights: [f64; 4]) -> Self {
+        Self {
+            body,
+            nodes,
+            values: [1.0, 0.0, 0.0, 0.0],
+            slopes: weights,
+            across: 0.0,
+            element: None,
+        }
+    }
+
     /// The section of a planar beam at a node of its line: its position is that of the line, its direction that of the section's node.
     pub fn sheared(body: usize, nodes: [usize; 2]) -> Self {
         Self {

@@ -55,33 +55,44 @@ impl Patch {
         section: impl Fn(usize, usize) -> ShellSection,
         points: &[PatchPoint],
     ) -> Self {
-        let length = |k: usize| lines[k][lines[k].len() - 1];
         let [n, m] = [0, 1].map(|k| lines[k].len() - 1);
-        let unit = (length(0) * length(1) / (n * m) as f64).sqrt();
-        let scaled = |corner: &Corner| {
-            let [r, r1, r2, r12] = *corner;
-            [r, r1, r2, r12.map(|component| component * unit)]
-        };
         let mut patch = Self {
             first,
             lines,
-            corners: nodes.iter().map(scaled).collect(),
+            corners: Vec::new(),
             elements: Vec::new(),
             packs: Vec::new(),
             points: Vec::new(),
             is_damped: false,
         };
+        let unit = patch.unit();
+        let scaled = |corner: &Corner| {
+            let [r, r1, r2, r12] = *corner;
+            [r, r1, r2, r12.map(|component| component * unit)]
+        };
+        patch.corners = nodes.iter().map(scaled).collect();
         for element in 0..n * m {
             let at = [element / m, element % m];
             let corners = patch.mesh_nodes(element).map(|node| patch.corners[node]);
             let section = section(at[0], at[1]);
-            let sizes = [0, 1].map(|k| patch.lines[k][at[k] + 1] - patch.lines[k][at[k]]);
+            let sizes = [0, 1].map(|k| patch.spacing(k, at[k]));
             (patch.elements).push(Shell::new(&section, (sizes, unit), &corners));
         }
         patch.is_damped = patch.elements.iter().any(Shell::is_damped);
         patch.packs = packs(&patch.elements, |_| true, Shell::goes_with, Shell::pack);
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
         patch
+    }
+
+    /// Unit of length of the mixed derivatives in the nodes, m.
+    pub fn unit(&self) -> f64 {
+        let [n, m] = self.divisions();
+        (self.lengths()[0] * self.lengths()[1] / (n * m) as f64).sqrt()
+    }
+
+    /// Length of an element along a direction, m.
+    pub fn spacing(&self, direction: usize, element: usize) -> f64 {
+        self.lines[direction][element + 1] - self.lines[direction][element]
     }
 
     /// Numbers of elements along both directions.

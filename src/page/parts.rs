@@ -3,7 +3,8 @@
 use super::table::{table, worded};
 use crate::scene::words::{code, ends, number, values};
 use crate::scene::{
-    PortKind, ResolvedEdge, ResolvedGear, ResolvedJoint, ResolvedMotion, ResolvedPort, Scene,
+    EdgeBase, PortKind, ResolvedEdge, ResolvedGear, ResolvedJoint, ResolvedMotion, ResolvedPort,
+    Scene,
 };
 use crate::system::Drive;
 
@@ -131,7 +132,12 @@ fn joint_in_words(dimension: usize, joint: &ResolvedJoint<'_>) -> String {
 
 /// The row of a joint of an edge.
 fn edge_in_words(edge: &ResolvedEdge<'_>) -> String {
-    let between = format!("ground, {}", code(&edge.place()));
+    let base = edge.base_name();
+    let base = match edge.base {
+        EdgeBase::Ground => base,
+        _ => code(&base),
+    };
+    let between = format!("{base}, {}", code(&edge.line.place()));
     worded(&[&code(edge.name), edge.kind, &between, &edge.words()])
 }
 

@@ -204,30 +204,54 @@ pub struct Pivot<'a> {
     pub axis: Option<[f64; 3]>,
 }
 
-/// Freedoms that a joint holds of an edge of a plate or shell.
+/// Freedoms that a joint holds of a mesh line of a plate or shell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EdgeHold {
-    /// The edge and the normal along it.
+    /// The line, and the normal of the surface along it.
     Clamped,
-    /// The edge.
+    /// The line.
     Pinned,
-    /// The edge in a plane with this normal, and the normal of the surface in it.
+    /// The line and all derivatives of the surface along it.
+    Smooth,
+    /// The line in a plane with this normal, and the normal of the surface in it.
     Symmetry([f64; 3]),
 }
 
-/// A joint that holds an edge of a plate or shell on the ground.
+/// A line of the mesh of a plate or shell, or an edge.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshLine<'a> {
+    /// The body.
+    pub plate: Plate<'a>,
+    /// Coordinate that is the same along the line: 0 for `s1`, 1 for `s2`.
+    pub across: usize,
+    /// Number of elements before the line in that direction.
+    pub line: u32,
+}
+
+/// The first of what a joint of a mesh line joins.
+#[derive(Clone, Copy, Debug)]
+pub enum EdgeBase<'a> {
+    /// The ground.
+    Ground,
+    /// A marker of a body with a frame, which the line moves with.
+    Marker(ResolvedMarker<'a>),
+    /// A mesh line at the same place; whether both lines run in opposite directions.
+    Line(MeshLine<'a>, bool),
+}
+
+/// A joint that holds a mesh line of a plate or shell.
 #[derive(Clone, Copy, Debug)]
 pub struct ResolvedEdge<'a> {
     /// Name of the joint.
     pub name: &'a str,
     /// Kind of the joint.
     pub kind: &'static str,
-    /// The body.
-    pub plate: Plate<'a>,
-    /// Coordinate that is the same along the edge: 0 for `s1`, 1 for `s2`.
-    pub across: usize,
-    /// Whether it is the edge where that coordinate is 1, not 0.
-    pub is_last: bool,
+    /// Which holder it is.
+    pub holder: ConstraintOwnerId,
+    /// Object that holds the line.
+    pub base: EdgeBase<'a>,
+    /// The line that is held.
+    pub line: MeshLine<'a>,
     /// Freedoms that are held.
     pub hold: EdgeHold,
 }
@@ -386,7 +410,7 @@ pub struct Resolved<'a> {
     pub masses: Vec<ResolvedMass<'a>>,
     /// Joints.
     pub joints: Vec<ResolvedJoint<'a>>,
-    /// Joints of edges of plates and shells.
+    /// Joints of mesh lines of plates and shells.
     pub edges: Vec<ResolvedEdge<'a>>,
     /// Gears.
     pub gears: Vec<ResolvedGear<'a>>,

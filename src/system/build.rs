@@ -31,8 +31,6 @@ pub struct Parts<const D: usize = 2> {
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
     pub joints: Vec<JointEquations<D>>,
-    /// Rows with constant values that belong to no joint of two ends: edges of plates and shells.
-    pub held: Vec<(ConnectivityRow<D>, f64)>,
     /// Driven coordinates.
     pub drives: Vec<Drive>,
     /// Cables that winches pay out: of each the chain, whether the winch is at its last end, and the driven coordinate.
@@ -77,7 +75,9 @@ impl<const D: usize> System<D> {
             linear.iter().map(|linear| linear.row.clone()).collect();
         let links = links(&parts, &nonlinear);
         let (assembly, dependent) = Assembly::new(parts.bodies.reference.len(), &rows, &links);
-        let redundant = redundant(&linear, &dependent)?;
+        let mut redundant = redundant(&linear, &dependent)?;
+        // Edges that meet at a corner hold it both.
+        redundant.retain(|joint| parts.joints[*joint].edge().is_none());
         let mass = parts.bodies.mass_matrix(&assembly);
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
         let loads_damped = parts.loads.iter().any(AppliedLoad::is_damped);

@@ -191,7 +191,6 @@ impl Mechanism {
             bodies.add_mass(mass);
         }
         Parts {
-            held: Vec::new(),
             bodies,
             rigid,
             joints,

@@ -175,7 +175,6 @@ impl Chain {
         let mut bodies = Bodies::new(nodes, ranges);
         bodies.add_line(self.flexible());
         Parts {
-            held: Vec::new(),
             bodies,
             rigid: Vec::new(),
             joints: joints.map(|held| self.joint(held)).collect(),

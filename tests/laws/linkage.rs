@@ -433,7 +433,6 @@ impl Mechanism {
         );
         frames.for_each(|frame| bodies.add_rigid(frame));
         let mut parts = Parts {
-            held: Vec::new(),
             bodies,
             rigid: Vec::new(),
             joints: self.joints.iter().map(|joint| self.joint(joint)).collect(),

@@ -207,9 +207,9 @@ impl Picture<'_> {
     /// Edges that joints hold, masses, then markers.
     pub(super) fn marks(&mut self) {
         for edge in &self.resolved.edges {
-            let geometry = edge.plate.body.geometry();
+            let geometry = edge.line.plate.body.geometry();
             let places = (0..=PARTS).map(|part| f64::from(part) / f64::from(PARTS));
-            let places = places.map(|along| geometry.corner(edge.at(along))[0]);
+            let places = places.map(|along| geometry.corner(edge.line.at(along))[0]);
             let points: Vec<Point> = places.map(|place| self.at(place)).collect();
             self.canvas
                 .polyline(&points, Style::line(INK, 0.42 * self.unit));

@@ -4,6 +4,7 @@ mod axes;
 mod axial;
 mod bodies;
 mod coordinates;
+mod edge;
 mod initial;
 mod memory;
 mod modal;
@@ -235,7 +236,6 @@ impl Resolved<'_> {
             bodies: Bodies::default(),
             rigid: Vec::new(),
             joints: Vec::new(),
-            held: Vec::new(),
             drives: Vec::new(),
             winches: Vec::new(),
             loads: Vec::new(),

@@ -1,21 +1,22 @@
-//! Joints of edges of plates and shells: rows of the nodes there, which are eliminated.
+//! Joints of edges and other mesh lines of plates and shells.
 
 use nalgebra::Vector3;
 
 use super::*;
+use crate::elements::shell::Corner;
 use crate::scene::marker::GROUND;
-use crate::scene::resolved::{BodyReference, EdgeHold, Plate, ResolvedEdge};
+use crate::scene::resolved::{BodyReference, EdgeBase, EdgeHold, MeshLine, Plate, ResolvedEdge};
 use crate::scene::validate::checks::unknown;
+use crate::scene::validate::refuse_point;
 
-/// Part of an edge, relative to its size, by which it may be off a plane of symmetry.
+/// Part of a line, relative to its size, by which it may be off a plane of symmetry or another line.
 const OFF: f64 = 1e-6;
-/// Edges by name.
-const EDGES: [&str; 4] = ["s1=0", "s1=1", "s2=0", "s2=1"];
 
 /// Holds an edge of a plate or shell and the normal along it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClampedEdge {
-    /// `ground`, then the edge, `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
+    /// `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
+    /// `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
     #[serde(rename = "edges")]
     pub markers: [String; 2],
 }
@@ -23,7 +24,16 @@ pub struct ClampedEdge {
 /// Holds an edge of a plate or shell, which may rotate about itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PinnedEdge {
-    /// `ground`, then the edge, `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
+    /// `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
+    /// `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
+    #[serde(rename = "edges")]
+    pub markers: [String; 2],
+}
+
+/// Continues a plate or shell beyond an edge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SmoothEdges {
+    /// Two edges at the same place, of different bodies or of one that closes: `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
     #[serde(rename = "edges")]
     pub markers: [String; 2],
 }
@@ -58,6 +68,16 @@ impl SceneJoint for PinnedEdge {
     }
 }
 
+impl SceneJoint for SmoothEdges {
+    fn parts(&self) -> JointParts {
+        JointParts::new(Symbol::Weld, [])
+    }
+
+    fn edge(&self) -> Option<EdgeHold> {
+        Some(EdgeHold::Smooth)
+    }
+}
+
 impl SceneJoint for SymmetryEdge {
     fn parts(&self) -> JointParts {
         JointParts::new(Symbol::Slider, [])
@@ -76,7 +96,8 @@ impl<'a> Resolved<'a> {
     /// Resolves a joint of an edge.
     ///
     /// # Errors
-    /// An edge that does not exist, another first end than the ground, a release, or an edge that is not in its plane of symmetry.
+    /// A line of the mesh that does not exist; a base without axes; lines that are not at the same place or do not fit; a release; an edge
+    /// that is not in its plane of symmetry.
     pub(super) fn resolve_edge(
         &mut self,
         path: &str,
@@ -87,34 +108,67 @@ impl<'a> Resolved<'a> {
         }: &'a Joint,
         hold: EdgeHold,
     ) -> Found<()> {
-        let [first, second] = kind.markers();
-        if first != GROUND {
-            let wanted = "\"ground\" (edges of two bodies are not joined yet)";
-            return Err(expected(&format!("{path}.edges[0]"), wanted, quoted(first)));
-        }
+        let ([first, second], at) = (kind.markers(), |end: usize| format!("{path}.edges[{end}]"));
         if let Some(time) = release_time {
             let wanted = "nothing: the joint of an edge is not released";
             return Err(expected(&format!("{path}.release_time"), wanted, time));
         }
-        let (plate, across, is_last) = self.require_edge(&format!("{path}.edges[1]"), second)?;
-        let edge = ResolvedEdge {
+        let line = self.require_line(&at(1), second, hold)?;
+        let base = self.edge_base(&at(0), (first, hold), &line)?;
+        if let EdgeHold::Symmetry(normal) = hold {
+            check_symmetry(path, &line, normal.into())?;
+        }
+        let holder = self.hold(path, name);
+        self.edges.push(ResolvedEdge {
             name,
             kind: kind.name(),
-            plate,
-            across,
-            is_last,
+            holder,
+            base,
+            line,
             hold,
-        };
-        if let EdgeHold::Symmetry(normal) = hold {
-            check_symmetry(path, &edge, normal.into())?;
-        }
-        self.edges.push(edge);
+        });
         Ok(())
     }
 
-    /// Finds an edge: its body, the coordinate that is the same along it, and whether that is 1.
-    fn require_edge(&self, path: &str, text: &str) -> Found<(Plate<'a>, usize, bool)> {
-        let (body, edge) = text.split_once('.').unwrap_or((text, ""));
+    /// Object that holds a line.
+    fn edge_base(
+        &self,
+        path: &str,
+        (text, hold): (&'a str, EdgeHold),
+        line: &MeshLine<'a>,
+    ) -> Found<EdgeBase<'a>> {
+        let is_line = text.contains('=');
+        match hold {
+            EdgeHold::Symmetry(_) if text != GROUND => {
+                return Err(expected(path, "\"ground\"", quoted(text)));
+            }
+            EdgeHold::Smooth if !is_line => {
+                let wanted = "an edge of a plate or shell of this scene, `body.s1=0`";
+                return Err(expected(path, wanted, quoted(text)));
+            }
+            _ => {}
+        }
+        if text == GROUND {
+            return Ok(EdgeBase::Ground);
+        }
+        if is_line {
+            let other = self.require_line(path, text, hold)?;
+            let is_reversed = meet(path, [&other, line], hold)?;
+            return Ok(EdgeBase::Line(other, is_reversed));
+        }
+        let marker = self.require_marker(path, text)?;
+        refuse_point(path, marker)?;
+        let is_on_body = !matches!(marker.place, Place::Along(..));
+        if !is_on_body || !marker.place.is_framed() {
+            let wanted = "\"ground\", an edge, or a marker of a rigid body with inertia, a reduced body, a plate or a shell";
+            return Err(expected(path, wanted, quoted(text)));
+        }
+        Ok(EdgeBase::Marker(marker))
+    }
+
+    /// Finds a line of the mesh of a plate or shell.
+    fn require_line(&self, path: &str, text: &str, hold: EdgeHold) -> Found<MeshLine<'a>> {
+        let (body, place) = text.split_once('.').unwrap_or((text, ""));
         let Some(BodyReference::Plate(plate)) = self.bodies_by_name.get(body) else {
             let known = self.bodies.iter().filter_map(|of| match of {
                 BodyReference::Plate(plate) => Some(plate.body.name.as_str()),
@@ -123,24 +177,90 @@ impl<'a> Resolved<'a> {
             let wanted = "an edge of a plate or shell of this scene, `body.s1=0`";
             return Err(unknown(path, wanted, body, known));
         };
-        let Some(index) = EDGES.iter().position(|of| *of == edge) else {
-            return Err(unknown(path, "an edge", edge, EDGES));
-        };
-        Ok((*plate, index / 2, index % 2 == 1))
+        let needs_edge = matches!(hold, EdgeHold::Symmetry(_) | EdgeHold::Smooth);
+        let found = MeshLine::of(*plate, place);
+        found
+            .filter(|line| line.is_edge() || !needs_edge)
+            .ok_or_else(|| {
+                let [n, m] = plate.body.mesh;
+                let wanted = if needs_edge {
+                    "an edge (s1=0, s1=1, s2=0, s2=1)".to_owned()
+                } else {
+                    format!(
+                        "an edge (s1=0, s1=1, s2=0, s2=1) or another line of the mesh of {n} x {m} elements"
+                    )
+                };
+                expected(path, &wanted, quoted(place))
+            })
     }
 }
 
-/// An edge in a plane that the surface crosses at a right angle.
-fn check_symmetry(path: &str, edge: &ResolvedEdge<'_>, normal: Vector3<f64>) -> Found<()> {
-    let (normal, geometry) = (normal.normalize(), edge.plate.body.geometry());
-    let [first, second] = edge.plate.body.mesh;
-    let nodes = [second, first][edge.across];
-    let corners: Vec<[Vector3<f64>; 4]> = (0..=nodes)
-        .map(|k| edge.at(f64::from(k) / f64::from(nodes)))
-        .map(|at| geometry.corner(at).map(Vector3::from))
-        .collect();
-    let size = geometry.lengths.into_iter().fold(0.0, f64::max);
-    let (along, across) = (2 - edge.across, 1 + edge.across);
+/// Checks that two lines are at the same place with the same places of their nodes, and for a smooth continuation that derivatives across
+/// them are proportional. Returns whether they run in opposite directions.
+fn meet(path: &str, [first, second]: [&MeshLine<'_>; 2], hold: EdgeHold) -> Found<bool> {
+    if first.elements() != second.elements() {
+        let wanted = format!(
+            "a line of {} elements, as many as {} has",
+            second.elements(),
+            second.place()
+        );
+        let found = format!("{} of {}", first.place(), first.elements());
+        return Err(expected(path, &wanted, found));
+    }
+    let (ours, theirs) = (second.corners(), first.corners());
+    let backwards: Vec<_> = theirs.iter().rev().copied().collect();
+    let off = |of: &[[Vector3<f64>; 4]]| {
+        let gaps = of.iter().zip(&ours).map(|(a, b)| (a[0] - b[0]).norm());
+        gaps.fold(0.0, f64::max)
+    };
+    let size = second.plate.body.geometry().lengths[1 - second.across];
+    let is_reversed = off(&backwards) < off(&theirs);
+    let theirs = if is_reversed { backwards } else { theirs };
+    let gap = off(&theirs);
+    if gap > OFF * size
+        || (first.plate.id, first.across, first.line)
+            == (second.plate.id, second.across, second.line)
+    {
+        let wanted = format!("another line at the place of {}", second.place());
+        let found = format!("{} (nodes up to {} m off)", first.place(), number(gap));
+        return Err(expected(path, &wanted, found));
+    }
+    let (along, across) = (
+        [first, second].map(|line| 2 - line.across),
+        [first, second].map(|line| 1 + line.across),
+    );
+    let ratio =
+        |k: [usize; 2]| ours[0][k[1]].dot(&theirs[0][k[0]]) / theirs[0][k[0]].norm_squared();
+    let is_off = |k: [usize; 2], ratio: f64, size: [usize; 2]| {
+        let mut pairs = theirs.iter().zip(&ours);
+        pairs.any(|(a, b)| (b[k[1]] - a[k[0]] * ratio).norm() > OFF * b[size[1]].norm())
+    };
+    let (p, q) = (ratio(along), ratio(across));
+    if is_off(along, p, along) {
+        let wanted = format!(
+            "a line whose points are at the same parts of the length as those of {}",
+            second.place()
+        );
+        return Err(expected(path, &wanted, first.place()));
+    }
+    let is_bent = matches!(hold, EdgeHold::Smooth)
+        && (is_off(across, q, across) || is_off([3, 3], p * q, across));
+    if is_bent {
+        let wanted = format!(
+            "a surface that {} continues with one ratio of lengths all along the edge (`clamped` keeps the angle between any two surfaces)",
+            second.place()
+        );
+        return Err(expected(path, &wanted, first.place()));
+    }
+    Ok(is_reversed)
+}
+
+/// Checks that an edge is in a plane that the surface crosses at a right angle.
+fn check_symmetry(path: &str, line: &MeshLine<'_>, normal: Vector3<f64>) -> Found<()> {
+    let (normal, corners) = (normal.normalize(), line.corners());
+    let lengths = line.plate.body.geometry().lengths;
+    let size = lengths.into_iter().fold(0.0, f64::max);
+    let (along, across) = (2 - line.across, 1 + line.across);
     for corner in &corners {
         let height = (corner[0] - corners[0][0]).dot(&normal).abs() / size;
         let tilt = corner[along].normalize().dot(&normal).abs();
@@ -159,28 +279,84 @@ fn check_symmetry(path: &str, edge: &ResolvedEdge<'_>, normal: Vector3<f64>) -> 
     Ok(())
 }
 
-impl ResolvedEdge<'_> {
-    /// Coordinates `[s1, s2]` of a place along the edge in [0, 1].
+impl<'a> MeshLine<'a> {
+    /// The line of a mesh at a place such as `s1=0.5`, if there is one.
+    fn of(plate: Plate<'a>, place: &str) -> Option<Self> {
+        let (coordinate, value) = place.split_once('=')?;
+        let across = ["s1", "s2"].iter().position(|name| *name == coordinate)?;
+        let value: f64 = value.parse().ok()?;
+        let count = f64::from(plate.body.mesh[across]);
+        let line = (value * count).round();
+        let is_on = (0.0..=1.0).contains(&value) && (line - value * count).abs() <= OFF;
+        is_on.then_some(Self {
+            plate,
+            across,
+            line: line as u32,
+        })
+    }
+
+    /// Whether the line is an edge.
+    fn is_edge(&self) -> bool {
+        self.line == 0 || self.line == self.plate.body.mesh[self.across]
+    }
+
+    /// Number of elements along the line.
+    pub fn elements(&self) -> u32 {
+        self.plate.body.mesh[1 - self.across]
+    }
+
+    /// Coordinates `[s1, s2]` of a place along the line in [0, 1].
     pub fn at(&self, along: f64) -> [f64; 2] {
-        let held = if self.is_last { 1.0 } else { 0.0 };
+        let held = f64::from(self.line) / f64::from(self.plate.body.mesh[self.across]);
         match self.across {
             0 => [held, along],
             _ => [along, held],
         }
     }
 
-    /// Name of the edge: `body.s1=0`.
+    /// Vectors of the described surface at the nodes of the line, as [`Corner`] has them.
+    fn corners(&self) -> Vec<[Vector3<f64>; 4]> {
+        let geometry = self.plate.body.geometry();
+        let count = self.elements();
+        let places = (0..=count).map(|k| self.at(f64::from(k) / f64::from(count)));
+        let corners = places.map(|at| geometry.corner(at));
+        corners
+            .map(|corner: Corner| corner.map(Vector3::from))
+            .collect()
+    }
+
+    /// Name of the line: `body.s1=0`.
     pub fn place(&self) -> String {
-        let index = 2 * self.across + usize::from(self.is_last);
-        format!("{}.{}", self.plate.body.name, EDGES[index])
+        let at = self.at(0.0)[self.across];
+        format!(
+            "{}.s{}={}",
+            self.plate.body.name,
+            self.across + 1,
+            number(at)
+        )
+    }
+}
+
+impl ResolvedEdge<'_> {
+    /// Name of the object that holds the line.
+    pub fn base_name(&self) -> String {
+        match &self.base {
+            EdgeBase::Ground => GROUND.into(),
+            EdgeBase::Marker(marker) => format!("{}.{}", marker.place.body().name(), marker.name),
+            EdgeBase::Line(line, _) => line.place(),
+        }
     }
 
     /// Describes what the joint holds.
     pub fn words(&self) -> String {
-        match self.hold {
-            EdgeHold::Clamped => "the edge and the normal along it".into(),
-            EdgeHold::Pinned => "the edge".into(),
-            EdgeHold::Symmetry(normal) => {
+        match (self.hold, &self.base) {
+            (EdgeHold::Clamped, EdgeBase::Line(..)) => {
+                "the edge and the angle between both surfaces".into()
+            }
+            (EdgeHold::Clamped, _) => "the edge and the normal along it".into(),
+            (EdgeHold::Pinned, _) => "the edge".into(),
+            (EdgeHold::Smooth, _) => "the edge and all derivatives of the surface along it".into(),
+            (EdgeHold::Symmetry(normal), _) => {
                 let normal = words::vector(3, normal);
                 format!("the edge in the plane across {normal}, and the normal in it")
             }

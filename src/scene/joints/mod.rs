@@ -205,7 +205,7 @@ pub trait SceneJoint {
         Ok(())
     }
 
-    /// Returns the freedoms that it holds of an edge of a plate or shell, if it is a joint of one. Its ends are no markers then.
+    /// Returns the freedoms that it holds of a mesh line of a plate or shell, if it is a joint of one.
     fn edge(&self) -> Option<EdgeHold> {
         None
     }
@@ -283,11 +283,14 @@ joints! {
     PointOnCable(point_on_cable::PointOnCable) from 2,
     /// Holds, in space, what `free` does not name.
     Generic(generic::Generic) from 3,
-    /// Holds an edge of a plate or shell on the ground, and the normal along it. The edge may not stretch; beside it the surface may.
+    /// Holds an edge of a plate or shell, and the normal along it, on the ground, on a rigid body or on another edge. On the ground and on a
+    /// rigid body the edge may not stretch; beside it the surface may. Two edges keep the angle between both surfaces.
     Clamped(edge::ClampedEdge) from 3,
-    /// Holds an edge of a plate or shell on the ground, about which it may rotate.
+    /// Holds an edge of a plate or shell on the ground, on a rigid body or on another edge. The surface may rotate about the edge.
     Pinned(edge::PinnedEdge) from 3,
-    /// Holds an edge of a plate or shell in a plane of symmetry, and the normal there.
+    /// Continues a plate or shell smoothly beyond an edge by another one, or by its own opposite edge.
+    Smooth(edge::SmoothEdges) from 3,
+    /// Holds an edge of a plate or shell in a plane of symmetry, and the normal of the surface there.
     Symmetry(edge::SymmetryEdge) from 3,
 }
 
@@ -336,8 +339,7 @@ impl<'a> Resolved<'a> {
             } = joint;
             let path = format!("joints[{index}]");
             kind.validate_dimension(&path, dimension)?;
-            if let Some(hold) = kind.edge() {
-                self.resolve_edge(&path, joint, hold)?;
+            if kind.edge().is_some() {
                 continue;
             }
             let parts = kind.parts();
@@ -367,6 +369,11 @@ impl<'a> Resolved<'a> {
             });
         }
         self.unite_axes();
+        for (index, joint) in self.scene.joints.iter().enumerate() {
+            if let Some(hold) = joint.kind.edge() {
+                self.resolve_edge(&format!("joints[{index}]"), joint, hold)?;
+            }
+        }
         Ok(())
     }
 }

@@ -8,7 +8,8 @@ use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
 use crate::scene::loads::LoadKind;
 use crate::scene::resolved::{
-    self, AngleId, DirectionSource, First, OutputTarget, Place, Reaction, Resolved, ResolvedMarker,
+    self, AngleId, DirectionSource, EdgeBase, First, OutputTarget, Place, Reaction, Resolved,
+    ResolvedMarker,
 };
 
 /// Replacement in space for an angle of a marker, in a message.
@@ -115,7 +116,12 @@ impl<'a> Resolved<'a> {
             .joints
             .iter()
             .find(|joint| joint.holder == reaction.holder);
-        let first = joint.map(|joint| joint.ends.first);
+        let edge = self.edges.iter().find(|of| of.holder == reaction.holder);
+        let first = match edge.map(|edge| &edge.base) {
+            Some(EdgeBase::Ground) => Some(First::Ground(None)),
+            Some(EdgeBase::Marker(marker)) => Some(First::Marker(*marker)),
+            _ => joint.map(|joint| joint.ends.first),
+        };
         if let Some(First::Marker(marker)) = first {
             refuse_point(&path, marker)?;
         }
@@ -325,6 +331,13 @@ impl<'a> Resolved<'a> {
             Either::Last(name) => name,
         };
         let path = format!("{path}.joint");
+        if let Some(edge) = self.edges.iter().find(|edge| edge.name == name) {
+            return Ok(Reaction {
+                name: edge.name,
+                holder: edge.holder,
+                is_motion: false,
+            });
+        }
         let joint = self.require_joint(&path, name)?;
         let (wanted, offered) = if is_moment {
             ("a joint that transmits a moment", joint.holds_direction())

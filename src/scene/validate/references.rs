@@ -355,7 +355,7 @@ impl<'a> Resolved<'a> {
     /// Describes a reference to a joint that does not exist.
     pub(crate) fn no_joint(&self, path: &str, name: &str) -> Error {
         if self.edges.iter().any(|edge| edge.name == name) {
-            let wanted = "a joint of markers (nothing is read or driven at joints of edges yet)";
+            let wanted = "a joint of markers (of a joint of edges only its reaction is read)";
             return expected(path, wanted, quoted(name));
         }
         let known = self.joints.iter().map(|joint| joint.name);

@@ -50,12 +50,6 @@ pub(super) fn constraints<const D: usize>(
     }
     let fixed = parts.bodies.fixed_numbers();
     linear.extend(fixed.into_iter().map(|(place, value)| still(place, value)));
-    linear.extend(parts.held.iter().map(|(row, value)| Linear {
-        joint: None,
-        row: row.clone(),
-        target: Target::Fixed(*value),
-        on_ends: [[Vector::zeros(); 2]; 2],
-    }));
     for (index, joint) in parts.joints.iter().enumerate() {
         joint.constraints(
             (index, &parts.bodies.reference),

@@ -7,6 +7,8 @@ mod direction;
 mod distance;
 mod driven_orientation;
 mod driven_rotation;
+mod edge;
+mod fold;
 mod homokinetic;
 mod line;
 mod linear_constraint;
@@ -24,6 +26,8 @@ pub use direction::AngleBetween;
 pub use distance::Distance;
 pub use driven_orientation::DrivenOrientation;
 pub use driven_rotation::DrivenRotation;
+pub use edge::Edge;
+pub use fold::Fold;
 pub use homokinetic::Homokinetic;
 pub use line::PointOnLine;
 pub use linear_constraint::LinearConstraint;
@@ -76,6 +80,8 @@ pub enum Primitive<const D: usize = 2> {
     DrivenPosition([usize; D]),
     /// The position along this unit vector is at a driven distance from the first end (ground).
     DrivenDistance(Vector<D>, usize),
+    /// A line of a plate or shell is held, whatever else of its joint is said.
+    Edge(Edge<D>),
     /// The cable of the second end is paid out there by a driven length: no condition, but it follows that coordinate.
     PaidOut(usize),
 }
@@ -308,6 +314,8 @@ constraints! {
         Coupler(Coupler<D>),
         /// Equal rotation of two shafts.
         Homokinetic(Homokinetic<D>),
+        /// The angle between two surfaces.
+        Fold(Fold),
     }
 }
 
@@ -448,6 +456,14 @@ impl<const D: usize> JointEquations<D> {
         })
     }
 
+    /// The line of a plate or shell that it holds.
+    pub fn edge(&self) -> Option<&Edge<D>> {
+        self.holds.iter().find_map(|primitive| match primitive {
+            Primitive::Edge(edge) => Some(edge),
+            _ => None,
+        })
+    }
+
     /// Whether it holds one position on the other and nothing else.
     pub fn is_pin(&self) -> bool {
         matches!(self.holds[..], [Primitive::Coincident])
@@ -509,6 +525,12 @@ impl<const D: usize> JointEquations<D> {
                 }
                 Primitive::Coupler(related) => Some(ConstraintKind::Coupler(related.clone())),
                 Primitive::PaidOut(_) => None,
+                Primitive::Edge(edge) => {
+                    rows.linear.extend(edge.rows(index));
+                    let kinds = edge.constraints.iter().cloned();
+                    nonlinear.extend(kinds.map(|kind| Constraint::of(index, kind)));
+                    None
+                }
                 Primitive::DrivenPosition(drives) => motion::position(&mut rows, *drives),
                 Primitive::DrivenDistance(along, drive) => {
                     motion::distance(&mut rows, *along, *drive)

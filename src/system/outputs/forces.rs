@@ -14,6 +14,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         if let Some(clamp) = system.joints[joint].clamp() {
             return self.clamped(system, clamp);
         }
+        if let Some(edge) = system.joints[joint].edge() {
+            return self.on_edge(system, (joint, edge));
+        }
         let mut force = Vector::zeros();
         let second = system.joints[joint].ends[1].lift();
         let u = second.direction(&self.x);

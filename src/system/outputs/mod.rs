@@ -3,6 +3,7 @@
 mod across;
 mod clamp;
 pub(in crate::system) mod derivatives;
+mod edge;
 pub(in crate::system) mod evaluation;
 pub(in crate::system) mod fit;
 mod forces;

@@ -127,9 +127,21 @@ fn markers_edges_and_loads_are_checked() {
         /bodies/0/markers/root/pad | [0, 1] | bodies[0].markers.root.pad[0]: expected a positive number (m), found 0
         /bodies/0/markers/root/at | [-1, 1] | bodies[0].markers.root.at[0]
         /bodies/0/markers/root/width | 1 | bodies[0].markers.root.width
-        /joints/0/edges | ["ground", "panel.s3=0"] | joints[0].edges[1]: expected an edge (s1=0, s1=1, s2=0, s2=1), found "s3=0"
+        /joints/0/edges | ["ground", "panel.s3=0"] | joints[0].edges[1]: expected an edge (s1=0, s1=1, s2=0, s2=1) or another line of the mesh of 4 x 2 elements, found "s3=0"
         /joints/0/edges | ["ground", "ball.c"] | joints[0].edges[1]: expected an edge of a plate or shell of this scene
-        /joints/0/edges | ["panel.s1=1", "panel.s1=0"] | joints[0].edges[0]: expected "ground"
+        /joints/0/edges | ["ground", "panel.s1=0.3"] | joints[0].edges[1]: expected an edge (s1=0, s1=1, s2=0, s2=1) or another line of the mesh
+        /joints/0/edges | ["ground", "panel.s1=nan"] | joints[0].edges[1]: expected an edge
+        /joints/0/edges | ["ground", "panel.s1=0.25"] | accepted
+        /joints/0/edges | ["ground", "panel.s1=1.25"] | joints[0].edges[1]: expected an edge
+        /joints/0/edges | ["panel.s1=1", "panel.s1=0"] | joints[0].edges[0]: expected another line at the place of panel.s1=0, found panel.s1=1 (nodes up to 2 m off)
+        /joints/0/edges | ["panel.s1=0", "panel.s1=0"] | joints[0].edges[0]: expected another line at the place of panel.s1=0
+        /joints/0/edges | ["panel.s2=1", "panel.s1=0"] | joints[0].edges[0]: expected a line of 2 elements, as many as panel.s1=0 has, found panel.s2=1 of 4
+        /joints/0/edges | ["roof.s1=1", "panel.s1=0"] | joints[0].edges[0]: expected a line of 2 elements, as many as panel.s1=0 has, found roof.s1=1 of 3
+        /joints/0/edges | ["ball.c", "panel.s1=0"] | accepted
+        /joints/0/edges | ["ball.d", "panel.s1=0"] | joints[0].edges[0]: expected a marker of this scene
+        /joints/0 | {"name": "wall", "kind": "smooth", "edges": ["ground", "panel.s1=0"]} | joints[0].edges[0]: expected an edge of a plate or shell of this scene, `body.s1=0`, found "ground"
+        /joints/0 | {"name": "wall", "kind": "smooth", "edges": ["panel.s1=0", "panel.s1=0.5"]} | joints[0].edges[1]: expected an edge (s1=0, s1=1, s2=0, s2=1), found "s1=0.5"
+        /joints/2/edges | ["ball.c", "roof.s2=0"] | joints[2].edges[0]: expected "ground", found "ball.c"
         /joints/0/release_time | 1 | joints[0].release_time: expected nothing: the joint of an edge is not released, found 1
         /joints/2/normal | [1, 0, 0] | joints[2].normal: expected the normal of a plane that the edge lies in
         /joints/2/normal | [0, 0, 0] | joints[2].normal
@@ -141,7 +153,8 @@ fn markers_edges_and_loads_are_checked() {
         /inputs/0/body | "pannel" | inputs[0].body: expected the name of a plate or shell of this scene (panel, roof), found "pannel"; did you mean `panel`?
         /inputs | [{"kind": "area_force", "body": "roof", "start": [1, 2, 3]}] | accepted
         /masses | [{"marker": "panel.tip", "mass": 1}] | masses[0].marker: expected a marker of another body than a plate or shell
-        /outputs | [{"kind": "reaction", "joint": "wall"}] | outputs[0].joint: expected a joint of markers (nothing is read or driven at joints of edges yet), found "wall"
+        /outputs | [{"kind": "reaction", "joint": "wall"}, {"kind": "reaction_moment", "joint": "wall"}] | accepted
+        /outputs | [{"kind": "velocity", "joint": "wall"}] | outputs[0].joint: expected a joint of markers (of a joint of edges only its reaction is read), found "wall"
         /outputs | [{"kind": "axial_force", "marker": "panel.tip"}] | outputs[0].marker: expected a marker of a cable, found "panel.tip"
         /outputs | [{"kind": "deflection", "marker": "panel.tip"}] | outputs[0].from: expected another marker of the plate or shell
         /outputs | [{"kind": "deflection", "marker": "panel.tip", "from": "panel.root"}] | accepted

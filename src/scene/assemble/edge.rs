@@ -1,0 +1,363 @@
+//! Joints of edges and other mesh lines of plates and shells: conditions on the vectors of their mesh nodes.
+
+use nalgebra::Vector3;
+
+use super::Builder;
+use crate::bodies::{ConnectivityRow, Marker, Node, Patch, axes_at, no_node, product};
+use crate::math::space::{Vector, axis, components, normals, vector};
+use crate::scene::resolved::{EdgeBase, EdgeHold, MeshLine, ResolvedEdge};
+use crate::system::joints::{
+    Across, ConstraintKind, Edge, Fold, JointEquations, LinearConstraint, Perpendicular, Primitive,
+    Target,
+};
+use crate::system::{Attachment, Direction};
+
+/// A vector of a node: the node and which of its two.
+type NodeVector = (usize, usize);
+
+/// The vectors of a mesh node on a line.
+#[derive(Clone, Copy)]
+struct LineNode {
+    /// Its first node.
+    first: usize,
+    /// The slope along the line.
+    along: NodeVector,
+    /// The slope across the line.
+    across: NodeVector,
+}
+
+impl LineNode {
+    fn point(&self) -> NodeVector {
+        (self.first, 0)
+    }
+
+    fn mixed(&self) -> NodeVector {
+        (self.first + 1, 1)
+    }
+}
+
+/// The mesh nodes of a line, in one of its directions.
+struct Line<'a> {
+    body: usize,
+    patch: &'a Patch,
+    across: usize,
+    nodes: Vec<LineNode>,
+    /// Length of each element along the line, m.
+    lengths: Vec<f64>,
+    /// 1, or -1 where it runs against its coordinate.
+    sign: f64,
+}
+
+impl<'a> Line<'a> {
+    fn new(patch: &'a Patch, line: &MeshLine<'_>) -> Self {
+        let (held, direction) = (line.line as usize, 1 - line.across);
+        let slopes = |first: usize| [(first, 1), (first + 1, 0)];
+        let node = |k: usize| {
+            let first = match line.across {
+                0 => patch.mesh_node(held, k),
+                _ => patch.mesh_node(k, held),
+            };
+            let slopes = slopes(first);
+            let (along, across) = (slopes[direction], slopes[line.across]);
+            LineNode {
+                first,
+                along,
+                across,
+            }
+        };
+        let count = patch.divisions()[direction];
+        Self {
+            body: line.plate.id.index(),
+            patch,
+            across: line.across,
+            nodes: (0..=count).map(node).collect(),
+            lengths: (0..count).map(|k| patch.spacing(direction, k)).collect(),
+            sign: 1.0,
+        }
+    }
+
+    /// The same line in the other direction.
+    fn reversed(mut self) -> Self {
+        self.nodes.reverse();
+        self.lengths.reverse();
+        self.sign = -self.sign;
+        self
+    }
+
+    /// Marker at a vector of a node: the vector is its direction.
+    fn marker(&self, (node, part): NodeVector, weight: f64) -> Marker {
+        let mut weights = [0.0; 4];
+        weights[part] = weight;
+        Marker::weighted(self.body, [node, node], weights)
+    }
+
+    /// Marker at the same vector of both ends of an element, with their weights.
+    fn between(&self, element: usize, of: fn(&LineNode) -> NodeVector, by: [f64; 2]) -> Marker {
+        let [(first, part), (second, _)] = [element, element + 1].map(|k| of(&self.nodes[k]));
+        let mut weights = [0.0; 4];
+        (weights[part], weights[2 + part]) = (by[0], by[1]);
+        Marker::weighted(self.body, [first, second], weights)
+    }
+
+    /// Markers that add up to the slope across the line at a node, and at the middle of an element.
+    fn slope_at(&self, node: usize) -> [Marker; 2] {
+        let across = self.nodes[node].across;
+        [self.marker(across, 1.0), self.marker(across, 0.0)]
+    }
+
+    fn slope_between(&self, element: usize) -> [Marker; 2] {
+        let by = 0.125 * self.sign * self.lengths[element] / self.patch.unit();
+        let across = self.between(element, |node| node.across, [0.5, 0.5]);
+        [across, self.between(element, LineNode::mixed, [by, -by])]
+    }
+
+    /// Markers that add up to the slope along the line.
+    fn tangent_at(&self, node: usize) -> [Marker; 2] {
+        let along = self.nodes[node].along;
+        [self.marker(along, self.sign), self.marker(along, 0.0)]
+    }
+
+    fn tangent_between(&self, element: usize) -> [Marker; 2] {
+        let by = 1.5 / self.lengths[element];
+        let points = self.between(element, LineNode::point, [-by, by]);
+        let by = -0.25 * self.sign;
+        [points, self.between(element, |node| node.along, [by, by])]
+    }
+}
+
+impl<const D: usize> Builder<'_, D> {
+    /// Joints of edges.
+    pub(super) fn edges(&mut self) {
+        let joints: Vec<_> = (self.resolved.edges.iter())
+            .map(|edge| self.edge(edge))
+            .collect();
+        self.parts.joints.extend(joints);
+    }
+
+    fn edge(&self, edge: &ResolvedEdge<'_>) -> JointEquations<D> {
+        let (patch, line) = (self.patch_of(edge.line.plate), &edge.line);
+        let of = Line::new(patch, line);
+        let (mut rows, mut constraints) = (Vec::new(), Vec::new());
+        let middle = of.nodes[of.nodes.len() / 2].first;
+        let first = match &edge.base {
+            EdgeBase::Ground => {
+                for node in &of.nodes {
+                    rows.extend(self.rows_on_ground(edge.hold, node));
+                }
+                Attachment::Ground(self.parts.bodies.reference[middle][0].into())
+            }
+            EdgeBase::Marker(marker) => {
+                let marker = self.marker(*marker);
+                let is_clamped = edge.hold == EdgeHold::Clamped;
+                for node in &of.nodes {
+                    constraints.extend(self.on_frame(&marker, (&of, node), is_clamped));
+                }
+                Attachment::Body(marker)
+            }
+            EdgeBase::Line(base, is_reversed) => {
+                let base = Line::new(self.patch_of(base.plate), base);
+                let base = if *is_reversed { base.reversed() } else { base };
+                for nodes in base.nodes.iter().zip(&of.nodes) {
+                    rows.extend(self.rows_between(nodes, edge.hold == EdgeHold::Smooth));
+                }
+                if edge.hold == EdgeHold::Clamped {
+                    constraints.extend(self.folds(&base, &of));
+                }
+                let node = base.nodes[base.nodes.len() / 2].first;
+                let along = [0.0, 1.0, 0.0, 0.0];
+                Attachment::Body(Marker::weighted(base.body, [node, node], along))
+            }
+        };
+        let count = of.lengths.len();
+        let (element, xi) = (count / 2, if count.is_multiple_of(2) { 0.0 } else { 0.5 });
+        let beside = (line.line as usize).min(patch.divisions()[of.across] - 1);
+        let place = if beside == line.line as usize {
+            0.0
+        } else {
+            1.0
+        };
+        let ordered = |across, along| {
+            if of.across == 0 {
+                [across, along]
+            } else {
+                [along, across]
+            }
+        };
+        let held = Edge {
+            patch: self.patch_index(line.plate),
+            nodes: of.nodes.iter().map(|node| node.first).collect(),
+            middle: (
+                [0, 1].map(|k| if k == of.across { beside } else { element }),
+                ordered(place, xi),
+            ),
+            rows,
+            constraints,
+        };
+        let along = [0.0, 1.0, 0.0, 0.0];
+        let second = Attachment::Body(Marker::weighted(of.body, [middle, middle], along));
+        JointEquations {
+            holds: vec![Primitive::Edge(held)],
+            ends: [first, second],
+            spring: None,
+            turn: None,
+            way: None,
+            release: None,
+        }
+    }
+
+    /// A vector of a node at the start.
+    fn vector_of(&self, (node, part): NodeVector) -> Vector3<f64> {
+        Vector3::from(components::<D, f64>(
+            &self.parts.bodies.reference[node][part].into(),
+        ))
+    }
+
+    /// Normal of a surface at a node of a line, of unit length.
+    fn normal_at(&self, node: &LineNode) -> Vector3<f64> {
+        let [along, across] = [node.along, node.across].map(|of| self.vector_of(of));
+        along.cross(&across).normalize()
+    }
+
+    /// Rows that hold a node of a line on the ground.
+    fn rows_on_ground(&self, hold: EdgeHold, node: &LineNode) -> Vec<(ConnectivityRow<D>, f64)> {
+        let (point, along) = (node.point(), node.along);
+        let beside = [node.across, node.mixed()];
+        let all = || (0..D).map(|k| Vector3::from(components(&axis::<D, f64>(k))));
+        let held = |of| all().map(move |direction| (of, direction));
+        let rows: Vec<(NodeVector, Vector3<f64>)> = match hold {
+            EdgeHold::Pinned | EdgeHold::Smooth => held(point).chain(held(along)).collect(),
+            EdgeHold::Clamped => {
+                let normal = self.normal_at(node);
+                let rotated = beside.map(|of| (of, normal));
+                held(point).chain(held(along)).chain(rotated).collect()
+            }
+            EdgeHold::Symmetry(plane) => {
+                let plane = Vector3::from(plane).normalize();
+                let in_plane: Vec<Vector3<f64>> = normals(&plane).collect();
+                let rotated = beside.into_iter();
+                let rotated = rotated.flat_map(|of| in_plane.iter().map(move |by| (of, *by)));
+                let held = [point, along].map(|of| (of, plane));
+                held.into_iter().chain(rotated).collect()
+            }
+        };
+        let row = |((node, part), direction): (NodeVector, Vector3<f64>)| {
+            let mut coefficients: Node<D> = no_node();
+            coefficients[part] = vector::<D, f64>(direction.into()).into();
+            let value = product(&coefficients, &self.parts.bodies.reference[node]);
+            (joined([(node, coefficients)]), value)
+        };
+        rows.into_iter().map(row).collect()
+    }
+
+    /// Rows that give a node of a second line the place of one of the first, and the slope along it; where the surface is `smooth` all slopes.
+    fn rows_between(
+        &self,
+        (first, second): (&LineNode, &LineNode),
+        smooth: bool,
+    ) -> Vec<(ConnectivityRow<D>, f64)> {
+        let ratio = |[of, by]: [NodeVector; 2]| {
+            let [of, by] = [of, by].map(|of| self.vector_of(of));
+            by.dot(&of) / of.norm_squared()
+        };
+        let (along, across) = ([first.along, second.along], [first.across, second.across]);
+        let mixed = [first.mixed(), second.mixed()];
+        let mut pairs = vec![
+            ([first.point(), second.point()], 1.0),
+            (along, ratio(along)),
+        ];
+        if smooth {
+            let units = [first, second].map(|node| self.unit_at(node.first));
+            let of_mixed = ratio(along) * ratio(across) * units[1] / units[0];
+            pairs.extend([(across, ratio(across)), (mixed, of_mixed)]);
+        }
+        let row = |(pair, ratio): ([NodeVector; 2], f64), axis: usize| {
+            let terms = [(pair[0], -ratio), (pair[1], 1.0)].map(|((node, part), by)| {
+                let mut coefficients: Node<D> = no_node();
+                coefficients[part][axis] = by;
+                (node, coefficients)
+            });
+            (joined(terms), 0.0)
+        };
+        let pairs = pairs.into_iter();
+        pairs
+            .flat_map(|pair| (0..D).map(move |axis| row(pair, axis)))
+            .collect()
+    }
+
+    /// Unit of length of the mixed derivative at a node, m.
+    fn unit_at(&self, node: usize) -> f64 {
+        let mut patches = self.parts.bodies.patches().iter();
+        patches
+            .find(|patch| patch.all().contains(&node))
+            .map_or(1.0, Patch::unit)
+    }
+
+    /// Conditions that hold a node of a line on the frame of a marker, and the normal where it `is_clamped`.
+    fn on_frame(
+        &self,
+        marker: &Marker,
+        (line, node): (&Line<'_>, &LineNode),
+        is_clamped: bool,
+    ) -> Vec<ConstraintKind<D>> {
+        let x = &self.parts.bodies.reference;
+        let (body, origin) = (marker.body, marker.nodes[0]);
+        let axes = axes_at(origin, x);
+        let within = |v: Vector3<f64>| axes.map(|axis| axis.dot(&v));
+        let arm = within(self.vector_of(node.point()) - self.vector_of((origin, 0)));
+        let fixed = |direction: Vector3<f64>| Marker::framed(body, origin, arm, within(direction));
+        let size = line.lengths.iter().sum();
+        let none = Vector::zeros();
+        let ends = [
+            fixed(self.vector_of(node.along)),
+            line.marker(node.along, 1.0),
+        ];
+        let point = Marker::weighted(line.body, [node.first; 2], [0.0; 4]);
+        let held = |second: Marker, size: f64, on: [Vector<D>; 2]| {
+            ConstraintKind::LinearConstraint(LinearConstraint {
+                ends: [ends[0], second].map(Attachment::Body),
+                on_ends: [on.map(|on| -on), on],
+                target: Target::Fixed(0.0),
+                size,
+                is_constant: false,
+            })
+        };
+        let places = (0..D).map(|k| held(point, size, [axis(k), none]));
+        let slopes = (0..D).map(|k| held(ends[1], 1.0, [none, axis(k)]));
+        let normal = fixed(self.normal_at(node));
+        let beside = [node.across, node.mixed()]
+            .into_iter()
+            .filter(|_| is_clamped);
+        let rotated = beside.map(|of| {
+            ConstraintKind::Perpendicular(Perpendicular {
+                direction: Direction::Of(normal),
+                across: Across::Direction(Direction::Of(line.marker(of, 1.0))),
+            })
+        });
+        places.chain(slopes).chain(rotated).collect()
+    }
+
+    /// Conditions that keep the angle between two surfaces, at the nodes of their common line and at the middles of its elements.
+    fn folds<'b>(
+        &'b self,
+        first: &'b Line<'b>,
+        second: &'b Line<'b>,
+    ) -> impl Iterator<Item = ConstraintKind<D>> {
+        let x = &self.parts.bodies.reference;
+        let fold = move |slopes| ConstraintKind::Fold(Fold::new(slopes, x));
+        let at_nodes = (0..second.nodes.len())
+            .map(move |k| fold([first.slope_at(k), second.slope_at(k), second.tangent_at(k)]));
+        let between = (0..second.lengths.len()).map(move |k| {
+            let slopes = [first, second].map(|line| line.slope_between(k));
+            fold([slopes[0], slopes[1], second.tangent_between(k)])
+        });
+        at_nodes.chain(between)
+    }
+}
+
+/// A row of terms on nodes.
+fn joined<const D: usize, const N: usize>(terms: [(usize, Node<D>); N]) -> ConnectivityRow<D> {
+    ConnectivityRow {
+        terms: terms.to_vec(),
+        is_driven: false,
+    }
+}

@@ -1,0 +1,67 @@
+//! What a joint exerts on a line of a plate or shell: forces of its rows and conditions on the vectors of the mesh nodes.
+
+use nalgebra::Vector3;
+
+use super::evaluation::Evaluation;
+use crate::math::jet::Number;
+use crate::math::space::{Vector, components, vector};
+use crate::system::System;
+use crate::system::end::Attachment;
+use crate::system::joints::Edge;
+
+impl<const D: usize, N: Number> Evaluation<D, N> {
+    /// Force (N), and moment (N m) about the middle of the line, of a joint on the line that it holds. What two joints hold at a corner
+    /// counts to the one that is named first.
+    pub(super) fn on_edge(
+        &self,
+        system: &System<D>,
+        (joint, edge): (usize, &Edge<D>),
+    ) -> (Vector<D, N>, [N; 3]) {
+        let full = |v: Vector<D, N>| Vector3::from(components::<D, N>(&v));
+        let patch = &system.bodies.patches()[edge.patch];
+        let middle = Vector3::from(patch.position(edge.middle.0, edge.middle.1, &self.x));
+        let (mut force, mut turning) = (Vector3::zeros(), Vector3::zeros());
+        for (row, linear) in system.linear.iter().enumerate() {
+            if linear.joint != Some(joint) {
+                continue;
+            }
+            let lambda = system.row_multiplier(row, &self.linear_constraint_forces);
+            for (node, coefficients) in &linear.row.terms {
+                let Some(is_first) = edge.holds(*node) else {
+                    continue;
+                };
+                for (part, on) in coefficients.iter().enumerate() {
+                    let on = full(Vector::from(*on).map(N::of)) * lambda;
+                    let at = full(self.x[*node][part].into());
+                    if is_first && part == 0 {
+                        force += on;
+                        turning += (at - middle).cross(&on);
+                    } else {
+                        turning += at.cross(&on);
+                    }
+                }
+            }
+        }
+        let view = self.view(system);
+        for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
+            if constraint.joint != Some(joint) {
+                continue;
+            }
+            constraint.for_each_pair(&view, |pair| {
+                for (end, [position, direction]) in &pair.ends {
+                    let marker = match end {
+                        Attachment::Body(marker) if edge.holds(marker.nodes[0]).is_some() => marker,
+                        _ => continue,
+                    };
+                    let (position, direction) = (full(*position), full(*direction));
+                    let arm = full(marker.position(&self.x)) - middle;
+                    force -= position * *lambda;
+                    turning -= (arm.cross(&position)
+                        + full(marker.direction(&self.x)).cross(&direction))
+                        * *lambda;
+                }
+            });
+        }
+        (vector::<D, N>(force.into()), turning.into())
+    }
+}
