@@ -14,7 +14,8 @@ use nalgebra::Vector3;
 use super::chain::{Pack, packs};
 use super::connectivity::Node;
 use crate::elements::shell::{
-    Corner, ElementCorners, Shell, ShellPack, ShellSection, VECTORS, axis_components,
+    AREA_PLACES, Corner, ElementCorners, Shell, ShellPack, ShellSection, VECTORS, area_place,
+    axis_components,
 };
 use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
@@ -217,6 +218,23 @@ impl Patch {
         let element = i * (self.lines[1].len() - 1) + j;
         let weights = self.elements[element].weights(xi.map(N::of), [0, 0]);
         weighted(&weights, &self.element(element, x))
+    }
+
+    /// Coordinates in [0, 1] of the places of quadrature of loads, element by element.
+    pub fn area_places(&self) -> impl Iterator<Item = [f64; 2]> {
+        let across = self.lines[1].len() - 1;
+        let along = |k: usize, element: usize, xi: f64| {
+            (self.lines[k][element] + xi * self.spacing(k, element)) / self.lengths()[k]
+        };
+        (0..self.elements.len()).flat_map(move |element| {
+            (0..AREA_PLACES).map(move |place| {
+                let [xi, eta] = area_place(place);
+                [
+                    along(0, element / across, xi),
+                    along(1, element % across, eta),
+                ]
+            })
+        })
     }
 
     /// Element and place in it of material coordinates along both directions.

@@ -75,21 +75,21 @@ impl Expression {
     /// # Errors
     /// What was expected in the text, and what was found.
     pub fn of(text: &str, variable: &'static str) -> Result<Self, String> {
-        Self::read(text, variable, None)
+        Self::read(text, variable, &[])
     }
 
-    /// Reads an expression in `t` and in the material coordinate `s` of a body, at this place of it.
+    /// Reads an expression in `t` and in coordinates of a body, at this place of it.
     ///
     /// # Errors
     /// What was expected in the text, and what was found.
-    pub fn along(text: &str, s: f64) -> Result<Self, String> {
-        Self::read(text, "t", Some(("s", s)))
+    pub fn at(text: &str, place: &[(&'static str, f64)]) -> Result<Self, String> {
+        Self::read(text, "t", place)
     }
 
     fn read(
         text: &str,
         variable: &'static str,
-        given: Option<(&'static str, f64)>,
+        given: &[(&'static str, f64)],
     ) -> Result<Self, String> {
         let program = grammar::program(text, variable, given)?;
         let switches = switches::any(&program);

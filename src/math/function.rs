@@ -39,12 +39,17 @@ impl Function {
         Self::of(Expression::new(text)?)
     }
 
-    /// An expression in `t` and in the material coordinate `s` of a body, at this place of it.
+    /// An expression in `t` and in coordinates of a body, at this place of it.
     ///
     /// # Errors
     /// What was expected in the text, and what was found.
-    pub fn along(text: &str, s: f64) -> Result<Self, String> {
-        Self::of(Expression::along(text, s)?).map_err(|told| format!("{told} at s = {s}"))
+    pub fn at(text: &str, place: &[(&'static str, f64)]) -> Result<Self, String> {
+        Self::of(Expression::at(text, place)?).map_err(|told| {
+            let place = place
+                .iter()
+                .map(|(name, value)| format!("{name} = {value}"));
+            format!("{told} at {}", place.collect::<Vec<_>>().join(", "))
+        })
     }
 
     /// Whether it is the same at all times.
@@ -52,9 +57,10 @@ impl Function {
         matches!(self, Self::Constant(_))
     }
 
-    /// Whether a text is an expression in `s`, with or without `t`, and not one in `t` alone.
-    pub fn is_along(text: &str) -> bool {
-        Expression::new(text).is_err() && Expression::along(text, 0.5).is_ok()
+    /// Whether a text is an expression in these coordinates of a body, with or without `t`, and not one in `t` alone.
+    pub fn varies(text: &str, coordinates: &[&'static str]) -> bool {
+        let middle: Vec<_> = coordinates.iter().map(|name| (*name, 0.5)).collect();
+        Expression::new(text).is_err() && Expression::at(text, &middle).is_ok()
     }
 
     fn of(expression: Expression) -> Result<Self, String> {
@@ -353,17 +359,19 @@ mod tests {
         let text = "5*sin(PI*s)*cos(3*t)+s^2";
         let at = |s: f64, t: f64| 5.0 * (std::f64::consts::PI * s).sin() * (3.0 * t).cos() + s * s;
         for s in [0.0, 0.3, 1.0] {
-            let f = Function::along(text, s).expect("an expression");
+            let f = Function::at(text, &[("s", s)]).expect("an expression");
             assert!((f.value(0.7) - at(s, 0.7)).abs() < 1e-15);
         }
-        let f = Function::along("3*s", 0.5).expect("an expression");
+        let f = Function::at("3*s", &[("s", 0.5)]).expect("an expression");
         assert!(matches!(f, Function::Constant(1.5)));
-        let told = Function::along("1/(s-0.5)", 0.5).expect_err("a pole");
+        let told = Function::at("1/(s-0.5)", &[("s", 0.5)]).expect_err("a pole");
         assert_eq!(told, "expected a finite number, found inf at s = 0.5");
-        let told = Function::along("3*q", 0.5).expect_err("no name");
+        let told = Function::at("3*q", &[("s", 0.5)]).expect_err("no name");
         assert!(told.starts_with("expected one of the names t, s, PI, E, sin"));
-        assert!(Function::is_along("s*t") && !Function::is_along("t"));
-        assert!(!Function::is_along("s*q"));
+        assert!(Function::varies("s*t", &["s"]) && !Function::varies("t", &["s"]));
+        assert!(!Function::varies("s*q", &["s"]));
+        let f = Function::at("s1+10*s2", &[("s1", 0.3), ("s2", 0.7)]).expect("an expression");
+        assert!((f.value(0.0) - 7.3).abs() < 1e-15 && Function::varies("s1", &["s1", "s2"]));
     }
 
     #[test]

@@ -32,14 +32,14 @@ const CONSTANTS: [(&str, f64); 2] = [("PI", std::f64::consts::PI), ("E", std::f6
 /// Longest text, bytes.
 const LENGTH: usize = 10_000;
 
-/// The program of an expression in a variable, where a name may stand for a number.
+/// The program of an expression in a variable, where names may stand for numbers.
 ///
 /// # Errors
 /// What was expected in the text, and what was found.
 pub(super) fn program(
     text: &str,
     variable: &'static str,
-    given: Option<(&'static str, f64)>,
+    given: &[(&'static str, f64)],
 ) -> Result<Vec<Operation>, String> {
     if text.len() > LENGTH {
         let found = text.len();
@@ -131,17 +131,17 @@ const PRODUCT: u8 = 3;
 const SIGN: u8 = 4;
 const POWER: u8 = 5;
 
-struct TokenReader {
+struct TokenReader<'a> {
     /// Name of the variable.
     variable: &'static str,
-    /// A name and the number that it stands for.
-    given: Option<(&'static str, f64)>,
+    /// Names and the numbers that they stand for.
+    given: &'a [(&'static str, f64)],
     program: Vec<Operation>,
     waiting: Vec<Waiting>,
     place: BeforeToken,
 }
 
-impl TokenReader {
+impl TokenReader<'_> {
     fn expected(&self, found: &str) -> String {
         let opened = self.waiting.iter().rev().find_map(|waiting| match waiting {
             Waiting::Parenthesis { function, .. } => Some(*function),
@@ -177,7 +177,7 @@ impl TokenReader {
         if name == self.variable {
             return self.operand(Operation::Time, name);
         }
-        let mut numbers = CONSTANTS.iter().chain(&self.given);
+        let mut numbers = CONSTANTS.iter().chain(self.given);
         if let Some((_, number)) = numbers.find(|(known, _)| *known == name) {
             return self.operand(Operation::Number(*number), name);
         }
@@ -185,7 +185,7 @@ impl TokenReader {
             let constants = CONSTANTS.map(|(known, _)| known);
             let functions = FUNCTIONS.map(|(known, _)| known);
             let mut known = vec![self.variable];
-            known.extend(self.given.map(|(name, _)| name));
+            known.extend(self.given.iter().map(|(name, _)| *name));
             known.extend(constants.into_iter().chain(functions));
             let known = known.join(", ");
             return Err(format!(
@@ -411,11 +411,11 @@ mod tests {
             ("1e999*t", "expected a finite number, found \"1e999\""),
             ("\u{3c0}*t", "found \"\u{3c0}\""),
         ] {
-            let told = program(text, "t", None).expect_err(text);
+            let told = program(text, "t", &[]).expect_err(text);
             assert!(told.contains(wanted), "{text}: {told}");
         }
-        assert!(program(&"1".repeat(20_000), "t", None).is_err());
-        assert!(program(&"(".repeat(9_000), "t", None).is_err());
-        assert!(program(&format!("{}t", "-".repeat(9_000)), "t", None).is_ok());
+        assert!(program(&"1".repeat(20_000), "t", &[]).is_err());
+        assert!(program(&"(".repeat(9_000), "t", &[]).is_err());
+        assert!(program(&format!("{}t", "-".repeat(9_000)), "t", &[]).is_ok());
     }
 }

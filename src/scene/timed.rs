@@ -27,10 +27,13 @@ impl Scene {
     pub fn timed(&self) -> Vec<Timed> {
         let mut timed = Vec::new();
         let mut add = |path: String, name: &str, value: &Value, order: usize| {
-            let functions = match (value.along(), order) {
-                // What changes along a body as well is looked at in a few places.
-                (Some(text), _) => GAUSS_5
-                    .map(|point| Function::along(text, point.at))
+            let functions = match (value.varying(), order) {
+                // Values that change along a body as well are looked at in a few places.
+                (Some((text, names)), _) => GAUSS_5
+                    .map(|point| {
+                        let place: Vec<_> = names.iter().map(|name| (*name, point.at)).collect();
+                        Function::at(text, &place)
+                    })
                     .to_vec(),
                 (None, 2) => vec![value.motion_function()],
                 (None, _) => vec![value.function()],

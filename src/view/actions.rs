@@ -259,7 +259,7 @@ impl MovingAction<'_> {
         for s in places() {
             let mut at = same.clone();
             for (axis, text) in *along {
-                let function = Function::along(text, s);
+                let function = Function::at(text, &[("s", s)]);
                 at[*axis] = function.map_or(0.0, |function| function.value(time));
             }
             values.extend(at);

@@ -55,6 +55,42 @@ fn squares_under_pressure_bend_as_the_series_say() {
     assert!(off("clamped", 8, 0.001_265_32) < 1e-4);
 }
 
+/// A square under `q sin(pi s1) sin(pi s2)` deflects by `q / (4 pi^4 D)` in its middle (Navier). A pressure that grows along it acts beside its middle.
+#[test]
+fn loads_vary_over_a_surface() {
+    let text = "1e-4*sin(PI*s1)*sin(PI*s2)";
+    for (kind, value) in [
+        ("pressure", json!(text)),
+        ("area_force", json!([0, 0, text])),
+    ] {
+        let mut scene = plate([1.0, 1.0], [8, 8], 0.01, 0.3);
+        hold(&mut scene, "pinned", &ALL);
+        let load = json!({"name": "q", "kind": kind, "body": "p", "value": value});
+        let found = at_rest(scene, &load).read("p.middle.position[3]") / 1e-4;
+        let exact = 0.25 / PI.powi(4);
+        assert!(
+            (found / exact - 1.0).abs() < 1e-4,
+            "{kind}: {found} {exact}"
+        );
+    }
+    let mut scene = plate([1.0, 0.5], [3, 2], 0.01, 0.3);
+    hold(&mut scene, "clamped", &["s1=0"]);
+    scene["outputs"] = json!([{"kind": "reaction", "joint": "edge0"}, {"kind": "reaction_moment", "joint": "edge0"}]);
+    let load =
+        json!({"name": "q", "kind": "area_force", "body": "p", "value": [0, 0, "1e-4*s1*(1+s2)"]});
+    let mut run = at_rest(scene, &load);
+    let ([_, _, force], [about_x, about_y, _]) = (
+        run.read_all("edge0.reaction"),
+        run.read_all::<3>("edge0.reaction_moment"),
+    );
+    // Sums over `s1` and over `1 + s2`, about the middle of the edge.
+    let (total, arm) = (1e-4 * 0.5 * 0.5 * 1.5, 2.0 / 3.0);
+    let across = 1e-4 * 0.5 * 0.25 * (0.5 + 1.0 / 3.0 - 0.75);
+    assert!((force / -total - 1.0).abs() < 1e-8, "{force} {total}");
+    assert!((about_y / (total * arm) - 1.0).abs() < 1e-4, "{about_y}");
+    assert!((about_x / -across - 1.0).abs() < 1e-3, "{about_x} {across}");
+}
+
 /// A strip that an end moment rolls to a circle. A cubic of the arc misses a circle by 2e-3 of the radius for elements of 45 degrees.
 #[test]
 fn an_end_moment_rolls_a_strip_to_a_circle() {

@@ -9,8 +9,13 @@ use super::{ElementCorners, Shell, VECTORS, mass};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_3;
 
-/// Places of quadrature of an element.
-const PLACES: usize = 9;
+/// Places of quadrature of an element, those along `eta` one after the other.
+pub const AREA_PLACES: usize = 9;
+
+/// A place of quadrature, `xi` and `eta` in [0, 1].
+pub fn area_place(place: usize) -> [f64; 2] {
+    [GAUSS_3[place / 3].at, GAUSS_3[place % 3].at]
+}
 
 /// Weight of a place.
 fn weight(place: usize) -> f64 {
@@ -44,14 +49,18 @@ impl Shell {
         sums
     }
 
-    /// Forces on the functions per force per area of the unstressed surface, m^2 (and m^3 of derivatives).
-    pub(super) fn area_weights(&self, unstressed: &ElementCorners) -> [f64; 16] {
-        let areas: [f64; PLACES] = std::array::from_fn(|place| {
+    /// Areas of the unstressed surface that places of quadrature stand for, m^2.
+    pub(super) fn areas(&self, unstressed: &ElementCorners) -> [f64; AREA_PLACES] {
+        std::array::from_fn(|place| {
             let [first, second] = self.tangents(unstressed, place);
             first.cross(&second).norm() * weight(place)
-        });
+        })
+    }
+
+    /// Forces on the functions per force per area of the unstressed surface, m^2 (and m^3 of derivatives).
+    pub(super) fn area_weights(&self) -> [f64; 16] {
         std::array::from_fn(|k| {
-            let places = areas.iter().enumerate();
+            let places = self.areas.iter().enumerate();
             let sum: f64 = places
                 .map(|(place, area)| functions(k, place)[0] * area)
                 .sum();
@@ -59,16 +68,16 @@ impl Shell {
         })
     }
 
-    /// Forces of a pressure along the normal, Pa.
+    /// Forces of a pressure along the normal at the places of quadrature, Pa.
     pub fn pressure_force<N: Number>(
         &self,
         e: &ElementCorners<N>,
-        pressure: N,
+        pressure: &[N; AREA_PLACES],
     ) -> ElementCorners<N> {
         let mut out = [[[N::of(0.0); 3]; VECTORS]; 4];
-        for place in 0..PLACES {
+        for place in 0..AREA_PLACES {
             let [first, second] = self.tangents(e, place);
-            let force = first.cross(&second) * (pressure * N::of(weight(place)));
+            let force = first.cross(&second) * (pressure[place] * N::of(weight(place)));
             for (k, out) in out.as_flattened_mut().iter_mut().enumerate() {
                 let part = force * N::of(functions(k, place)[0] * self.scale(k));
                 out.iter_mut()
@@ -88,16 +97,30 @@ impl Shell {
         })
     }
 
-    /// Symmetric part of the stiffness of a pressure (Pa), block by block over the vectors of all corners.
+    /// Forces of a dead load per area of the unstressed surface at the places of quadrature, N/m^2.
+    pub fn varying_area_force<N: Number>(&self, load: &[[N; 3]; AREA_PLACES]) -> ElementCorners<N> {
+        let mut out = [[[N::of(0.0); 3]; VECTORS]; 4];
+        for (place, load) in load.iter().enumerate() {
+            for (k, out) in out.as_flattened_mut().iter_mut().enumerate() {
+                let by = N::of(self.areas[place] * functions(k, place)[0] * self.scale(k));
+                out.iter_mut()
+                    .zip(load)
+                    .for_each(|(out, load)| *out += *load * by);
+            }
+        }
+        out
+    }
+
+    /// Symmetric part of the stiffness of a pressure at the places of quadrature (Pa), block by block over the vectors of all corners.
     pub fn pressure_stiffness(
         &self,
         e: &ElementCorners,
-        pressure: f64,
+        pressure: &[f64; AREA_PLACES],
     ) -> [[Matrix3<f64>; 16]; 16] {
         let mut out = [[Matrix3::zeros(); 16]; 16];
-        for place in 0..PLACES {
+        for place in 0..AREA_PLACES {
             let [first, second] = self.tangents(e, place).map(|v| v.cross_matrix());
-            let half = 0.5 * pressure * weight(place);
+            let half = 0.5 * pressure[place] * weight(place);
             for row in 0..16 {
                 let [value, ..] = functions(row, place);
                 for column in 0..16 {

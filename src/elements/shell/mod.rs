@@ -19,6 +19,7 @@ use super::shape;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::space::tangent_axes;
+pub use area::{AREA_PLACES, area_place};
 use grid::{Corners, Grid, WEIGHTS};
 pub use kernel::SurfaceFrame;
 use kernel::{Group, Kernel, Read, Single, curvature, metric};
@@ -67,6 +68,8 @@ pub struct Shell {
     mass: Mass,
     /// Forces on the functions per uniform acceleration of space, kg.
     weight: [f64; 16],
+    /// Areas of the unstressed surface that places of quadrature of loads stand for, m^2.
+    areas: [f64; AREA_PLACES],
     /// Forces on the functions per force per area of the unstressed surface, m^2.
     area_weights: [f64; 16],
 }
@@ -179,9 +182,11 @@ impl Shell {
             kernel,
             weight: (mass * ones).into(),
             mass,
+            areas: [0.0; AREA_PLACES],
             area_weights: [0.0; 16],
         };
-        element.area_weights = element.area_weights(corners);
+        element.areas = element.areas(corners);
+        element.area_weights = element.area_weights();
         element
     }
 

@@ -56,7 +56,7 @@ fn in_middle(components: &[Signal], along: &[(usize, &str)], inputs: &[f64]) -> 
     };
     let mut components: Vec<f64> = values.map(value).collect();
     for (axis, text) in along {
-        let middle = Function::along(text, 0.5);
+        let middle = Function::at(text, &["s", "s1", "s2"].map(|name| (name, 0.5)));
         components[*axis] = middle.map_or(0.0, |function| function.value(0.0));
     }
     components

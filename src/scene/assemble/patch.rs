@@ -31,7 +31,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The patch of a plate or shell.
-    pub(super) fn patch_of(&self, plate: Plate<'_>) -> &Patch {
+    pub(crate) fn patch_of(&self, plate: Plate<'_>) -> &Patch {
         &self.parts.bodies.patches()[self.patch_index(plate)]
     }
 

@@ -1,5 +1,7 @@
 //! Forces and moments, of loads as of inputs.
 
+use super::value::{ALONG_LINE, OVER_SURFACE};
+
 /// A force or a moment as the scene describes it.
 #[derive(Clone, Copy, Debug)]
 pub struct Acting<'a> {
@@ -64,9 +66,13 @@ impl ActionKind {
         self.declaration().0
     }
 
-    /// Whether it may change along what it acts on.
-    pub fn is_distributed(self) -> bool {
-        matches!(self.acts_on(), ActsOn::Cable | ActsOn::Sections)
+    /// Coordinates of the body that its values may change with.
+    pub fn coordinates(self) -> &'static [&'static str] {
+        match self.acts_on() {
+            ActsOn::Cable | ActsOn::Sections => ALONG_LINE,
+            ActsOn::Surface => OVER_SURFACE,
+            ActsOn::Marker | ActsOn::Joint => &[],
+        }
     }
 
     /// Whether it is a force with components, not a moment or a pressure.

@@ -9,6 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::function::Function;
 
+/// Coordinates of a line body in expressions: 0 at the first end, 1 at the last.
+pub const ALONG_LINE: &[&str] = &["s"];
+/// Coordinates of a plate or shell in expressions, each from 0 to 1.
+pub const OVER_SURFACE: &[&str] = &["s1", "s2"];
+
 /// A number, an expression in the time `t` (s), or a table over time.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
@@ -100,12 +105,14 @@ impl Value {
         self.interpolated(Interpolation::Spline)
     }
 
-    /// The expression, if it is one in the material coordinate `s` of a body.
-    pub fn along(&self) -> Option<&str> {
-        match self {
-            Self::Expression(text) if Function::is_along(text) => Some(text),
-            _ => None,
-        }
+    /// The expression, if it is one in coordinates of a body, and these.
+    pub fn varying(&self) -> Option<(&str, &'static [&'static str])> {
+        let Self::Expression(text) = self else {
+            return None;
+        };
+        let kinds = [ALONG_LINE, OVER_SURFACE].into_iter();
+        let mut own = kinds.filter(|names| Function::varies(text, names));
+        own.next().map(|names| (text.as_str(), names))
     }
 
     fn interpolated(&self, otherwise: Interpolation) -> Result<Function, String> {

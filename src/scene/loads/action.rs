@@ -10,7 +10,8 @@ use crate::scene::description::{Acting, ActionKind, ActsOn, LoadValue, is_false}
 use crate::scene::resolved::{Pivot, Plate};
 use crate::system::Direction;
 use crate::system::loads::{
-    AreaAction, AreaLoad, DistributedForce, DistributedMoment, Force, Moment, SpatialMoment,
+    AreaAction, AreaLoad, AreaValues, DistributedForce, DistributedMoment, Force, Moment,
+    SpatialMoment,
 };
 
 /// The axis of the plane.
@@ -78,7 +79,7 @@ pub struct DistributedMomentLoad {
 pub struct PressureLoad {
     /// Name of the plate or shell that the pressure acts on.
     pub body: String,
-    /// Pressure along the normal, Pa: one value.
+    /// Pressure along the normal, Pa: one value. Expressions may contain the coordinates `s1` and `s2` of the body, each from 0 to 1.
     pub value: LoadValue,
 }
 
@@ -87,7 +88,7 @@ pub struct PressureLoad {
 pub struct AreaForceLoad {
     /// Name of the plate or shell that the force acts on.
     pub body: String,
-    /// Components of the force per area, N/m^2.
+    /// Components of the force per area, N/m^2. Expressions may contain the coordinates `s1` and `s2` of the body, each from 0 to 1.
     pub value: LoadValue,
 }
 
@@ -152,12 +153,10 @@ impl<L: Acts> SceneLoad for L {
         let signals = signals(&format!("{path}.value"), acting.kind, given, dimension)?;
         let mut action = scene.resolve_action(path, acting, signals)?;
         action.given = given.components();
-        if acting.kind.is_distributed() {
-            let values = action.given.iter().enumerate();
-            action.along = values
-                .filter_map(|(k, of)| Some((k, of.along()?)))
-                .collect();
-        }
+        let values = action.given.iter().enumerate();
+        action.along = values
+            .filter_map(|(k, of)| Some((k, of.varying()?.0)))
+            .collect();
         Ok(action)
     }
 
@@ -204,6 +203,15 @@ impl<'a> ActingLoad<'a> for Action<'a> {
                 _ => {}
             }
         }
+        if let (LoadPlace::Surface(plate), AppliedLoad::AreaLoad(load)) = (self.on, &mut load) {
+            for (k, text) in &self.along {
+                let path = match self.given {
+                    [_] => format!("{path}.value"),
+                    _ => format!("{path}.value[{k}]"),
+                };
+                load.values[*k].places = builder.over_places(plate, text, &path)?;
+            }
+        }
         Ok(load)
     }
 
@@ -229,7 +237,7 @@ fn signals(
     given: &LoadValue,
     dimension: usize,
 ) -> Result<Vec<Signal>, Error> {
-    let signal = |path: &str, of: &Value| component(path, of, kind.is_distributed());
+    let signal = |path: &str, of: &Value| component(path, of, kind.coordinates());
     match given {
         _ if kind.is_force() || kind.components(dimension) > 1 => {
             components(path, dimension, given.components(), signal)
@@ -317,14 +325,29 @@ impl<const D: usize> Builder<'_, D> {
 
     /// A load over the surface of a plate or shell.
     fn over(&self, plate: Plate<'_>, action: &Action<'_>) -> AppliedLoad<D> {
-        let components = &action.components;
+        let values = action.components.iter().cloned();
         AppliedLoad::AreaLoad(Box::new(AreaLoad {
             patch: self.patch_index(plate),
             action: match action.kind {
-                ActionKind::Pressure => AreaAction::Pressure(components[0].clone()),
-                _ => AreaAction::Force(Box::new(each(components))),
+                ActionKind::Pressure => AreaAction::Pressure,
+                _ => AreaAction::Force,
             },
+            values: values.map(AreaValues::uniform).collect(),
         }))
+    }
+
+    /// Evaluates a component that varies over a plate or shell at the places of quadrature of its elements.
+    ///
+    /// # Errors
+    /// An expression that has no value at a place.
+    fn over_places(&self, plate: Plate<'_>, text: &str, path: &str) -> Result<Vec<Signal>, Error> {
+        let places = self.patch_of(plate).area_places();
+        let signal = |at: [f64; 2]| {
+            let function = Function::at(text, &[("s1", at[0]), ("s2", at[1])]);
+            let function = function.map_err(|told| Error::new(path, told))?;
+            Ok(Signal::Function(function))
+        };
+        places.map(signal).collect()
     }
 
     /// A moment along a rod or beam.

@@ -6,7 +6,7 @@ use super::line::{component, uniform};
 use super::*;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
-use crate::scene::description::SectionNumbers;
+use crate::scene::description::{ALONG_LINE, SectionNumbers};
 use crate::system::loads::{Fluid, FluidSegment};
 
 /// A fluid along a line.
@@ -101,14 +101,16 @@ impl SceneLoad for FluidLoad {
         let rest = vec![Value::Number(0.0); dimension];
         let current = self.current.as_ref().unwrap_or(&rest);
         let current = components(&at("current"), dimension, current, |path, of| {
-            component(path, of, true)
+            component(path, of, ALONG_LINE)
         })?;
         let along = self.components().iter().enumerate();
         Ok(ResolvedFluid {
             given: self,
             on,
             current,
-            along: along.filter_map(|(k, of)| Some((k, of.along()?))).collect(),
+            along: along
+                .filter_map(|(k, of)| Some((k, of.varying()?.0)))
+                .collect(),
         })
     }
 

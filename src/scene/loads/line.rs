@@ -12,26 +12,37 @@ use crate::scene::validate::checks::value;
 use crate::system::Signal;
 use crate::system::loads::LineLoad;
 
-/// Builds a component of a load as a function of time. Components that vary along a body are built by
-/// [`function_along`].
+/// Builds a component of a load as a function of time. Components may change with coordinates of a body, and are built by
+/// [`function_all_over`] then.
 ///
 /// # Errors
 /// A number, an expression or a table that is not valid.
-pub(super) fn component(path: &str, of: &Value, is_distributed: bool) -> Result<Signal, Error> {
+pub(super) fn component(
+    path: &str,
+    of: &Value,
+    coordinates: &[&'static str],
+) -> Result<Signal, Error> {
     let function = match of {
-        Value::Expression(text) if is_distributed => function_along(path, text),
+        Value::Expression(text) if !coordinates.is_empty() => {
+            function_all_over(path, text, coordinates)
+        }
         _ => value(path, of, false),
     };
     function.map(Signal::Function)
 }
 
-/// The function of time that a component is all along a body; zero of one that changes along it.
-fn function_along(path: &str, text: &str) -> Result<Function, Error> {
-    if Function::is_along(text) {
+/// The function of time that a component is all over a body; zero of one that changes with its coordinates.
+fn function_all_over(
+    path: &str,
+    text: &str,
+    coordinates: &[&'static str],
+) -> Result<Function, Error> {
+    if Function::varies(text, coordinates) {
         return Ok(Function::constant(0.0));
     }
-    // Where it is neither, names along the body are known too.
-    let function = match Expression::along(text, 0.5) {
+    // Where it is neither, the coordinates of the body are known too.
+    let middle: Vec<_> = coordinates.iter().map(|name| (*name, 0.5)).collect();
+    let function = match Expression::at(text, &middle) {
         Ok(_) => Function::expression(text),
         Err(told) => Err(told),
     };
@@ -93,7 +104,7 @@ impl<const D: usize> Builder<'_, D> {
             for ends in mesh.windows(2) {
                 for point in GAUSS_5 {
                     let s = ends[0] + point.at * (ends[1] - ends[0]);
-                    let function = Function::along(text, s);
+                    let function = Function::at(text, &[("s", s)]);
                     let function =
                         function.map_err(|told| Error::new(format!("{path}[{k}]"), told))?;
                     along[*k].push(Signal::Function(function));

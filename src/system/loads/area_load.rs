@@ -3,17 +3,26 @@
 
 use super::{Add, ForceElement, Instant, hold};
 use crate::bodies::{Bodies, Node, Patch, block_of_parts};
-use crate::elements::shell::ElementCorners;
+use crate::elements::shell::{AREA_PLACES, ElementCorners, VECTORS};
 use crate::math::jet::Number;
 use crate::system::signal::Signal;
 
 /// Action on an area.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AreaAction {
-    /// Pressure along the normal `r1 x r2`, Pa.
-    Pressure(Signal),
+    /// Pressure along the normal `r1 x r2`, Pa: one component.
+    Pressure,
     /// Force per area of the unstressed surface in global components, N/m^2.
-    Force(Box<[Signal; 3]>),
+    Force,
+}
+
+/// A component of a load on an area.
+#[derive(Clone, Debug)]
+pub struct AreaValues {
+    /// Value all over the area.
+    pub uniform: Signal,
+    /// Values at the places of quadrature, element by element, added to it; none of a component that is the same all over.
+    pub places: Vec<Signal>,
 }
 
 /// A load on a plate or shell.
@@ -23,11 +32,44 @@ pub struct AreaLoad {
     pub patch: usize,
     /// The action.
     pub action: AreaAction,
+    /// Its components.
+    pub values: Vec<AreaValues>,
+}
+
+impl AreaValues {
+    /// The same value all over the area.
+    pub fn uniform(uniform: Signal) -> Self {
+        let places = Vec::new();
+        Self { uniform, places }
+    }
+
+    fn signals(&self) -> impl Iterator<Item = &Signal> {
+        std::iter::once(&self.uniform).chain(&self.places)
+    }
+
+    /// Values at the places of quadrature of an element.
+    fn at<const D: usize, N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        element: usize,
+    ) -> [N; AREA_PLACES] {
+        let uniform = self.uniform.value(at);
+        let own = self.places.get(AREA_PLACES * element..);
+        std::array::from_fn(|place| {
+            let own = own.and_then(|own| own.get(place));
+            own.map_or(uniform, |own| uniform + own.value(at))
+        })
+    }
 }
 
 impl AreaLoad {
     fn of<'a, const D: usize>(&self, bodies: &'a Bodies<D>) -> &'a Patch {
         &bodies.patches()[self.patch]
+    }
+
+    /// Whether a component changes over the area.
+    fn varies(&self) -> bool {
+        self.values.iter().any(|values| !values.places.is_empty())
     }
 
     /// Forces on the corners of an element.
@@ -38,11 +80,18 @@ impl AreaLoad {
     ) -> ElementCorners<N> {
         let patch = self.of(at.bodies);
         let of = &patch.elements()[element];
-        match &self.action {
-            AreaAction::Pressure(pressure) => {
-                of.pressure_force(&patch.element(element, at.x), pressure.value(at))
+        match (self.action, &self.values[..]) {
+            (AreaAction::Pressure, [pressure, ..]) => {
+                of.pressure_force(&patch.element(element, at.x), &pressure.at(at, element))
             }
-            AreaAction::Force(load) => of.area_force(&load.each_ref().map(|of| of.value(at))),
+            (AreaAction::Force, [x, y, z]) if self.varies() => {
+                let values = [x, y, z].map(|values| values.at(at, element));
+                of.varying_area_force(&std::array::from_fn(|place| values.map(|of| of[place])))
+            }
+            (AreaAction::Force, [x, y, z]) => {
+                of.area_force(&[x, y, z].map(|values| values.uniform.value(at)))
+            }
+            _ => [[[N::of(0.0); 3]; VECTORS]; 4],
         }
     }
 
@@ -72,12 +121,13 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
 
     /// Of pressure the symmetric part: all of it but at edges that move freely.
     fn add_tangent(&self, at: Instant<'_, D>, add: Add<'_, D>, _damping: Add<'_, D>) {
-        let AreaAction::Pressure(pressure) = &self.action else {
+        let (AreaAction::Pressure, [pressure, ..]) = (self.action, &self.values[..]) else {
             return;
         };
-        let (patch, pressure) = (self.of(at.bodies), pressure.value(at));
+        let patch = self.of(at.bodies);
         for (index, element) in patch.elements().iter().enumerate() {
-            let blocks = element.pressure_stiffness(&patch.element(index, at.x), pressure);
+            let pressure = pressure.at(at, index);
+            let blocks = element.pressure_stiffness(&patch.element(index, at.x), &pressure);
             let nodes = patch.element_nodes(index);
             for (i, a) in nodes.iter().enumerate() {
                 for (j, b) in nodes.iter().enumerate().take(i + 1) {
@@ -99,21 +149,21 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
     }
 
     fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
-        match &mut self.action {
-            AreaAction::Pressure(pressure) => *pressure = pressure.held(at, fraction),
-            AreaAction::Force(load) => hold(load.as_mut_slice(), at, fraction),
+        for values in &mut self.values {
+            values.uniform = values.uniform.held(at, fraction);
+            hold(&mut values.places, at, fraction);
         }
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
-        match &self.action {
-            AreaAction::Pressure(pressure) => call(pressure),
-            AreaAction::Force(load) => load.iter().for_each(call),
-        }
+        self.values
+            .iter()
+            .flat_map(AreaValues::signals)
+            .for_each(call);
     }
 
     fn is_conservative(&self) -> bool {
-        matches!(self.action, AreaAction::Force(_))
+        self.action == AreaAction::Force
     }
 
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {

@@ -18,7 +18,7 @@ mod spatial_moment;
 mod spring;
 mod table_spring;
 
-pub use area_load::{AreaAction, AreaLoad};
+pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
 pub use contact::{Contact, ContactPoint, ContactSurface};
 pub use convective_inertia::ConvectiveInertia;

@@ -150,6 +150,10 @@ fn markers_edges_and_loads_are_checked() {
         /loads/0/body | "ball" | loads[0].body: expected the name of a plate or shell of this scene (panel, roof), found "ball"
         /loads/0/value | [1, 2, 3] | loads[0].value: expected one value, found 3
         /loads/1/value | 3 | loads[1].value
+        /loads/0/value | "100*s1*sin(PI*s2)*t" | accepted
+        /loads/0/value | "s" | loads[0].value: expected one of the names t, s1, s2, PI
+        /loads/0/value | "1/s3" | loads[0].value: expected one of the names t, s1, s2, PI
+        /loads/1/value | [0, "s2-0.5", -1] | accepted
         /inputs/0/body | "pannel" | inputs[0].body: expected the name of a plate or shell of this scene (panel, roof), found "pannel"; did you mean `panel`?
         /inputs | [{"kind": "area_force", "body": "roof", "start": [1, 2, 3]}] | accepted
         /masses | [{"marker": "panel.tip", "mass": 1}] | masses[0].marker: expected a marker of another body than a plate or shell
