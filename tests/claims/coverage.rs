@@ -69,6 +69,7 @@ const OWN: [&str; 27] = [
     "joints{clamped}",
     "joints{pinned}",
     "joints{symmetry}",
+    "joints{smooth}",
     "loads{pressure}",
     "loads{area_force}",
     "inputs{pressure}",
