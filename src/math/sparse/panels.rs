@@ -90,7 +90,7 @@ pub(super) fn factor<T: Number>(
     pivots: &mut impl Pivots<T>,
 ) -> Option<()> {
     let mut outcome = None;
-    vectorized(Factor {
+    vectorized(FactorPanel {
         pattern,
         panel,
         values,
@@ -102,7 +102,7 @@ pub(super) fn factor<T: Number>(
 }
 
 /// [`factor`].
-struct Factor<'a, T, P> {
+struct FactorPanel<'a, T, P> {
     pattern: &'a Pattern,
     panel: &'a Panel,
     values: &'a mut [T],
@@ -111,7 +111,7 @@ struct Factor<'a, T, P> {
     outcome: &'a mut Option<()>,
 }
 
-impl<T: Number, P: Pivots<T>> Vectorized for Factor<'_, T, P> {
+impl<T: Number, P: Pivots<T>> Vectorized for FactorPanel<'_, T, P> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let outcome = if T::PARTS == 1 {
@@ -132,7 +132,7 @@ impl<T: Number, P: Pivots<T>> Vectorized for Factor<'_, T, P> {
 }
 
 /// Numbers in lanes by their parts: real, and imaginary where they are complex.
-type Parts<S, const P: usize> = [<S as Simd>::f64s; P];
+type LaneParts<S, const P: usize> = [<S as Simd>::f64s; P];
 
 /// A dense panel by columns, real and imaginary parts apart.
 struct Dense<'a, S, const P: usize> {
@@ -407,10 +407,10 @@ impl<'a, S: Simd, const P: usize> Dense<'a, S, P> {
 #[inline(always)]
 fn plus_product<S: Simd, const P: usize>(
     simd: S,
-    mut sum: Parts<S, P>,
-    a: Parts<S, P>,
-    b: Parts<S, P>,
-) -> Parts<S, P> {
+    mut sum: LaneParts<S, P>,
+    a: LaneParts<S, P>,
+    b: LaneParts<S, P>,
+) -> LaneParts<S, P> {
     sum[0] = simd.mul_add_e_f64s(a[0], b[0], sum[0]);
     if P == 2 {
         sum[0] = simd.negate_mul_add_e_f64s(a[1], b[1], sum[0]);
