@@ -23,16 +23,6 @@ const GAUSS: f64 = 0.387_298_334_620_741_7;
 /// Weights of the three inner places.
 pub(super) const WEIGHTS: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
 
-/// Whether the place is one of Lobatto's.
-pub(super) const fn is_lobatto(place: usize) -> bool {
-    place.is_multiple_of(2)
-}
-
-/// Whether the place is one of Gauss.
-pub(super) const fn is_gauss(place: usize) -> bool {
-    place > 0 && place < 4
-}
-
 /// Derivatives of the position at the places of an element, or forces conjugate to them. First derivatives are there where membrane strains
 /// or curvatures ask for them, second ones at inner places.
 #[derive(Clone, Copy)]
@@ -43,146 +33,103 @@ pub(super) struct Grid<N> {
     pub second: [[[Vector<N>; 3]; 3]; 3],
 }
 
-/// Whether the first derivative by direction `of` is needed at a place: at inner ones for curvatures, elsewhere for membrane strains.
-pub(super) const fn is_needed(of: usize, i: usize, j: usize) -> bool {
-    let (own, other) = if of == 0 { (i, j) } else { (j, i) };
-    (is_gauss(own) && is_gauss(other)) || is_lobatto(own)
+/// Values, slopes and second derivatives at the three inner places of a cubic, or forces on them.
+struct Inner<N> {
+    values: [N; 3],
+    slopes: [N; 3],
+    bends: [N; 3],
 }
 
-/// A cubic polynomial of the distance from the middle, or what forces on its values do to its coefficients.
-#[derive(Clone, Copy)]
-pub(super) struct Cubic<N>([Vector<N>; 4]);
+/// Coefficients of a cubic of the distance from the middle.
+type Coefficients<N> = [N; 4];
 
-impl<N: Real> Cubic<N> {
+impl<N: Real> Inner<N> {
     /// From values and slopes at both ends: value, slope, value, slope.
     #[inline(always)]
-    fn through(e: &[Vector<N>; 4]) -> Self {
-        let mut c = [e[0]; 4];
-        for d in 0..3 {
-            let number = |value: f64| e[0][d].constant(value);
-            let [f, s, g, t] = [e[0][d], e[1][d], e[2][d], e[3][d]];
-            let (rise, slopes) = (g - f, s + t);
-            c[0][d] = (f + g) * number(0.5) + (s - t) * number(0.125);
-            c[1][d] = rise * number(1.5) - slopes * number(0.25);
-            c[2][d] = (t - s) * number(0.5);
-            c[3][d] = slopes - rise - rise;
-        }
-        Self(c)
-    }
-
-    /// Forces on values and slopes at both ends, of those on the coefficients.
-    #[inline(always)]
-    fn back(&self) -> [Vector<N>; 4] {
-        let Self(k) = self;
-        let mut e = *k;
-        for d in 0..3 {
-            let number = |value: f64| k[0][d].constant(value);
-            let [c0, c1, c2, c3] = [k[0][d], k[1][d], k[2][d], k[3][d]];
-            let (even, odd) = (c0 * number(0.5), c1 * number(1.5) - c3 - c3);
-            let (slope, bend) = (
-                c3 - c1 * number(0.25),
-                c0 * number(0.125) - c2 * number(0.5),
-            );
-            e[0][d] = even - odd;
-            e[1][d] = slope + bend;
-            e[2][d] = even + odd;
-            e[3][d] = slope - bend;
-        }
-        e
-    }
-
-    #[inline(always)]
-    fn zero(like: N) -> Self {
-        Self([[like.constant(0.0); 3]; 4])
-    }
-
-    /// Value at a place.
-    #[inline(always)]
-    fn value(&self, place: usize) -> Vector<N> {
-        let (Self(c), x) = (self, AT[place]);
-        let mut out = c[0];
-        if place == 2 {
-            return out;
-        }
-        for d in 0..3 {
-            let number = |value: f64| c[0][d].constant(value);
-            let even = c[2][d].times_plus(number(x * x), c[0][d]);
-            let odd = c[3][d].times_plus(number(x * x), c[1][d]);
-            out[d] = odd.times_plus(number(x), even);
-        }
-        out
-    }
-
-    /// Derivative at a place.
-    #[inline(always)]
-    fn slope(&self, place: usize) -> Vector<N> {
-        let (Self(c), x) = (self, AT[place]);
-        let mut out = c[1];
-        if place == 2 {
-            return out;
-        }
-        for d in 0..3 {
-            let number = |value: f64| c[0][d].constant(value);
-            let even = c[3][d].times_plus(number(3.0 * x * x), c[1][d]);
-            out[d] = c[2][d].times_plus(number(2.0 * x), even);
-        }
-        out
-    }
-
-    /// Second derivative at a place.
-    #[inline(always)]
-    fn bend(&self, place: usize) -> Vector<N> {
-        let (Self(c), x) = (self, AT[place]);
-        let mut out = c[2];
-        for d in 0..3 {
-            let number = |value: f64| c[0][d].constant(value);
-            out[d] = c[3][d].times_plus(number(6.0 * x), c[2][d] + c[2][d]);
-        }
-        out
-    }
-
-    /// Adds a force on the value at a place.
-    #[inline(always)]
-    fn on_value(&mut self, place: usize, force: &Vector<N>) {
-        let (Self(k), x) = (self, AT[place]);
-        for d in 0..3 {
-            let number = |value: f64| force[d].constant(value);
-            k[0][d] += force[d];
-            if place != 2 {
-                k[1][d] = force[d].times_plus(number(x), k[1][d]);
-                k[2][d] = force[d].times_plus(number(x * x), k[2][d]);
-                k[3][d] = force[d].times_plus(number(x * x * x), k[3][d]);
-            }
+    fn of([f, s, g, t]: [N; 4]) -> Self {
+        let number = |value: f64| f.constant(value);
+        let (rise, slopes, bend, x) = (g - f, s + t, t - s, GAUSS);
+        let first = rise.times_plus(number(1.5), slopes * number(-0.25));
+        let third = slopes - (rise + rise);
+        let middle = bend.times_plus(number(-0.125), (f + g) * number(0.5));
+        let value_even = bend.times_plus(number(0.5 * x * x), middle);
+        let value_odd = third.times_plus(number(x * x * x), first * number(x));
+        let slope_even = third.times_plus(number(3.0 * x * x), first);
+        let (slope_odd, bend_odd) = (bend * number(x), third * number(6.0 * x));
+        Self {
+            values: [value_even - value_odd, middle, value_even + value_odd],
+            slopes: [slope_even - slope_odd, first, slope_even + slope_odd],
+            bends: [bend - bend_odd, bend, bend + bend_odd],
         }
     }
 
-    /// Adds a force on the derivative at a place.
+    /// Forces on values and slopes at both ends.
     #[inline(always)]
-    fn on_slope(&mut self, place: usize, force: &Vector<N>) {
-        let (Self(k), x) = (self, AT[place]);
-        for d in 0..3 {
-            let number = |value: f64| force[d].constant(value);
-            k[1][d] += force[d];
-            if place != 2 {
-                k[2][d] = force[d].times_plus(number(2.0 * x), k[2][d]);
-                k[3][d] = force[d].times_plus(number(3.0 * x * x), k[3][d]);
-            }
-        }
-    }
-
-    /// Adds a force on the second derivative at a place.
-    #[inline(always)]
-    fn on_bend(&mut self, place: usize, force: &Vector<N>) {
-        let (Self(k), x) = (self, AT[place]);
-        for d in 0..3 {
-            let number = |value: f64| force[d].constant(value);
-            k[2][d] += force[d] + force[d];
-            if place != 2 {
-                k[3][d] = force[d].times_plus(number(6.0 * x), k[3][d]);
-            }
-        }
+    fn back(&self) -> [N; 4] {
+        on_ends(on_bends(
+            &self.bends,
+            on_slopes(&self.slopes, on_values(&self.values)),
+        ))
     }
 }
+
+/// Forces on coefficients, of forces on values.
+#[inline(always)]
+fn on_values<N: Real>(f: &[N; 3]) -> Coefficients<N> {
+    let number = |value: f64| f[0].constant(value);
+    let (sum, odd, x) = (f[0] + f[2], f[2] - f[0], GAUSS);
+    [
+        sum + f[1],
+        odd * number(x),
+        sum * number(x * x),
+        odd * number(x * x * x),
+    ]
+}
+
+/// Adds forces on coefficients, of forces on slopes.
+#[inline(always)]
+fn on_slopes<N: Real>(f: &[N; 3], [c0, c1, c2, c3]: Coefficients<N>) -> Coefficients<N> {
+    let number = |value: f64| f[0].constant(value);
+    let (sum, odd, x) = (f[0] + f[2], f[2] - f[0], GAUSS);
+    [
+        c0,
+        c1 + (sum + f[1]),
+        odd.times_plus(number(2.0 * x), c2),
+        sum.times_plus(number(3.0 * x * x), c3),
+    ]
+}
+
+/// Adds forces on coefficients, of forces on second derivatives.
+#[inline(always)]
+fn on_bends<N: Real>(f: &[N; 3], [c0, c1, c2, c3]: Coefficients<N>) -> Coefficients<N> {
+    let number = |value: f64| f[0].constant(value);
+    let (sum, odd) = (f[0] + f[1] + f[2], f[2] - f[0]);
+    [
+        c0,
+        c1,
+        sum.times_plus(number(2.0), c2),
+        odd.times_plus(number(6.0 * GAUSS), c3),
+    ]
+}
+
+/// Forces on values and slopes at both ends, of those on coefficients.
+#[inline(always)]
+fn on_ends<N: Real>([c0, c1, c2, c3]: Coefficients<N>) -> [N; 4] {
+    let number = |value: f64| c0.constant(value);
+    let (even, odd) = (c0 * number(0.5), c1.times_plus(number(1.5), -(c3 + c3)));
+    let slope = c1.times_plus(number(-0.25), c3);
+    let bend = c0.times_plus(number(0.125), c2 * number(-0.5));
+    [even - odd, slope + bend, even + odd, slope - bend]
+}
+
+/// A component of three vectors, from the `first` on.
+#[inline(always)]
+fn component<N: Real, const K: usize>(of: &[Vector<N>; K], first: usize, d: usize) -> [N; 3] {
+    [of[first][d], of[first + 1][d], of[first + 2][d]]
+}
+
+/// Values, slopes and second derivatives by `xi` at a place, each by the function along `eta`, of one component.
+type Line<N> = [[N; 4]; 3];
 
 impl<N: Real> Grid<N> {
     /// Zeros.
@@ -199,77 +146,140 @@ impl<N: Real> Grid<N> {
     #[inline(always)]
     pub fn of(e: &Corners<N>) -> Self {
         let mut grid = Self::zeros(e[0][0][0]);
-        let mut along = [Cubic::zero(e[0][0][0]); 4];
-        for beta in 0..4 {
-            along[beta] = Cubic::through(&[e[0][beta], e[1][beta], e[2][beta], e[3][beta]]);
-        }
-        for i in 0..PLACES {
-            let (mut values, mut slopes, mut bends) = ([e[0][0]; 4], [e[0][0]; 4], [e[0][0]; 4]);
-            for beta in 0..4 {
-                values[beta] = along[beta].value(i);
-                slopes[beta] = along[beta].slope(i);
-                bends[beta] = along[beta].bend(i);
-            }
-            let value = Cubic::through(&values);
-            let slope = Cubic::through(&slopes);
-            for j in 0..PLACES {
-                if is_needed(0, i, j) {
-                    grid.first[0][i][j] = slope.value(j);
-                }
-                if is_needed(1, i, j) {
-                    grid.first[1][i][j] = value.slope(j);
-                }
-            }
-            if is_gauss(i) {
-                let bend = Cubic::through(&bends);
-                for j in 1..4 {
-                    grid.second[0][i - 1][j - 1] = bend.value(j);
-                    grid.second[1][i - 1][j - 1] = value.bend(j);
-                    grid.second[2][i - 1][j - 1] = slope.slope(j);
-                }
-            }
-        }
+        grid.fill(e);
         grid
+    }
+
+    /// Overwrites it with that of coordinates of the element. What no strain needs stays.
+    #[inline(always)]
+    pub fn fill(&mut self, e: &Corners<N>) {
+        for d in 0..3 {
+            let mut lines: [Line<N>; PLACES] = [[[e[0][0][d]; 4]; 3]; PLACES];
+            for beta in 0..4 {
+                let ends = [e[0][beta][d], e[1][beta][d], e[2][beta][d], e[3][beta][d]];
+                let inner = Inner::of(ends);
+                for i in 0..3 {
+                    lines[i + 1][0][beta] = inner.values[i];
+                    lines[i + 1][1][beta] = inner.slopes[i];
+                    lines[i + 1][2][beta] = inner.bends[i];
+                }
+                for end in 0..2 {
+                    lines[4 * end][0][beta] = ends[2 * end];
+                    lines[4 * end][1][beta] = ends[2 * end + 1];
+                }
+            }
+            self.fill_end(0, d, &lines[0]);
+            self.fill_inner::<false>(1, d, &lines[1]);
+            self.fill_inner::<true>(2, d, &lines[2]);
+            self.fill_inner::<false>(3, d, &lines[3]);
+            self.fill_end(4, d, &lines[4]);
+        }
+    }
+
+    /// At an end of the first direction.
+    #[inline(always)]
+    fn fill_end(&mut self, i: usize, d: usize, [value, slope, _]: &Line<N>) {
+        let inner = Inner::of(*slope).values;
+        self.first[0][i][0][d] = slope[0];
+        for j in 0..3 {
+            self.first[0][i][j + 1][d] = inner[j];
+        }
+        self.first[0][i][4][d] = slope[2];
+        self.first[1][i][0][d] = value[1];
+        self.first[1][i][2][d] = Inner::of(*value).slopes[1];
+        self.first[1][i][4][d] = value[3];
+    }
+
+    /// At an inner place of the first direction; the middle is one of Lobatto's too.
+    #[inline(always)]
+    fn fill_inner<const IS_MIDDLE: bool>(
+        &mut self,
+        i: usize,
+        d: usize,
+        [value, slope, bend]: &Line<N>,
+    ) {
+        let (of_value, of_slope) = (Inner::of(*value), Inner::of(*slope));
+        let of_bend = Inner::of(*bend).values;
+        if IS_MIDDLE {
+            self.first[0][i][0][d] = slope[0];
+            self.first[0][i][4][d] = slope[2];
+        }
+        self.first[1][i][0][d] = value[1];
+        self.first[1][i][4][d] = value[3];
+        for j in 0..3 {
+            self.first[0][i][j + 1][d] = of_slope.values[j];
+            self.first[1][i][j + 1][d] = of_value.slopes[j];
+            self.second[0][i - 1][j][d] = of_bend[j];
+            self.second[1][i - 1][j][d] = of_value.bends[j];
+            self.second[2][i - 1][j][d] = of_slope.slopes[j];
+        }
     }
 
     /// Forces on the coordinates of the element.
     #[inline(always)]
     pub fn back(&self) -> Corners<N> {
-        let like = self.first[0][0][0][0];
-        let mut along = [Cubic::zero(like); 4];
-        for i in 0..PLACES {
-            let [mut value, mut slope, mut bend] = [Cubic::zero(like); 3];
-            for j in 0..PLACES {
-                if is_needed(0, i, j) {
-                    slope.on_value(j, &self.first[0][i][j]);
-                }
-                if is_needed(1, i, j) {
-                    value.on_slope(j, &self.first[1][i][j]);
-                }
-            }
-            if is_gauss(i) {
-                for j in 1..4 {
-                    bend.on_value(j, &self.second[0][i - 1][j - 1]);
-                    value.on_bend(j, &self.second[1][i - 1][j - 1]);
-                    slope.on_slope(j, &self.second[2][i - 1][j - 1]);
-                }
-            }
-            let (values, slopes, bends) = (value.back(), slope.back(), bend.back());
+        let mut e = [[self.first[0][0][0]; 4]; 4];
+        for d in 0..3 {
+            let lines = [
+                self.back_end(0, d),
+                self.back_inner::<false>(1, d),
+                self.back_inner::<true>(2, d),
+                self.back_inner::<false>(3, d),
+                self.back_end(4, d),
+            ];
             for beta in 0..4 {
-                along[beta].on_value(i, &values[beta]);
-                along[beta].on_slope(i, &slopes[beta]);
-                if is_gauss(i) {
-                    along[beta].on_bend(i, &bends[beta]);
+                let [_, a, b, c, _] = &lines;
+                let forces = Inner {
+                    values: [a[0][beta], b[0][beta], c[0][beta]],
+                    slopes: [a[1][beta], b[1][beta], c[1][beta]],
+                    bends: [a[2][beta], b[2][beta], c[2][beta]],
+                };
+                let forces = forces.back();
+                for end in 0..2 {
+                    let line = &lines[4 * end];
+                    e[2 * end][beta][d] = forces[2 * end] + line[0][beta];
+                    e[2 * end + 1][beta][d] = forces[2 * end + 1] + line[1][beta];
                 }
-            }
-        }
-        let mut e = [[[like.constant(0.0); 3]; 4]; 4];
-        for beta in 0..4 {
-            let forces = along[beta].back();
-            for alpha in 0..4 {
-                e[alpha][beta] = forces[alpha];
             }
         }
         e
+    }
+
+    /// The transpose of [`Self::fill_end`].
+    #[inline(always)]
+    fn back_end(&self, i: usize, d: usize) -> Line<N> {
+        let [along, across] = &self.first;
+        let mut slope = on_ends(on_values(&component(&along[i], 1, d)));
+        slope[0] += along[i][0][d];
+        slope[2] += along[i][4][d];
+        let middle = across[i][2][d];
+        let rise = middle * middle.constant(1.5);
+        let turn = middle * middle.constant(-0.25);
+        let value = [-rise, turn + across[i][0][d], rise, turn + across[i][4][d]];
+        [value, slope, value]
+    }
+
+    /// The transpose of [`Self::fill_inner`].
+    #[inline(always)]
+    fn back_inner<const IS_MIDDLE: bool>(&self, i: usize, d: usize) -> Line<N> {
+        let [along, across] = &self.first;
+        let zero = along[i][1][d].constant(0.0);
+        let [by_first, by_second, mixed] = &self.second;
+        let of_slope = on_slopes(
+            &component(&mixed[i - 1], 0, d),
+            on_values(&component(&along[i], 1, d)),
+        );
+        let mut slope = on_ends(of_slope);
+        if IS_MIDDLE {
+            slope[0] += along[i][0][d];
+            slope[2] += along[i][4][d];
+        }
+        let of_value = on_slopes(&component(&across[i], 1, d), [zero; 4]);
+        let of_value = on_bends(&component(&by_second[i - 1], 0, d), of_value);
+        let mut value = on_ends(of_value);
+        value[1] += across[i][0][d];
+        value[3] += across[i][4][d];
+        let bend = on_ends(on_values(&component(&by_first[i - 1], 0, d)));
+        [value, slope, bend]
     }
 }

@@ -9,7 +9,7 @@
 
 use super::grid::{AT, Corners, Grid};
 use crate::elements::line::{dot, times};
-use crate::elements::rod::vectors::{Vector, cross, plus};
+use crate::elements::rod::vectors::{Vector, add, cross, plus};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 
@@ -235,21 +235,33 @@ pub(super) fn strain_rate<N: Real>(
     let mut curvature = membrane;
     for i in 0..3 {
         for j in 0..3 {
-            let SurfaceFrame { normal, dual } = &frames[i][j];
-            let direct = along_second_derivatives(rates, (i, j), normal);
-            let u1 = dot(&rates.first[0][i + 1][j + 1], normal);
-            let u2 = dot(&rates.first[1][i + 1][j + 1], normal);
-            let g1 = along_second_derivatives(grid, (i, j), &dual[0]);
-            let g2 = along_second_derivatives(grid, (i, j), &dual[1]);
-            for k in 0..3 {
-                curvature[k][i][j] = direct[k] - g1[k] * u1 - g2[k] * u2;
-            }
+            let rate = curvature_rate(grid, &frames[i][j], rates, (i, j));
+            set(&mut curvature, (i, j), rate);
         }
     }
     Strain {
         membrane,
         curvature,
     }
+}
+
+/// Rates of curvatures at an inner place.
+#[inline(always)]
+fn curvature_rate<N: Real>(
+    grid: &Grid<N>,
+    SurfaceFrame { normal, dual }: &SurfaceFrame<N>,
+    rates: &Grid<N>,
+    (i, j): (usize, usize),
+) -> [N; 3] {
+    let mut rate = along_second_derivatives(rates, (i, j), normal);
+    let u1 = dot(&rates.first[0][i + 1][j + 1], normal);
+    let u2 = dot(&rates.first[1][i + 1][j + 1], normal);
+    let g1 = along_second_derivatives(grid, (i, j), &dual[0]);
+    let g2 = along_second_derivatives(grid, (i, j), &dual[1]);
+    for k in 0..3 {
+        rate[k] = rate[k] - g1[k] * u1 - g2[k] * u2;
+    }
+    rate
 }
 
 /// All components at an inner place.
@@ -315,21 +327,9 @@ impl<P> Kernel<P> {
         for i in 0..3 {
             for j in 0..3 {
                 let eps = at(&strain.membrane, i, j);
-                let kappa = at(&strain.curvature, i, j);
-                let mut n = apply(&self.law(0, i, j, read), eps);
-                let mut m = apply(&self.law(2, i, j, read), kappa);
-                if self.is_coupled {
-                    let coupling = self.law(1, i, j, read);
-                    let (of_kappa, of_eps) = (apply(&coupling, kappa), apply(&coupling, eps));
-                    for k in 0..3 {
-                        n[k] = n[k] - of_kappa[k];
-                        m[k] = m[k] - of_eps[k];
-                    }
-                }
-                for k in 0..3 {
-                    stress.membrane[k][i][j] = n[k];
-                    stress.moment[k][i][j] = m[k];
-                }
+                let [n, m] = self.stress_at((i, j), eps, at(&strain.curvature, i, j), read);
+                set(&mut stress.membrane, (i, j), n);
+                set(&mut stress.moment, (i, j), m);
             }
         }
         stress
@@ -343,26 +343,101 @@ impl<P> Kernel<P> {
         work(&self.stress(&strain, read), &strain) * e[0][0][0].constant(0.5)
     }
 
-    /// Elastic and damping force on the coordinates, N and N m, and the power that damping dissipates, W.
+    /// Elastic and damping force on the coordinates, N and N m, and the power that damping dissipates, W. The surface is put into `grid`.
     #[inline(always)]
     pub fn force<N: Real>(
         &self,
-        e: &Corners<N>,
-        rate: Option<&Corners<N>>,
+        (e, rate): (&Corners<N>, Option<&Corners<N>>),
         read: impl Read<P, N>,
+        grid: &mut Grid<N>,
     ) -> (Corners<N>, N) {
-        let grid = Grid::of(e);
-        let (curved, frames) = curvature(&grid);
-        let mut stress = self.stress(&self.strain(&grid, &curved, read), read);
+        grid.fill(e);
         let mut power = e[0][0][0].constant(0.0);
-        if let Some(rate) = rate {
-            let rates = strain_rate(&grid, &frames, &Grid::of(rate));
-            let time = read.read(&self.damping_time);
-            let damped = self.stress(&rates, read);
-            power = work(&damped, &rates) * time;
-            stress = stress.plus(&damped, time);
+        let mut strain = metric(grid);
+        let mut on_slopes = [[[e[0][0]; 2]; 3]; 3];
+        match rate {
+            Some(rate) => {
+                let rates = Grid::of(rate);
+                let membrane = products(grid, &rates, true);
+                let time = read.read(&self.damping_time);
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let place = self.frame_and_stress(grid, &strain, (i, j), read);
+                        let (frame, mut stress) = place;
+                        let eps = at(&membrane, i, j);
+                        let kappa = curvature_rate(grid, &frame, &rates, (i, j));
+                        let damped = self.stress_at((i, j), eps, kappa, read);
+                        let dissipated = dot(&damped[0], &eps) + dot(&damped[1], &kappa);
+                        power = dissipated.times_plus(time, power);
+                        for of in 0..2 {
+                            stress[of] = plus(&damped[of], time, &stress[of]);
+                        }
+                        on_slopes[i][j] = turn_into_forces(grid, (i, j), &frame, &stress[1]);
+                        set(&mut strain, (i, j), stress[0]);
+                    }
+                }
+            }
+            None => {
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let (frame, stress) = self.frame_and_stress(grid, &strain, (i, j), read);
+                        on_slopes[i][j] = turn_into_forces(grid, (i, j), &frame, &stress[1]);
+                        set(&mut strain, (i, j), stress[0]);
+                    }
+                }
+            }
         }
-        (forces(&grid, &frames, &stress).back(), power)
+        forces_on_slopes(grid, &on_slopes, &at_samples(&strain));
+        (grid.back(), power)
+    }
+
+    /// Membrane forces and moments at an inner place of strains and curvatures.
+    #[inline(always)]
+    fn stress_at<N: Real>(
+        &self,
+        (i, j): (usize, usize),
+        eps: [N; 3],
+        kappa: [N; 3],
+        read: impl Read<P, N>,
+    ) -> [[N; 3]; 2] {
+        let mut n = apply(&self.law(0, i, j, read), eps);
+        let mut m = apply(&self.law(2, i, j, read), kappa);
+        if self.is_coupled {
+            let coupling = self.law(1, i, j, read);
+            let (of_kappa, of_eps) = (apply(&coupling, kappa), apply(&coupling, eps));
+            for k in 0..3 {
+                n[k] = n[k] - of_kappa[k];
+                m[k] = m[k] - of_eps[k];
+            }
+        }
+        [n, m]
+    }
+
+    /// The frame at an inner place and what [`Self::stress_at`] says there, of half the metric.
+    #[inline(always)]
+    fn frame_and_stress<N: Real>(
+        &self,
+        grid: &Grid<N>,
+        metric: &Components<N>,
+        (i, j): (usize, usize),
+        read: impl Read<P, N>,
+    ) -> (SurfaceFrame<N>, [[N; 3]; 2]) {
+        let frame = SurfaceFrame::of(&grid.first[0][i + 1][j + 1], &grid.first[1][i + 1][j + 1]);
+        let mut eps = at(metric, i, j);
+        let mut kappa = along_second_derivatives(grid, (i, j), &frame.normal);
+        for k in 0..3 {
+            eps[k] = eps[k] - read.read(&self.metric[k][i][j]);
+            kappa[k] = kappa[k] - read.read(&self.curvature[k][i][j]);
+        }
+        (frame, self.stress_at((i, j), eps, kappa, read))
+    }
+}
+
+/// Sets all components at an inner place.
+#[inline(always)]
+fn set<N: Copy>(of: &mut Components<N>, (i, j): (usize, usize), values: [N; 3]) {
+    for k in 0..3 {
+        of[k][i][j] = values[k];
     }
 }
 
@@ -392,55 +467,85 @@ impl<N: Real> Stress<N> {
         }
         sum
     }
-
-    /// Membrane forces at the samples of their strains, by component.
-    #[inline(always)]
-    pub fn at_samples(&self) -> Components<N> {
-        [
-            along_first!(self.membrane[0], from_inner),
-            along_second!(self.membrane[1], from_inner),
-            along_second!(along_first!(self.membrane[2], from_inner), from_inner),
-        ]
-    }
 }
 
-/// Forces on the derivatives of the position of stress, against the strains.
+/// Membrane forces at the samples of their strains, by component, of those at inner places.
 #[inline(always)]
-fn forces<N: Real>(
-    grid: &Grid<N>,
-    frames: &[[SurfaceFrame<N>; 3]; 3],
-    stress: &Stress<N>,
-) -> Grid<N> {
-    let mut out = Grid::zeros(grid.first[0][1][1][0]);
+pub(super) fn at_samples<N: Real>(membrane: &Components<N>) -> Components<N> {
+    [
+        along_first!(membrane[0], from_inner),
+        along_second!(membrane[1], from_inner),
+        along_second!(along_first!(membrane[2], from_inner), from_inner),
+    ]
+}
+
+/// Turns the second derivatives at an inner place into the forces of moments on them, against the curvatures. Returns those on the first
+/// derivatives.
+#[inline(always)]
+fn turn_into_forces<N: Real>(
+    grid: &mut Grid<N>,
+    (i, j): (usize, usize),
+    SurfaceFrame { normal, dual }: &SurfaceFrame<N>,
+    [m11, m22, m12]: &[N; 3],
+) -> [Vector<N>; 2] {
+    let m12 = *m12 + *m12;
+    let [by_first, by_second, mixed] = &mut grid.second;
+    let p = times(&by_first[i][j], *m11);
+    let p = plus(&by_second[i][j], *m22, &p);
+    let p = plus(&mixed[i][j], m12, &p);
+    by_first[i][j] = times(normal, -*m11);
+    by_second[i][j] = times(normal, -*m22);
+    mixed[i][j] = times(normal, -m12);
+    [
+        times(normal, dot(&p, &dual[0])),
+        times(normal, dot(&p, &dual[1])),
+    ]
+}
+
+/// Turns the first derivatives into the forces on them, against the strains: those of curvatures at inner places, and those of membrane
+/// forces at samples.
+#[inline(always)]
+fn forces_on_slopes<N: Real>(
+    grid: &mut Grid<N>,
+    of_curvature: &[[[Vector<N>; 2]; 3]; 3],
+    n: &Components<N>,
+) {
+    let [along, across] = &mut grid.first;
     for i in 0..3 {
         for j in 0..3 {
-            let SurfaceFrame { normal, dual } = &frames[i][j];
-            let [m11, m22, m12] = at(&stress.moment, i, j);
-            let m12 = m12 + m12;
-            let p = times(&grid.second[0][i][j], m11);
-            let p = plus(&grid.second[1][i][j], m22, &p);
-            let p = plus(&grid.second[2][i][j], m12, &p);
-            out.second[0][i][j] = times(normal, -m11);
-            out.second[1][i][j] = times(normal, -m22);
-            out.second[2][i][j] = times(normal, -m12);
-            for of in 0..2 {
-                out.first[of][i + 1][j + 1] = times(normal, dot(&p, &dual[of]));
+            let (first, second) = (along[2 * i][2 * j], across[2 * i][2 * j]);
+            let mut on_first = times(&second, -n[2][i][j]);
+            let mut on_second = times(&first, -n[2][i][j]);
+            if j == 1 {
+                on_first = plus(&first, -n[0][i][1], &on_first);
             }
+            if i == 1 {
+                on_second = plus(&second, -n[1][1][j], &on_second);
+            }
+            (along[2 * i][2 * j], across[2 * i][2 * j]) = (on_first, on_second);
+        }
+        for side in [0, 2] {
+            let place = &mut along[2 * i][side + 1];
+            *place = times(place, -n[0][i][side]);
+            let place = &mut across[side + 1][2 * i];
+            *place = times(place, -n[1][side][i]);
         }
     }
-    let n = stress.at_samples();
     for i in 0..3 {
         for j in 0..3 {
-            let [along, across] = [(2 * i, j + 1), (i + 1, 2 * j)];
-            let sum = &mut out.first[0][along.0][along.1];
-            *sum = plus(&grid.first[0][along.0][along.1], -n[0][i][j], sum);
-            let sum = &mut out.first[1][across.0][across.1];
-            *sum = plus(&grid.first[1][across.0][across.1], -n[1][i][j], sum);
-            for of in 0..2 {
-                let sum = &mut out.first[of][2 * i][2 * j];
-                *sum = plus(&grid.first[1 - of][2 * i][2 * j], -n[2][i][j], sum);
-            }
+            let [on_first, on_second] = &of_curvature[i][j];
+            let place = &mut along[i + 1][j + 1];
+            *place = if i == 1 {
+                add(place, on_first)
+            } else {
+                *on_first
+            };
+            let place = &mut across[i + 1][j + 1];
+            *place = if j == 1 {
+                add(place, on_second)
+            } else {
+                *on_second
+            };
         }
     }
-    out
 }

@@ -232,7 +232,9 @@ impl Shell {
     ) -> (ElementCorners<N>, N) {
         let scales = self.scales_of();
         let rate = self.is_damped().then(|| scaled(rate, &scales));
-        let (force, power) = (self.kernel).force(&scaled(e, &scales), rate.as_ref(), Single);
+        let at = scaled(e, &scales);
+        let mut grid = Grid::zeros(N::of(0.0));
+        let (force, power) = (self.kernel).force((&at, rate.as_ref()), Single, &mut grid);
         (unscaled(&force, &scales), power)
     }
 
@@ -293,18 +295,51 @@ impl Shell {
     }
 }
 
-/// Coordinates of a group of elements.
+/// Coordinates of a group of elements by functions of both directions: [`scaled`].
 #[inline(always)]
-fn read<S: Simd>(simd: S, pack: &CornerPack, group: usize) -> ElementCorners<Lanes<S>> {
-    let mut e = [[[Lanes::read(simd, &pack[0][0][0], group); 3]; VECTORS]; 4];
+fn read_scaled<S: Simd>(
+    pack: &CornerPack,
+    scales: &[Lanes<S>; 3],
+    group: Group<S>,
+) -> Corners<Lanes<S>> {
+    let mut out = [[[scales[0]; 3]; 4]; 4];
     for corner in 0..4 {
         for k in 0..VECTORS {
+            let place = &mut out[2 * (corner / 2) + k % 2][2 * (corner % 2) + k / 2];
             for d in 0..3 {
-                e[corner][k][d] = Lanes::read(simd, &pack[corner][k][d], group);
+                let number: Lanes<S> = group.read(&pack[corner][k][d]);
+                place[d] = if k == 0 {
+                    number
+                } else {
+                    number * scales[k - 1]
+                };
             }
         }
     }
-    e
+    out
+}
+
+/// Writes forces on the functions as those on coordinates: [`unscaled`].
+#[inline(always)]
+fn write_unscaled<S: Simd>(
+    f: &Corners<Lanes<S>>,
+    scales: &[Lanes<S>; 3],
+    out: &mut CornerPack,
+    group: usize,
+) {
+    for corner in 0..4 {
+        for k in 0..VECTORS {
+            let force = &f[2 * (corner / 2) + k % 2][2 * (corner % 2) + k / 2];
+            for d in 0..3 {
+                let force = if k == 0 {
+                    force[d]
+                } else {
+                    force[d] * scales[k - 1]
+                };
+                force.write(&mut out[corner][k][d], group);
+            }
+        }
+    }
 }
 
 impl ShellPack {
@@ -329,23 +364,17 @@ impl ShellPack {
         out: &mut CornerPack,
     ) -> f64 {
         let mut powers = [0.0; PACK];
+        let mut grid = Grid::zeros(Lanes::read(simd, &powers, 0));
         for group in 0..self.groups::<S>() {
             let reader = Group(simd, group);
             let scales = self.scales(reader);
-            let at = scaled(&read(simd, e, group), &scales);
+            let at = read_scaled(e, &scales, reader);
             let rate = match rates {
-                Some(rates) => Some(scaled(&read(simd, rates, group), &scales)),
+                Some(rates) => Some(read_scaled(rates, &scales, reader)),
                 None => None,
             };
-            let (force, power) = self.kernel.force(&at, rate.as_ref(), reader);
-            let force = unscaled(&force, &scales);
-            for corner in 0..4 {
-                for k in 0..VECTORS {
-                    for d in 0..3 {
-                        force[corner][k][d].write(&mut out[corner][k][d], group);
-                    }
-                }
-            }
+            let (force, power) = self.kernel.force((&at, rate.as_ref()), reader, &mut grid);
+            write_unscaled(&force, &scales, out, group);
             power.write(&mut powers, group);
         }
         powers[..self.count].iter().sum()
@@ -362,19 +391,20 @@ impl ShellPack {
         out: &mut PackBlocks,
         mut call: impl FnMut((usize, usize), usize, bool, &PackBlocks),
     ) {
+        let mut tangent = Tangent::zeros(Lanes::read(simd, &self.scales[0], 0));
         for group in 0..self.groups::<S>() {
             let reader = Group(simd, group);
             let scales = self.scales(reader);
-            let at = scaled(&read(simd, e, group), &scales);
+            let at = read_scaled(e, &scales, reader);
             let rates = match rates {
-                Some(rates) => Some(scaled(&read(simd, rates, group), &scales)),
+                Some(rates) => Some(read_scaled(rates, &scales, reader)),
                 None => None,
             };
             let from = match from {
-                Some(from) => Some(scaled(&read(simd, from, group), &scales)),
+                Some(from) => Some(read_scaled(from, &scales, reader)),
                 None => None,
             };
-            let tangent = Tangent::new(&self.kernel, &at, (rates.as_ref(), from.as_ref()), reader);
+            tangent.find(&self.kernel, &at, (rates.as_ref(), from.as_ref()), reader);
             let one = scales[0].constant(1.0);
             let by = [one, scales[0], scales[1], scales[2]];
             for pair in 0..PAIRS.len() {

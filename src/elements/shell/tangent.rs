@@ -4,7 +4,7 @@
 
 use super::grid::{AT, Corners, Grid, PLACES};
 use super::kernel::{
-    Components, Kernel, Read, Strain, Stress, SurfaceFrame, apply, at, curvature, strain_rate,
+    Components, Kernel, Read, Strain, SurfaceFrame, apply, at, at_samples, curvature, strain_rate,
 };
 use crate::elements::line::{dot, times};
 use crate::elements::rod::vectors::{Vector, plus};
@@ -103,9 +103,12 @@ pub(super) const fn shape(
 pub(super) struct Tangent<N> {
     grid: Grid<N>,
     frames: [[SurfaceFrame<N>; 3]; 3],
-    stress: Stress<N>,
-    /// Membrane forces at the samples of their strains.
-    samples: Components<N>,
+    moment: Components<N>,
+    /// At inner places, by the functions of both directions.
+    rows: [[[[Rows<N>; 4]; 4]; 3]; 3],
+    /// Stiffness of membrane forces, which is the same in all directions: by the functions of the first direction of the one and of the
+    /// other vector, then by those of the second direction.
+    tensions: [[[[N; 4]; 4]; 4]; 4],
 }
 
 /// Rows of a vector of a corner at an inner place.
@@ -122,67 +125,163 @@ struct Rows<N> {
 }
 
 impl<N: Real> Tangent<N> {
-    /// At coordinates, with rates where damping acts, or with the stress that a linear step from other coordinates predicts.
+    /// Room for one.
     #[inline(always)]
-    pub fn new<P, R: Read<P, N>>(
+    pub fn zeros(like: N) -> Self {
+        let zero = like.constant(0.0);
+        let vector = [zero; 3];
+        let frame = SurfaceFrame {
+            normal: vector,
+            dual: [vector; 2],
+        };
+        let rows = Rows {
+            membrane: [vector; 3],
+            bending: vector,
+            dual: vector,
+            moment: zero,
+        };
+        Self {
+            grid: Grid::zeros(zero),
+            frames: [[frame; 3]; 3],
+            moment: [[vector; 3]; 3],
+            rows: [[[[rows; 4]; 4]; 3]; 3],
+            tensions: [[[[zero; 4]; 4]; 4]; 4],
+        }
+    }
+
+    /// Overwrites it with that at coordinates, with rates where damping acts, or with the stress that a linear step from other coordinates
+    /// predicts.
+    #[inline(always)]
+    pub fn find<P, R: Read<P, N>>(
+        &mut self,
         kernel: &Kernel<P>,
         e: &Corners<N>,
         (rates, from): (Option<&Corners<N>>, Option<&Corners<N>>),
         read: R,
-    ) -> Self {
-        let grid = Grid::of(e);
-        let (curved, frames) = curvature(&grid);
+    ) {
+        self.grid.fill(e);
+        let (curved, frames) = curvature(&self.grid);
         let strain = match from {
-            None => kernel.strain(&grid, &curved, read),
+            None => kernel.strain(&self.grid, &curved, read),
             Some(from) => predicted(kernel, from, e, read),
         };
         let mut stress = kernel.stress(&strain, read);
         if let Some(rates) = rates {
-            let damped = kernel.stress(&strain_rate(&grid, &frames, &Grid::of(rates)), read);
+            let damped = kernel.stress(&strain_rate(&self.grid, &frames, &Grid::of(rates)), read);
             stress = stress.plus(&damped, read.read(&kernel.damping_time));
         }
-        Self {
-            samples: stress.at_samples(),
-            grid,
-            frames,
-            stress,
+        self.frames = frames;
+        self.moment = stress.moment;
+        self.find_tensions(&at_samples(&stress.membrane));
+        self.find_rows();
+    }
+
+    /// Stiffness of membrane forces at samples.
+    #[inline(always)]
+    fn find_tensions(&mut self, [n11, n22, n12]: &Components<N>) {
+        let zero = n11[0][0].constant(0.0);
+        let number = |value: f64| zero.constant(value);
+        for a in 0..4 {
+            for b in 0..4 {
+                let mut sums = [[zero; 3]; 4];
+                for i in 0..3 {
+                    sums[0] = plus(&n11[i], number(SLOPES[a][b][i]), &sums[0]);
+                    sums[1] = plus(&n22[i], number(VALUES[a][b][i]), &sums[1]);
+                    sums[2] = plus(&n12[i], number(SLOPE_VALUES[a][b][i]), &sums[2]);
+                    sums[3] = plus(&n12[i], number(SLOPE_VALUES[b][a][i]), &sums[3]);
+                }
+                for c in 0..4 {
+                    for d in 0..4 {
+                        let mut sum = zero;
+                        for j in 0..3 {
+                            sum = sums[0][j].times_plus(number(VALUES[c][d][j]), sum);
+                            sum = sums[1][j].times_plus(number(SLOPES[c][d][j]), sum);
+                            sum = sums[2][j].times_plus(number(SLOPE_VALUES[d][c][j]), sum);
+                            sum = sums[3][j].times_plus(number(SLOPE_VALUES[c][d][j]), sum);
+                        }
+                        self.tensions[a][b][c][d] = sum;
+                    }
+                }
+            }
         }
     }
 
-    /// Rows of vector `k` of a corner at an inner place. `p` is the sum of second derivatives of the position times moments.
+    /// Rows of all vectors at all inner places, summed one direction after the other.
     #[inline(always)]
-    fn rows(&self, corner: Corner, k: usize, (i, j): (usize, usize)) -> Rows<N> {
-        let (functions, place) = (functions(corner, k), (i + 1, j + 1));
-        let like = self.frames[i][j].normal[0];
-        let number = |value: f64| like.constant(value);
-        let mut membrane = [[number(0.0); 3]; 3];
-        for s in 0..3 {
-            let along = shape(functions, (1, 0), (2 * s, place.1)) * TO_INNER[i][s];
-            membrane[0] = plus(
-                &self.grid.first[0][2 * s][place.1],
-                number(along),
-                &membrane[0],
-            );
-            let across = shape(functions, (0, 1), (place.0, 2 * s)) * TO_INNER[j][s];
-            membrane[1] = plus(
-                &self.grid.first[1][place.0][2 * s],
-                number(across),
-                &membrane[1],
-            );
-            for t in 0..3 {
-                let (at, weight) = ((2 * s, 2 * t), TO_INNER[i][s] * TO_INNER[j][t]);
-                let (first, second) = (
-                    &self.grid.first[0][at.0][at.1],
-                    &self.grid.first[1][at.0][at.1],
-                );
-                let [h1, h2] = [
-                    shape(functions, (1, 0), at) * weight,
-                    shape(functions, (0, 1), at) * weight,
-                ];
-                membrane[2] = plus(second, number(h1), &plus(first, number(h2), &membrane[2]));
+    fn find_rows(&mut self) {
+        let zero = [self.frames[0][0].normal[0].constant(0.0); 3];
+        let number = |value: f64| zero[0].constant(value);
+        for i in 0..3 {
+            // Of the second and of the first derivatives, by the function and the place of Lobatto along the second direction.
+            let (mut of_second, mut of_first) = ([[zero; 3]; 4], [[zero; 3]; 4]);
+            for alpha in 0..4 {
+                for t in 0..3 {
+                    for s in 0..3 {
+                        let slope = TABLE[1][alpha][2 * s] * TO_INNER[i][s];
+                        let value = TABLE[0][alpha][2 * s] * TO_INNER[i][s];
+                        let [first, second] = &self.grid.first;
+                        let sum = &mut of_second[alpha][t];
+                        *sum = plus(&second[2 * s][2 * t], number(slope), sum);
+                        let sum = &mut of_first[alpha][t];
+                        *sum = plus(&first[2 * s][2 * t], number(value), sum);
+                    }
+                }
+            }
+            for j in 0..3 {
+                self.find_rows_at((i, j), &of_first, &of_second);
             }
         }
+    }
+
+    /// Rows of all vectors at an inner place.
+    #[inline(always)]
+    fn find_rows_at(
+        &mut self,
+        (i, j): (usize, usize),
+        of_first: &[[Vector<N>; 3]; 4],
+        of_second: &[[Vector<N>; 3]; 4],
+    ) {
+        let zero = [self.frames[0][0].normal[0].constant(0.0); 3];
+        let number = |value: f64| zero[0].constant(value);
+        let (mut along, mut across) = ([zero; 4], [zero; 4]);
+        for k in 0..4 {
+            for s in 0..3 {
+                let weight = number(TABLE[1][k][2 * s] * TO_INNER[i][s]);
+                along[k] = plus(&self.grid.first[0][2 * s][j + 1], weight, &along[k]);
+                let weight = number(TABLE[1][k][2 * s] * TO_INNER[j][s]);
+                across[k] = plus(&self.grid.first[1][i + 1][2 * s], weight, &across[k]);
+            }
+        }
+        for alpha in 0..4 {
+            for beta in 0..4 {
+                let mut shear = zero;
+                for t in 0..3 {
+                    let value = number(TABLE[0][beta][2 * t] * TO_INNER[j][t]);
+                    let slope = number(TABLE[1][beta][2 * t] * TO_INNER[j][t]);
+                    shear = plus(&of_second[alpha][t], value, &shear);
+                    shear = plus(&of_first[alpha][t], slope, &shear);
+                }
+                let membrane = [
+                    times(&along[alpha], number(TABLE[0][beta][j + 1])),
+                    times(&across[beta], number(TABLE[0][alpha][i + 1])),
+                    shear,
+                ];
+                self.rows[i][j][alpha][beta] = self.rows_of((alpha, beta), (i, j), membrane);
+            }
+        }
+    }
+
+    /// Rows of a function at an inner place.
+    #[inline(always)]
+    fn rows_of(
+        &self,
+        functions: (usize, usize),
+        (i, j): (usize, usize),
+        membrane: [Vector<N>; 3],
+    ) -> Rows<N> {
         let SurfaceFrame { dual, .. } = &self.frames[i][j];
+        let (place, like) = ((i + 1, j + 1), dual[0][0]);
+        let number = |value: f64| like.constant(value);
         let slopes = [
             shape(functions, (1, 0), place),
             shape(functions, (0, 1), place),
@@ -197,12 +296,12 @@ impl<N: Real> Tangent<N> {
             number(slopes[0]),
             &times(&dual[1], number(slopes[1])),
         );
-        let mut bending = [number(0.0); 3];
+        let mut bending = dual;
         for c in 0..3 {
             let twice = number(if c == 2 { 2.0 } else { 1.0 });
             bending[c] = number(direct[c]) - dot(&self.grid.second[c][i][j], &dual) * twice;
         }
-        let moment = dot(&at(&self.stress.moment, i, j), &bending);
+        let moment = dot(&at(&self.moment, i, j), &bending);
         Rows {
             membrane,
             bending,
@@ -229,7 +328,15 @@ impl<N: Real> Tangent<N> {
             }
         }
         if part == Part::Whole {
-            self.add_tensions((a, b), out);
+            for k in 0..4 {
+                for l in 0..4 {
+                    let (of_k, of_l) = (functions(a, k), functions(b, l));
+                    let tension = self.tensions[of_k.0][of_l.0][of_k.1][of_l.1];
+                    for d in 0..3 {
+                        out[k][l][d][d] += tension;
+                    }
+                }
+            }
         }
     }
 
@@ -243,110 +350,103 @@ impl<N: Real> Tangent<N> {
         part: Part,
         out: &mut PairBlocks<N>,
     ) {
-        let normal = &self.frames[i][j].normal;
-        let zero = normal[0].constant(0.0);
+        let normal = self.frames[i][j].normal;
+        let zero = [normal[0].constant(0.0); 3];
         let (stiff, bend) = (kernel.law(0, i, j, read), kernel.law(2, i, j, read));
-        let coupling = kernel.law(1, i, j, read);
-        let first = self.rows(a, 0, (i, j));
-        let mut of_a = [first; 4];
-        let mut of_b = of_a;
-        for k in 1..4 {
-            of_a[k] = self.rows(a, k, (i, j));
-        }
-        for l in 0..4 {
-            of_b[l] = if a == b {
-                of_a[l]
-            } else {
-                self.rows(b, l, (i, j))
-            };
-        }
-        let m = at(&self.stress.moment, i, j);
-        let second = [
-            dot(&self.grid.second[0][i][j], normal),
-            dot(&self.grid.second[1][i][j], normal),
-            dot(&self.grid.second[2][i][j], normal),
+        let m = at(&self.moment, i, j);
+        let [r11, r22, r12] = &self.grid.second;
+        let twist = dot(&r12[i][j], &normal);
+        let curved = [
+            dot(&r11[i][j], &normal),
+            dot(&r22[i][j], &normal),
+            twist + twist,
         ];
-        let curved = m[0] * second[0] + m[1] * second[1] + m[2] * (second[2] + second[2]);
+        let curved = -dot(&m, &curved);
+        let mut coupled = [zero; 4];
+        if kernel.is_coupled {
+            let coupling = kernel.law(1, i, j, read);
+            for k in 0..4 {
+                let (alpha, beta) = functions(a, k);
+                coupled[k] = apply(&coupling, self.rows[i][j][alpha][beta].bending);
+            }
+        }
         for l in 0..4 {
-            let of_l = &of_b[l];
-            let (mut stressed, mut coupled) = ([[zero; 3]; 3], [zero; 3]);
+            let (alpha, beta) = functions(b, l);
+            let of_l = &self.rows[i][j][alpha][beta];
+            let [x, y, z] = &of_l.membrane;
+            let mut stressed = [zero; 3];
             for d in 0..3 {
-                let [x, y, z] = &of_l.membrane;
                 let force = apply(&stiff, [x[d], y[d], z[d]]);
                 for c in 0..3 {
                     stressed[c][d] = force[c];
                 }
             }
             let bent = apply(&bend, of_l.bending);
-            if kernel.is_coupled {
-                coupled = apply(&coupling, of_l.bending);
-            }
+            let (minus, curved_dual) = (-of_l.moment, times(&of_l.dual, curved));
             for k in 0..4 {
                 if a == b && k < l {
                     continue;
                 }
-                let of_k = &of_a[k];
-                let mut alpha = dot(&of_k.bending, &bent);
-                let (mut on_left, mut on_right) = ([zero; 3], [zero; 3]);
+                let (alpha, beta) = functions(a, k);
+                let of_k = &self.rows[i][j][alpha][beta];
+                let mut factor = dot(&of_k.bending, &bent);
+                let (mut on_left, mut on_right) = (zero, zero);
                 if part == Part::Whole {
-                    alpha = alpha - curved * dot(&of_k.dual, &of_l.dual);
+                    factor = factor + dot(&of_k.dual, &curved_dual);
                     on_left = times(&of_l.dual, -of_k.moment);
-                    on_right = times(&of_k.dual, -of_l.moment);
+                    on_right = times(&of_k.dual, minus);
                 }
                 if kernel.is_coupled {
-                    let back = apply(&coupling, of_k.bending);
+                    let of_b = apply(&kernel.law(1, i, j, read), of_l.bending);
                     for c in 0..3 {
-                        on_left = plus(&of_k.membrane[c], -coupled[c], &on_left);
-                        on_right = plus(&of_l.membrane[c], -back[c], &on_right);
+                        on_left = plus(&of_k.membrane[c], -of_b[c], &on_left);
+                        on_right = plus(&of_l.membrane[c], -coupled[k][c], &on_right);
                     }
                 }
-                on_right = plus(normal, alpha, &on_right);
-                let block = &mut out[k][l];
-                for r in 0..3 {
-                    let row = &mut block[r];
-                    for c in 0..3 {
-                        *row = plus(&stressed[c], of_k.membrane[c][r], row);
-                    }
-                    *row = plus(&on_right, normal[r], row);
-                    *row = plus(normal, on_left[r], row);
-                }
-            }
-        }
-    }
-
-    /// Adds the stiffness of membrane forces, which is the same in all directions.
-    #[inline(always)]
-    fn add_tensions(&self, (a, b): (Corner, Corner), out: &mut PairBlocks<N>) {
-        let zero = self.frames[0][0].normal[0].constant(0.0);
-        for k in 0..4 {
-            for l in 0..4 {
-                if a == b && k < l {
-                    continue;
-                }
-                let (of_k, of_l) = (functions(a, k), functions(b, l));
-                let mut sum = zero;
-                for i in 0..3 {
-                    for j in 0..3 {
-                        let product = |of: (usize, usize), to: (usize, usize), place| {
-                            shape(of_k, of, place) * shape(of_l, to, place)
-                        };
-                        let both = (2 * i, 2 * j);
-                        let [n11, n22, n12] = at(&self.samples, i, j);
-                        let along = product((1, 0), (1, 0), (2 * i, j + 1));
-                        let across = product((0, 1), (0, 1), (i + 1, 2 * j));
-                        let shear = product((1, 0), (0, 1), both) + product((0, 1), (1, 0), both);
-                        sum = n11.times_plus(sum.constant(along), sum);
-                        sum = n22.times_plus(sum.constant(across), sum);
-                        sum = n12.times_plus(sum.constant(shear), sum);
-                    }
-                }
-                for d in 0..3 {
-                    out[k][l][d][d] += sum;
-                }
+                on_right = plus(&normal, factor, &on_right);
+                let [x, y, z] = of_k.membrane;
+                let left = [x, y, z, on_left, normal];
+                let [x, y, z] = stressed;
+                let right = [x, y, z, normal, on_right];
+                add_products(&left, &right, &mut out[k][l]);
             }
         }
     }
 }
+
+/// Adds products of vectors.
+#[inline(always)]
+fn add_products<N: Real>(
+    left: &[Vector<N>; 5],
+    right: &[Vector<N>; 5],
+    block: &mut [Vector<N>; 3],
+) {
+    for r in 0..3 {
+        let mut row = block[r];
+        for c in 0..5 {
+            row = plus(&right[c], left[c][r], &row);
+        }
+        block[r] = row;
+    }
+}
+
+/// Products of values or slopes of the functions of a direction at Lobatto's places or at inner ones: `[function][function][place]`.
+type Products = [[[f64; 3]; 4]; 4];
+
+const fn products_of(orders: (usize, usize), places: [usize; 3]) -> Products {
+    let (mut out, mut k) = ([[[0.0; 3]; 4]; 4], 0);
+    while k < 48 {
+        let (a, b, place) = (k / 12, k / 3 % 4, places[k % 3]);
+        out[a][b][k % 3] = TABLE[orders.0][a][place] * TABLE[orders.1][b][place];
+        k += 1;
+    }
+    out
+}
+
+const LOBATTO: [usize; 3] = [0, 2, 4];
+const SLOPES: Products = products_of((1, 1), LOBATTO);
+const SLOPE_VALUES: Products = products_of((1, 0), LOBATTO);
+const VALUES: Products = products_of((0, 0), [1, 2, 3]);
 
 /// Strain that a linear step from coordinates to others predicts.
 #[inline(always)]

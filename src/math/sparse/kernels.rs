@@ -2,7 +2,7 @@
 //! row: its diagonal block first, then its blocks below.
 
 use super::pattern::{Column, Pattern, Step, of_size};
-use super::{Number, chains};
+use super::{Number, chains, panels};
 
 /// Rule for pivots: takes a variable and its pivot, and returns the inverse of the pivot. Zero drops the row, `None`
 /// ends the factorization.
@@ -26,12 +26,15 @@ macro_rules! of_any_size {
     };
 }
 
+pub(super) use of_any_size;
+
 /// L D L^T in place, column after column; nothing where a pivot ends it.
 pub(super) fn factor<T: Number>(
     pattern: &Pattern,
-    values: &mut [T],
+    (values, scratch): (&mut [T], &mut [f64]),
     pivots: &mut impl Pivots<T>,
 ) -> Option<()> {
+    let mut panels = pattern.panels.iter().peekable();
     for step in &pattern.steps {
         match step {
             Step::Chain {
@@ -43,6 +46,15 @@ pub(super) fn factor<T: Number>(
                 of_size!(size, B => chains::factor::<T, B>(run, variables.start, pivots)?);
             }
             Step::Column(j) => {
+                if let Some(panel) = panels.peek()
+                    && panel.columns.contains(j)
+                {
+                    if *j + 1 == panel.columns.end {
+                        panels::factor(pattern, panel, (values, scratch), pivots)?;
+                        panels.next();
+                    }
+                    continue;
+                }
                 let column = &pattern.columns[*j];
                 of_any_size!(column.size, n => factor_column(n, pattern, column, values, pivots)?);
             }

@@ -12,6 +12,7 @@ mod cholesky;
 mod general;
 mod kernels;
 mod order;
+mod panels;
 mod pattern;
 #[cfg(test)]
 mod tests;
@@ -33,6 +34,12 @@ pub trait Number:
     fn is_negative(self) -> bool;
     /// Absolute value.
     fn size(self) -> f64;
+    /// Number of parts: 2 of complex numbers, 1 of real ones.
+    const PARTS: usize;
+    /// Real and imaginary part.
+    fn parts(self) -> [f64; 2];
+    /// From real and imaginary part.
+    fn from_parts(parts: [f64; 2]) -> Self;
 }
 
 impl Number for f64 {
@@ -46,6 +53,18 @@ impl Number for f64 {
 
     fn size(self) -> f64 {
         self.abs()
+    }
+
+    const PARTS: usize = 1;
+
+    #[inline(always)]
+    fn parts(self) -> [f64; 2] {
+        [self, 0.0]
+    }
+
+    #[inline(always)]
+    fn from_parts([real, _]: [f64; 2]) -> Self {
+        real
     }
 }
 
@@ -62,6 +81,18 @@ impl Number for nalgebra::Complex<f64> {
     fn size(self) -> f64 {
         self.norm()
     }
+
+    const PARTS: usize = 2;
+
+    #[inline(always)]
+    fn parts(self) -> [f64; 2] {
+        [self.re, self.im]
+    }
+
+    #[inline(always)]
+    fn from_parts([real, imaginary]: [f64; 2]) -> Self {
+        Self::new(real, imaginary)
+    }
 }
 
 /// A symmetric matrix over a [`Pattern`], and after [`Matrix::factor`] its factors. Every call
@@ -72,6 +103,8 @@ pub struct Matrix<T> {
     /// full, others once. Factored: rows of the unit lower triangular L, with the inverse pivots
     /// on the diagonal.
     pub values: Vec<T>,
+    /// Scratch of the factorization of panels.
+    scratch: Vec<f64>,
 }
 
 impl<T: Number> Matrix<T> {
@@ -79,6 +112,7 @@ impl<T: Number> Matrix<T> {
     pub fn zeros(pattern: &Pattern) -> Self {
         Self {
             values: vec![T::from(0.0); pattern.stored],
+            scratch: vec![0.0; T::PARTS * pattern.scratch()],
         }
     }
 
@@ -115,7 +149,7 @@ impl<T: Number> Matrix<T> {
             negative += usize::from(pivot.is_negative());
             pivot.inverse()
         };
-        kernels::factor(pattern, &mut self.values, &mut pivots)?;
+        kernels::factor(pattern, (&mut self.values, &mut self.scratch), &mut pivots)?;
         Some(negative)
     }
 
@@ -142,6 +176,6 @@ impl Matrix<f64> {
             Some(if stays { 1.0 / pivot } else { 0.0 })
         };
         // No pivot ends it.
-        let _ = kernels::factor(pattern, &mut self.values, &mut pivots);
+        let _ = kernels::factor(pattern, (&mut self.values, &mut self.scratch), &mut pivots);
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::order::{graph, least_degree, parts, take_out};
+use super::panels::{Panel, panels};
 
 /// The elimination order, the stored blocks (with fill) and the components of symmetric matrices
 /// over one graph. Vectors are laid out in elimination order: see [`Pattern::range`].
@@ -19,6 +20,8 @@ pub struct Pattern {
     pub(super) columns: Vec<Column>,
     /// All columns, in the order they are eliminated.
     pub(super) steps: Vec<Step>,
+    /// Columns that are factored together, in order.
+    pub(super) panels: Vec<Panel>,
     /// Blocks below the diagonal, column by column, from the first to the last in the order.
     pub(super) rows: Vec<PatternRow>,
     /// For every column and every pair (a, b), b <= a, of its rows: where in the values the block
@@ -253,12 +256,14 @@ impl Pattern {
             components: Vec::new(),
             columns: Vec::new(),
             steps: Vec::new(),
+            panels: Vec::new(),
             rows: Vec::new(),
             targets: Vec::new(),
             stored: 0,
         };
         pattern.lay_out(sizes, &below);
         pattern.find_steps();
+        pattern.panels = panels(&pattern.columns, &pattern.rows);
         pattern.find_components(parts);
         pattern.find_targets();
         pattern
@@ -363,6 +368,11 @@ impl Pattern {
         let found = rows.partition_point(|r| r.column < row);
         rows.get(found)
             .map_or((false, 0), |r| (r.column == row, r.at))
+    }
+
+    /// Most numbers of scratch that a panel takes, for every part of a number.
+    pub(super) fn scratch(&self) -> usize {
+        self.panels.iter().map(Panel::scratch).max().unwrap_or(0)
     }
 
     /// The vertices with variables, column by column.

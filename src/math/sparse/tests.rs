@@ -167,13 +167,15 @@ fn counts_negative_pivots_and_refuses_zero_ones() {
     for bad in [1.0, f64::NAN, f64::INFINITY] {
         let mut a = Matrix {
             values: vec![1.0, 1.0, bad],
+            scratch: Vec::new(),
         };
         assert_eq!(a.factor(&pattern), None);
     }
     let one = Complex::new(0.0, 1.0);
     assert_eq!(
         Matrix {
-            values: vec![one; 3]
+            values: vec![one; 3],
+            scratch: Vec::new(),
         }
         .factor(&pattern),
         None
@@ -231,7 +233,8 @@ fn cholesky_factors_multiply_and_solve() {
         Cholesky::new(
             &pattern,
             &Matrix {
-                values: vec![1.0, 2.0, 2.0, 1.0]
+                values: vec![1.0, 2.0, 2.0, 1.0],
+                scratch: Vec::new(),
             }
         )
         .is_none()
@@ -535,5 +538,92 @@ fn rows_with_little_pivots_drop_out() {
         let found: [f64; 3] =
             std::array::from_fn(|k| places.iter().map(|(row, at)| rows[*row][k] * b[*at]).sum());
         assert!(error(&found, &x) < 1e-14, "{sizes:?}");
+    }
+}
+
+/// Two vertices of six variables at every node of a square mesh, each linked to all others of the elements around it.
+fn mesh(elements: usize) -> Graph {
+    let side = elements + 1;
+    let mut edges = Vec::new();
+    for corner in (0..elements * elements).map(|k| k / elements * side + k % elements) {
+        let nodes = [corner, corner + 1, corner + side, corner + side + 1];
+        let vertices: Vec<usize> = nodes.iter().flat_map(|n| [2 * n, 2 * n + 1]).collect();
+        for (k, v) in vertices.iter().enumerate() {
+            edges.extend(vertices[..k].iter().map(|w| (*v, *w)));
+        }
+    }
+    (vec![6; 2 * side * side], edges)
+}
+
+fn panels_are_plain_factors<T: Number + ComplexField>(number: fn(f64, f64) -> T, bump: f64) {
+    let graph = mesh(8);
+    let pattern = Pattern::new(&graph.0, &graph.1);
+    assert!(pattern.panels.len() > 4, "{}", pattern.panels.len());
+    let mut plain = pattern.clone();
+    plain.panels.clear();
+    let (a, _) = matrix(&graph, &pattern, &mut Random(3), number, bump);
+    let right: Vec<T> = (0..pattern.len())
+        .map(|k| number((k as f64).sin(), 0.5))
+        .collect();
+    let mut solved = [&pattern, &plain].map(|pattern| {
+        let (mut factors, mut x) = (a.clone(), right.clone());
+        let negative = factors.factor(pattern).expect("a regular matrix");
+        factors.solve(pattern, &mut x);
+        (negative, x)
+    });
+    let [panels, plain] = &mut solved;
+    assert_eq!(panels.0, plain.0);
+    assert!(
+        error(&panels.1, &plain.1) < 1e-12 * error(&plain.1, &vec![number(0.0, 0.0); right.len()])
+    );
+}
+
+#[test]
+fn panels_factor_as_column_after_column_does() {
+    panels_are_plain_factors(|re, _| re, 40.0);
+    panels_are_plain_factors(|re, _| re, -40.0);
+    panels_are_plain_factors(Complex::new, 40.0);
+}
+
+#[test]
+fn panels_drop_dependent_rows_as_columns_do() {
+    let graph = mesh(8);
+    let pattern = Pattern::new(&graph.0, &graph.1);
+    let mut plain = pattern.clone();
+    plain.panels.clear();
+    let (mut a, _) = matrix(&graph, &pattern, &mut Random(3), |re, _| re, 40.0);
+    // A row of zeros in the middle of a panel.
+    let lost = pattern.columns[pattern.panels[3].columns.start].start + 7;
+    for k in 0..pattern.len() {
+        clear_entry(&pattern, &mut a, (lost, k));
+    }
+    let bounds = vec![1e-9; pattern.len()];
+    let [of_panels, of_columns] = [&pattern, &plain].map(|pattern| {
+        let (mut factors, mut x) = (a.clone(), vec![1.0; pattern.len()]);
+        let (mut counts, mut pivots) = (vec![true; pattern.len()], vec![0.0; pattern.len()]);
+        factors.factor_semidefinite(pattern, &bounds, &mut counts, &mut pivots);
+        factors.solve(pattern, &mut x);
+        assert_eq!(counts.iter().filter(|stays| !**stays).count(), 1);
+        assert!(!counts[lost] && x[lost] == 0.0);
+        x
+    });
+    assert!(error(&of_panels, &of_columns) < 1e-13);
+}
+
+/// Sets the entry of two variables to zero where it is stored.
+fn clear_entry(pattern: &Pattern, a: &mut Matrix<f64>, (row, column): (usize, usize)) {
+    let vertex = |k: usize| {
+        pattern
+            .order()
+            .iter()
+            .position(|v| pattern.range(*v).contains(&k))
+    };
+    let of = [row, column].map(|k| pattern.order()[vertex(k).expect("a vertex")]);
+    if let Some(slot) = pattern.slot(of[0], of[1]) {
+        let [r, c] = [0, 1].map(|k| [row, column][k] - pattern.range(of[k]).start);
+        a.values[slot.entry(r, c)] = 0.0;
+        if of[0] == of[1] {
+            a.values[slot.entry(c, r)] = 0.0;
+        }
     }
 }

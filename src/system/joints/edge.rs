@@ -1,7 +1,7 @@
 //! Joints of edges and mesh lines of plates and shells. What holds them is linear in the coordinates of the mesh nodes on the ground and
 //! between two surfaces, and is eliminated; on the frame of a body it keeps multipliers.
 //!
-//! Source: docs/decisions/0077-edges-of-plates.md.
+//! Source: docs/decisions/0078-edges-of-plates.md.
 
 use super::{ConstraintKind, Linear, Target};
 use crate::bodies::ConnectivityRow;

@@ -2,7 +2,7 @@
 //! `sin(phi - phi0) = 0`, where `phi` is the angle between both normals. With `s = a . (b x t)` and
 //! `c = [(a . b)(t . t) - (a . t)(b . t)] / |t|` the sine and cosine of `phi` times one factor, `g = s cos(phi0) - c sin(phi0)`.
 //!
-//! Source: docs/decisions/0077-edges-of-plates.md.
+//! Source: docs/decisions/0078-edges-of-plates.md.
 
 use nalgebra::{Matrix3, Vector3};
 
