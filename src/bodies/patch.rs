@@ -6,6 +6,7 @@
 
 mod body;
 mod point;
+mod recovery;
 #[cfg(test)]
 mod tests;
 
@@ -20,6 +21,8 @@ use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
 use crate::math::space::{components, vector};
 use point::{MeshWeights, PatchFrame};
+pub use recovery::RecoveryLine;
+use recovery::SectionPoint;
 
 /// A point of a patch that something acts on or is read at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +45,8 @@ pub struct Patch {
     elements: Vec<Shell>,
     packs: Vec<Pack<ShellPack>>,
     points: Vec<PatchFrame>,
+    /// What section forces at each point are read by.
+    sections: Vec<SectionPoint>,
     is_damped: bool,
 }
 
@@ -69,6 +74,7 @@ impl Patch {
             elements: Vec::new(),
             packs: Vec::new(),
             points: Vec::new(),
+            sections: Vec::new(),
             is_damped: false,
         };
         for element in 0..n * m {
@@ -81,6 +87,11 @@ impl Patch {
         patch.is_damped = patch.elements.iter().any(Shell::is_damped);
         patch.packs = packs(&patch.elements, |_| true, Shell::goes_with, Shell::pack);
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
+        let read = |point: &PatchPoint| {
+            let element = patch.find(point.at).0;
+            patch.section_point(point.at, &section(element / m, element % m))
+        };
+        patch.sections = points.iter().map(read).collect();
         patch
     }
 
@@ -220,15 +231,19 @@ impl Patch {
         (i * (self.lines[1].len() - 1) + j, [xi, eta])
     }
 
+    /// Derivatives of the position of the unstressed surface at a place of an element.
+    fn tangents(&self, element: usize, xi: [f64; 2]) -> [Vector3<f64>; 2] {
+        let corners = self.mesh_nodes(element).map(|node| self.corners[node]);
+        [[1, 0], [0, 1]].map(|orders| {
+            let weights = self.elements[element].weights(xi, orders);
+            Vector3::from(weighted(&weights, &corners))
+        })
+    }
+
     /// The frame of a point: means over its pad of place and derivatives.
     fn frame(&self, point: &PatchPoint) -> PatchFrame {
         let (element, xi) = self.find(point.at);
-        let corners = self.mesh_nodes(element).map(|node| self.corners[node]);
-        let tangents = [[1, 0], [0, 1]].map(|orders| {
-            let weights = self.elements[element].weights(xi, orders);
-            Vector3::from(weighted(&weights, &corners))
-        });
-        let by = axis_components(&tangents, 0.0);
+        let by = axis_components(&self.tangents(element, xi), 0.0);
         let mut frame = PatchFrame::default();
         let mut total = 0.0;
         for (at, weight) in self.places(point) {

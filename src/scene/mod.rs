@@ -54,9 +54,9 @@ pub use patch::PatchGrid;
 pub use remarks::remarks;
 pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
-    DirectionSource, Ends, First, GaugeId, Incoming, Input, InputKind, JointCoordinate, LineId,
-    LoadId, MarkerId, Output, OutputTarget, Pivot, Place, Plate, PlateId, PointId, PortKind,
-    Reaction, Reduced, ReducedId, Resolved, ResolvedEdge, ResolvedMarker, ResolvedMass,
+    DirectionSource, Ends, First, GaugeId, Incoming, Input, InputKind, JointCoordinate, LayerId,
+    LineId, LoadId, MarkerId, Output, OutputTarget, Pivot, Place, Plate, PlateId, PointId,
+    PortKind, Reaction, Reduced, ReducedId, Resolved, ResolvedEdge, ResolvedMarker, ResolvedMass,
     ResolvedPort, Rigid, RigidId, SlideId, Slider,
 };
 pub use timed::{Timed, finite_at, finite_near};

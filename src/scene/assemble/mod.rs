@@ -20,8 +20,8 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
-    self, CouplingId, DirectionSource, Ends, First, GaugeId, LoadId, MarkerId, Place, PointId,
-    Resolved,
+    self, CouplingId, DirectionSource, Ends, First, GaugeId, LayerId, LoadId, MarkerId, Place,
+    PointId, Resolved,
 };
 pub use modal::ModalLine;
 
@@ -31,7 +31,8 @@ use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, Attachment, AxisRotation, BuildError, Gauge, Parts, State, StressPoint, System,
+    Angle, Attachment, AxisRotation, BuildError, Gauge, Parts, State, StressLayer, StressPoint,
+    System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -63,6 +64,8 @@ pub struct Assembled<const D: usize = 2> {
     points: Vec<StressPoint>,
     /// Gauges whose stress is read.
     gauges: Vec<Gauge>,
+    /// Heights in sections of plates and shells where stress is read.
+    layers: Vec<StressLayer>,
     /// First nodes of the interfaces of reduced bodies, by the index of the body.
     interfaces: BTreeMap<usize, Vec<usize>>,
     /// Lines that are reduced to modes, by the index of the body.
@@ -145,6 +148,11 @@ impl<const D: usize> Assembled<D> {
         &self.gauges[id.index()]
     }
 
+    /// A height in the section of a plate or shell where stress is read.
+    pub fn layer(&self, id: LayerId) -> &StressLayer {
+        &self.layers[id.index()]
+    }
+
     /// Place among the loads of the system of a load of the scene.
     pub fn load(&self, id: LoadId) -> usize {
         self.first_load + id.index()
@@ -199,6 +207,7 @@ impl Resolved<'_> {
         builder.inputs();
         builder.ports();
         let (points, gauges) = (builder.section_points(), builder.gauges());
+        let layers = builder.layers();
         let nodes = builder.parts.bodies.reference.clone();
         let lines = builder.lines;
         let bodies = self.bodies.iter().enumerate();
@@ -212,6 +221,7 @@ impl Resolved<'_> {
             system,
             points,
             gauges,
+            layers,
             error: self.scene.error_wanted(),
             rates: builder.motions.rates(&nodes),
             motions: builder.motions,

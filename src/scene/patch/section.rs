@@ -46,6 +46,38 @@ impl PatchBody {
     }
 }
 
+/// A layer of a section with the heights of its bottom and top from the middle surface, m.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionPly {
+    /// Material, thickness and angle.
+    pub ply: Ply,
+    /// Heights of bottom and top along the normal, m.
+    pub heights: [f64; 2],
+}
+
+impl PatchBody {
+    /// Layers of its section from the bottom to the top: plies, or the one of a material; none of matrices.
+    pub fn layers(&self) -> Vec<SectionPly> {
+        let plies: Vec<Ply> = match (&self.material, self.thickness) {
+            (Some(material), Some(thickness)) => vec![Ply::isotropic(
+                material.youngs_modulus,
+                material.poisson_ratio,
+                material.density,
+                thickness,
+            )],
+            _ => self.laminate.iter().map(LaminatePly::layer).collect(),
+        };
+        let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
+        let mut bottom = -0.5 * whole;
+        let layer = |ply: Ply| {
+            let heights = [bottom, bottom + ply.thickness];
+            bottom = heights[1];
+            SectionPly { ply, heights }
+        };
+        plies.into_iter().map(layer).collect()
+    }
+}
+
 impl LaminatePly {
     /// The ply as a layer of a section.
     fn layer(&self) -> Ply {

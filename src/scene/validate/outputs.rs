@@ -187,12 +187,18 @@ impl<'a> Resolved<'a> {
             Output::Orientation(of) | Output::Quaternion(of) | Output::RotationVector(of) => {
                 OutputTarget::Marker(self.require_standing(&at("marker"), &of.marker)?)
             }
-            Output::Strain(of) | Output::Curvature(of) => {
+            Output::Strain(of) => {
                 OutputTarget::Marker(self.require_flexible_marker(&at("marker"), &of.marker)?)
             }
-            Output::AxialForce(of) | Output::BendingMoment(of) | Output::ConnectivityForce(of) => {
+            Output::AxialForce(of) | Output::ConnectivityForce(of) => {
                 OutputTarget::Marker(self.require_cable_marker(&at("marker"), &of.marker)?)
             }
+            Output::Curvature(_)
+            | Output::BendingMoment(_)
+            | Output::MembraneStrain(_)
+            | Output::MembraneForce(_)
+            | Output::SurfaceStress(_)
+            | Output::PlyStress(_) => self.section_output(path, output)?,
             Output::Torque(of) => {
                 OutputTarget::Marker(self.require_rod_marker(&at("marker"), &of.marker)?)
             }
