@@ -5,6 +5,7 @@
 //! mesh nodes of the elements that they stand on.
 
 mod body;
+mod faces;
 mod point;
 mod recovery;
 #[cfg(test)]
@@ -15,13 +16,13 @@ use nalgebra::Vector3;
 use super::chain::{Pack, packs};
 use super::connectivity::Node;
 use crate::elements::shell::{
-    Corner, ElementCorners, Shell, ShellPack, ShellSection, VECTORS, axis_components,
+    Corner, ElementCorners, GaussStrains, Shell, ShellPack, ShellSection, VECTORS, axis_components,
 };
 use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
 use crate::math::space::{components, vector};
+pub use faces::{GridStress, SectionFaces};
 use point::{MeshWeights, PatchFrame};
-pub use recovery::RecoveryLine;
 use recovery::SectionPoint;
 
 /// A point of a patch that something acts on or is read at.

@@ -39,6 +39,7 @@ mod planar;
 mod planar_beams;
 mod planar_files;
 mod planar_modes;
+mod plate_sections;
 mod plates;
 mod ports;
 mod projection;

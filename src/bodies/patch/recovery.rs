@@ -1,8 +1,8 @@
 //! Strains and curvatures at a place of a patch, recovered from the elements around it to the order of displacements.
 //!
-//! Elements have cubic displacements: second derivatives at a place are of order 2 alone. What they are good for, to order 4, is the part
-//! that a line of order 1 has of curvatures along their own direction in each element, and membrane strains and twist at the places of
-//! Lobatto. A polynomial with these parts over a window of elements gives the value. Weights are products of those along both directions.
+//! Elements have cubic displacements, and second derivatives at a place are of order 2 alone. Of a component 11 or 22 the line along its own
+//! direction that is nearest to it in an element is of order 4, of 12 the values at the places of Lobatto. A polynomial with these parts over a
+//! window of elements gives the value. Weights are products of those along both directions.
 //!
 //! Source: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Eng. 33 (1992) 1331-1364 (recovery from patches); J. Barlow, Int. J. Numer.
 //! Meth. Eng. 10 (1976) 243-251 (places where stresses are best).
@@ -36,18 +36,16 @@ enum Sampling {
     Projected,
 }
 
-/// Samplings of each component of strain and of curvature along both directions.
-const SAMPLINGS: [[[Sampling; 2]; 3]; 2] = {
-    use Sampling::{Direct, Lobatto, Projected};
-    [
-        [[Lobatto, Direct], [Direct, Lobatto], [Lobatto, Lobatto]],
-        [[Projected, Direct], [Direct, Projected], [Lobatto, Lobatto]],
-    ]
-};
+/// Samplings of each component, of strains as of curvatures, along both directions.
+const SAMPLINGS: [[Sampling; 2]; 3] = [
+    [Sampling::Projected, Sampling::Direct],
+    [Sampling::Direct, Sampling::Projected],
+    [Sampling::Lobatto, Sampling::Lobatto],
+];
 
 /// Weights, for the value at a place along a direction, of the places of Gauss of elements around it, by [`Sampling`], element and place.
 #[derive(Clone, Copy, Debug)]
-pub struct RecoveryLine {
+pub(super) struct RecoveryLine {
     first: usize,
     count: usize,
     weights: [[[f64; 3]; MOST]; 3],
@@ -146,12 +144,13 @@ impl RecoveryLine {
             weights: [[[0.0; 3]; MOST]; 3],
         };
         for sampling in [Sampling::Direct, Sampling::Lobatto, Sampling::Projected] {
-            for start in starts {
-                let weights = sampling.weights(&lines[start..=start + size], at);
+            let windows = if starts[0] == starts[1] { 1 } else { 2 };
+            for start in &starts[..windows] {
+                let weights = sampling.weights(&lines[*start..=start + size], at);
                 let own = &mut made.weights[sampling as usize][start - starts[0]..];
                 let sums = own.as_flattened_mut().iter_mut();
                 sums.zip(&weights)
-                    .for_each(|(sum, weight)| *sum += 0.5 * weight);
+                    .for_each(|(sum, weight)| *sum += weight / windows as f64);
             }
         }
         made
@@ -160,7 +159,7 @@ impl RecoveryLine {
 
 impl Patch {
     /// Weights at a place along direction `k`, by its coordinate in [0, 1].
-    pub fn recovery_line(&self, k: usize, at: f64) -> RecoveryLine {
+    pub(super) fn recovery_line(&self, k: usize, at: f64) -> RecoveryLine {
         RecoveryLine::new(&self.lines[k], at * self.lengths()[k])
     }
 
@@ -211,7 +210,7 @@ impl Patch {
     }
 
     /// Covariant strains and curvatures at a place, of those at the places of Gauss of each element.
-    pub fn recovered<N: Number>(
+    pub(super) fn recovered<N: Number>(
         &self,
         lines: [&RecoveryLine; 2],
         mut strains: impl FnMut(usize) -> GaussStrains<N>,
@@ -223,7 +222,7 @@ impl Patch {
                 let of = strains((lines[0].first + i) * across + lines[1].first + j);
                 for (part, sums) in sums.iter_mut().enumerate() {
                     for (component, sum) in sums.iter_mut().enumerate() {
-                        let [first, second] = SAMPLINGS[part][component];
+                        let [first, second] = SAMPLINGS[component];
                         let first = &lines[0].weights[first as usize][i];
                         let second = &lines[1].weights[second as usize][j];
                         for (row, by) in of[part][component].iter().zip(first) {
@@ -240,6 +239,6 @@ impl Patch {
 }
 
 /// A matrix times components.
-fn times<N: Number>(matrix: &[[f64; 3]; 3], of: [N; 3]) -> [N; 3] {
+pub(super) fn times<N: Number>(matrix: &[[f64; 3]; 3], of: [N; 3]) -> [N; 3] {
     matrix.map(|row| N::of(row[0]) * of[0] + N::of(row[1]) * of[1] + N::of(row[2]) * of[2])
 }

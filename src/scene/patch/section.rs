@@ -1,5 +1,6 @@
 //! Sections of plates and shells: from a material, plies or matrices.
 
+use crate::bodies::SectionFaces;
 use crate::elements::shell::{Ply, ShellSection};
 use crate::scene::description::{LaminatePly, PatchBody, PatchStiffness};
 
@@ -75,6 +76,19 @@ impl PatchBody {
             SectionPly { ply, heights }
         };
         plies.into_iter().map(layer).collect()
+    }
+}
+
+impl PatchBody {
+    /// Bottom and top of its section; none of matrices.
+    pub fn faces(&self) -> Option<SectionFaces> {
+        let layers = self.layers();
+        let (bottom, top) = (layers.first()?, layers.last()?);
+        let of = |layer: &SectionPly, height: f64| (height, layer.ply.stiffness());
+        Some(SectionFaces {
+            section: self.section(),
+            faces: [of(bottom, bottom.heights[0]), of(top, top.heights[1])],
+        })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Sections of plates and shells that are read.
 
 use super::checks::{expected, quoted};
+use crate::bodies::SectionFaces;
 use crate::scene::Error;
 use crate::scene::description::{Output, PlyStressOutput};
 use crate::scene::resolved::{
@@ -64,18 +65,16 @@ impl<'a> Resolved<'a> {
     /// Bottom and top of the section at a marker.
     fn faces(&mut self, path: &str, name: &'a str) -> Result<OutputTarget<'a>, Error> {
         let (marker, plate) = self.require_surface_marker(path, name)?;
-        let layers = plate.body.layers();
-        let (Some(bottom), Some(top)) = (layers.first(), layers.last()) else {
+        let Some(SectionFaces { faces, .. }) = plate.body.faces() else {
             let wanted = "a marker of a plate or shell with a material or a laminate: a whole `stiffness` does not say how stress is \
                           spread through the thickness";
             return Err(expected(path, wanted, quoted(name)));
         };
         let first = LayerId(self.layers.len());
-        let ends = [(bottom, bottom.heights[0]), (top, top.heights[1])];
-        (self.layers).extend(ends.map(|(layer, height)| SectionLayer {
+        (self.layers).extend(faces.map(|(height, law)| SectionLayer {
             marker,
             height,
-            law: layer.ply.stiffness(),
+            law,
         }));
         Ok(OutputTarget::Faces(marker, first))
     }

@@ -84,14 +84,14 @@ fn surface_rows(kind: OutputKind) -> Vec<OutputRow> {
         Kind::MembraneStrain => vec![("membrane_strain", "Strain of the middle surface at {}, 12 twice", None, Surface, Read::Marker(MembraneStrain))],
         Kind::MembraneForce => vec![("membrane_force", "Force per length at {}", Some(NEWTON_PER_METRE), Surface, Read::Marker(MembraneForce))],
         Kind::PlyStress => vec![
-            ("bottom", "Stress along the axes of {} at its bottom", Some(PASCAL), Surface, Read::Layer(0, LayerStress)),
-            ("top", "Stress along the axes of {} at its top", Some(PASCAL), Surface, Read::Layer(1, LayerStress)),
+            ("bottom_stress", "Stress along the axes of {} at its bottom", Some(PASCAL), Surface, Read::Layer(0, LayerStress)),
+            ("top_stress", "Stress along the axes of {} at its top", Some(PASCAL), Surface, Read::Layer(1, LayerStress)),
         ],
         _ => vec![
-            ("surface_stress.bottom", "Stress at the bottom at {}", Some(PASCAL), Surface, Read::Layer(0, LayerStress)),
-            ("surface_stress.top", "Stress at the top at {}", Some(PASCAL), Surface, Read::Layer(1, LayerStress)),
-            ("von_mises_stress.bottom", "Equivalent stress of von Mises at the bottom at {}", Some(PASCAL), Scalar, Read::Layer(0, |of, _| LayerVonMises(of))),
-            ("von_mises_stress.top", "Equivalent stress of von Mises at the top at {}", Some(PASCAL), Scalar, Read::Layer(1, |of, _| LayerVonMises(of))),
+            ("bottom_stress", "Stress at the bottom at {}", Some(PASCAL), Surface, Read::Layer(0, LayerStress)),
+            ("top_stress", "Stress at the top at {}", Some(PASCAL), Surface, Read::Layer(1, LayerStress)),
+            ("bottom_von_mises_stress", "Equivalent stress of von Mises at the bottom at {}", Some(PASCAL), Scalar, Read::Layer(0, |of, _| LayerVonMises(of))),
+            ("top_von_mises_stress", "Equivalent stress of von Mises at the top at {}", Some(PASCAL), Scalar, Read::Layer(1, |of, _| LayerVonMises(of))),
         ],
     }
 }
@@ -292,7 +292,7 @@ fn add_plies(list: &mut List, marker: &str, first: LayerId, plies: &[u32]) {
                 continue;
             };
             let label = OutputLabel {
-                name: format!("{marker}.ply_stress.ply{number}.{key}"),
+                name: format!("{marker}.ply{number}_{key}"),
                 what: what.replace("{}", &format!("ply {number} at {marker}")),
                 unit,
             };
