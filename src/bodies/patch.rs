@@ -23,7 +23,7 @@ use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
 use crate::math::space::{components, vector};
 pub use faces::{GridStress, SectionFaces};
 use point::{MeshWeights, PatchFrame};
-use recovery::SectionPoint;
+use recovery::PatchSection;
 
 /// A point of a patch that something acts on or is read at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +47,7 @@ pub struct Patch {
     packs: Vec<Pack<ShellPack>>,
     points: Vec<PatchFrame>,
     /// What section forces at each point are read by.
-    sections: Vec<SectionPoint>,
+    sections: Vec<PatchSection>,
     is_damped: bool,
 }
 
@@ -90,7 +90,7 @@ impl Patch {
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
         let read = |point: &PatchPoint| {
             let element = patch.find(point.at).0;
-            patch.section_point(point.at, &section(element / m, element % m))
+            patch.patch_section(point.at, &section(element / m, element % m))
         };
         patch.sections = points.iter().map(read).collect();
         patch

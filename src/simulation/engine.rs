@@ -55,7 +55,7 @@ pub(super) struct Engine<const D: usize> {
     pub(super) tolerance: Tolerance,
     evaluation: Evaluation<D>,
     evaluated: Evaluated,
-    /// What stress is read by that pictures of plates and shells show; empty until it is.
+    /// Readers of the stress that pictures of plates and shells show, patch by patch; empty until it is asked for.
     pub(super) grid_stresses: Vec<Option<GridStress>>,
     derivatives: Option<Box<Derivatives<D>>>,
     derived: Derived,

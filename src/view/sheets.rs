@@ -186,9 +186,10 @@ mod tests {
             "bodies": [{"name": "flag", "element": "plate", "mesh": [3, 2],
                 "surface": {"rectangle": {"corner": [0.3, 0, 0], "edges": [[1, 0, 0], [0, 0.5, 0]]}},
                 "material": {"youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000, "damping_time": 1e-3}, "thickness": 0.01,
-                "markers": {"tip": [1, 1]}}],
+                "markers": {"tip": [1, 1], "mast": [0, 0]}}],
             "joints": [{"name": "mast", "kind": "pinned", "edges": ["ground", "flag.s1=0"]}],
-            "outputs": [{"kind": "position", "marker": "flag.tip"}],
+            "outputs": [{"kind": "position", "marker": "flag.tip"}, {"kind": "surface_stress", "marker": "flag.tip"},
+                {"kind": "surface_stress", "marker": "flag.mast"}],
             "experiment": {"stop_time": 0.3, "step": 0.01}});
         let scene = Scene::from_json(&scene.to_string()).expect("a valid scene");
         Recording::new(&scene, None, &Limits::PAGE, &mut |_, _| ()).expect("a run")
@@ -213,15 +214,49 @@ mod tests {
         for (frame, row) in recording.rows.iter().enumerate() {
             let place = surface.places(&recording, frame)[0];
             let drawn = &recording.poses[frame][0].surface;
-            let tip = Vector3::from_column_slice(row);
+            let tip = Vector3::from_column_slice(&row[..3]);
             assert!((Vector3::from(drawn[drawn.len() - 1]) - tip).norm() < 1e-12);
             for (point, at) in drawn.iter().enumerate() {
                 let found = place.at(&surface.local(point, &recording, frame));
                 assert!((found - Vector3::from(*at)).norm() < 2e-3, "{frame}");
             }
-            most = most.max((tip - Vector3::from_column_slice(&recording.rows[0])).norm());
+            most = most.max((tip - Vector3::from_column_slice(&recording.rows[0][..3])).norm());
         }
         assert!(most > 0.1, "{most}");
+    }
+
+    /// Stress at points is what outputs read there, and modes of a page give it back.
+    #[test]
+    fn stress_at_points_is_that_of_outputs() {
+        let recording = recording();
+        let surface = &surfaces(&recording)[0];
+        let stress = recording.sheets[0]
+            .as_ref()
+            .and_then(|of| of.stress.as_ref());
+        let stress = stress.expect("a section whose stress is known");
+        let mut most: f64 = 0.0;
+        for (frame, row) in recording.rows.iter().enumerate() {
+            let points = &recording.stresses[frame][0];
+            // The corners of the grid, with their components at both faces and their stresses of von Mises.
+            for (point, first) in [(points.len() - 1, 3), (0, 11)] {
+                let own = points[point];
+                let read = &row[first..first + 8];
+                for (found, read) in own.iter().zip(read) {
+                    assert!((found - read).abs() < 1e-9 * stress.most, "{found} {read}");
+                }
+                let told = surface.stresses[frame][point];
+                assert!((told - read[6].max(read[7])).abs() < 1e-9 * stress.most);
+                let modes = stress.modes.modes.iter();
+                let amplitudes = &stress.modes.amplitudes[frame];
+                for (k, own) in own.iter().enumerate() {
+                    let parts = modes.clone().zip(amplitudes);
+                    let sum: f64 = parts.map(|(mode, by)| mode[point][k] * by).sum();
+                    assert!((sum - own).abs() < 4e-3 * stress.most, "{sum} {own}");
+                }
+            }
+            most = surface.stresses[frame].iter().copied().fold(most, f64::max);
+        }
+        assert!(most == stress.most && most > 1e3, "{most}");
     }
 
     /// Pages and glTF hold the modes as those of a reduced body.
@@ -237,6 +272,10 @@ mod tests {
             track["width"].as_u64().expect("a number") as usize
         };
         assert_eq!([width("amplitudes"), width("modes")], [modes, 3 * modes]);
+        let stress = &skin["stress"];
+        assert_eq!(stress["hasFaces"], json!(true));
+        let track = &header["tracks"][stress["modes"].as_u64().expect("a track") as usize];
+        assert_eq!(track["rows"], json!(13 * 9));
         let marker = &header["markers"][0]["modes"];
         assert_eq!(marker.as_array().map(Vec::len), Some(3 * modes));
         let file = gltf(&recording);

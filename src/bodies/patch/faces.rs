@@ -14,7 +14,7 @@ pub struct SectionFaces {
     pub faces: [(f64, Stiffness); 2],
 }
 
-/// What stress at a grid of points is read by.
+/// Reader of stress at a grid of points.
 #[derive(Clone, Debug)]
 pub struct GridStress {
     faces: [(f64, Stiffness); 2],
@@ -26,7 +26,7 @@ pub struct GridStress {
 }
 
 impl Patch {
-    /// What stress at a grid of points is read by, whose coordinates along both directions are in [0, 1].
+    /// Reader of stress at a grid of points, whose coordinates along both directions are in [0, 1].
     pub fn grid_stress(&self, of: &SectionFaces, at: &[Vec<f64>; 2]) -> GridStress {
         let line = |k: usize| at[k].iter().map(move |at| self.recovery_line(k, *at));
         let points = at[0].iter().flat_map(|a| at[1].iter().map(|b| [*a, *b]));

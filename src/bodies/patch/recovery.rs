@@ -53,7 +53,7 @@ pub(super) struct RecoveryLine {
 
 /// A place of a patch where strains are read, with its section.
 #[derive(Clone, Debug)]
-pub(super) struct SectionPoint {
+pub(super) struct PatchSection {
     lines: [RecoveryLine; 2],
     /// Takes covariant components to those along the axes of the section.
     to_axes: [[f64; 3]; 3],
@@ -164,9 +164,9 @@ impl Patch {
     }
 
     /// The section at a place, by material coordinates, with what strains there are recovered by.
-    pub(super) fn section_point(&self, at: [f64; 2], section: &ShellSection) -> SectionPoint {
+    pub(super) fn patch_section(&self, at: [f64; 2], section: &ShellSection) -> PatchSection {
         let (element, xi) = self.find(at);
-        SectionPoint {
+        PatchSection {
             lines: [0, 1].map(|k| self.recovery_line(k, at[k])),
             to_axes: section.axes_transformation(&self.tangents(element, xi)),
             section: *section,
@@ -181,7 +181,7 @@ impl Patch {
         x: &[Node<D, N>],
         v: Option<&[Node<D, N>]>,
     ) -> [[N; 3]; 2] {
-        let SectionPoint { lines, to_axes, .. } = &self.sections[point];
+        let PatchSection { lines, to_axes, .. } = &self.sections[point];
         let strains = |element: usize| {
             let rates = v.map(|v| self.element(element, v));
             self.elements[element].strains(&self.element(element, x), rates.as_ref())

@@ -1,4 +1,6 @@
 //! Strains and curvatures of an element at its places of Gauss, which section forces and stress are recovered from.
+//!
+//! Source: J. Kiendl et al., Comput. Methods Appl. Mech. Eng. 198 (2009), Eqs. 6-19 (strains and curvatures).
 
 use super::grid::Grid;
 use super::kernel::{Single, curvature, strain_rate};

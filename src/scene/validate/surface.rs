@@ -1,4 +1,4 @@
-//! Sections of plates and shells that are read.
+//! Sections of lines, plates and shells that are read.
 
 use super::checks::{expected, quoted};
 use crate::bodies::SectionFaces;
@@ -12,7 +12,7 @@ use crate::scene::resolved::{
 const MOST_PLIES: usize = 200;
 
 impl<'a> Resolved<'a> {
-    /// Resolves an output of the section of a plate or shell, or of a line where lines have one of the same kind.
+    /// Resolves an output of a section, of a line or of a plate or shell.
     ///
     /// # Errors
     /// A marker that does not exist or is on a body without such a section, a section whose stress is not known, or plies that are not there.
@@ -22,17 +22,19 @@ impl<'a> Resolved<'a> {
         output: &'a Output,
     ) -> Result<OutputTarget<'a>, Error> {
         let place = format!("{path}.marker");
+        let name = output.names()[0].unwrap_or_default();
+        let is_on_surface = self.is_on_surface(name);
         let marker = match output {
-            Output::Curvature(of) if !self.is_on_surface(&of.marker) => {
-                self.require_flexible_marker(&place, &of.marker)?
+            Output::Strain(_) => self.require_flexible_marker(&place, name)?,
+            Output::AxialForce(_) | Output::ConnectivityForce(_) => {
+                self.require_cable_marker(&place, name)?
             }
-            Output::BendingMoment(of) if !self.is_on_surface(&of.marker) => {
-                self.require_cable_marker(&place, &of.marker)?
+            Output::Torque(_) => self.require_rod_marker(&place, name)?,
+            Output::Curvature(_) if !is_on_surface => self.require_flexible_marker(&place, name)?,
+            Output::BendingMoment(_) if !is_on_surface => {
+                self.require_cable_marker(&place, name)?
             }
-            _ => {
-                let name = output.names()[0].unwrap_or_default();
-                self.require_surface_marker(&place, name)?.0
-            }
+            _ => self.require_surface_marker(&place, name)?.0,
         };
         match output {
             Output::SurfaceStress(of) => self.faces(&place, &of.marker),
