@@ -7,7 +7,7 @@ use super::connectivity::{Node, add_node, no_node};
 use super::frame::{along, axes_at, completed, rotation_axes};
 use super::marker::Marker;
 use super::reduced::Site;
-use super::{Bodies, Elimination, RodChain};
+use super::{Bodies, Elimination, Patch, RodChain};
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, normalized, quaternion};
 use crate::math::space::{Vector, components, is_nothing, vector};
@@ -126,6 +126,14 @@ impl<const D: usize> Bodies<D> {
     /// Whether a node is the first of a frame, which its axes begin in.
     pub fn has_axes(&self, node: usize) -> bool {
         self.kind(node) == NodeKind::Point && self.holds(node)
+    }
+
+    /// The plate or shell that a marker is on, and the index of its point there; none of a marker elsewhere.
+    pub fn patch_point(&self, marker: &Marker) -> Option<(&Patch, usize)> {
+        match self.owner(marker.nodes[0]) {
+            NodeOwner::Point(index, point, _) => Some((&self.patches[index], point)),
+            _ => None,
+        }
     }
 
     /// The place of the frame that a node belongs to, in the order of the state's.

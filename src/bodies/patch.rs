@@ -5,7 +5,9 @@
 //! mesh nodes of the elements that they stand on.
 
 mod body;
+mod faces;
 mod point;
+mod recovery;
 #[cfg(test)]
 mod tests;
 
@@ -14,13 +16,15 @@ use nalgebra::Vector3;
 use super::chain::{Pack, packs};
 use super::connectivity::Node;
 use crate::elements::shell::{
-    AREA_PLACES, Corner, ElementCorners, Shell, ShellPack, ShellSection, VECTORS, area_place,
-    axis_components,
+    AREA_PLACES, Corner, ElementCorners, GaussStrains, Shell, ShellPack, ShellSection, VECTORS,
+    area_place, axis_components,
 };
 use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, QuadraturePoint};
 use crate::math::space::{components, vector};
+pub use faces::{GridStress, SectionFaces};
 use point::{MeshWeights, PatchFrame};
+use recovery::PatchSection;
 
 /// A point of a patch that something acts on or is read at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +47,8 @@ pub struct Patch {
     elements: Vec<Shell>,
     packs: Vec<Pack<ShellPack>>,
     points: Vec<PatchFrame>,
+    /// What section forces at each point are read by.
+    sections: Vec<PatchSection>,
     is_damped: bool,
 }
 
@@ -64,6 +70,7 @@ impl Patch {
             elements: Vec::new(),
             packs: Vec::new(),
             points: Vec::new(),
+            sections: Vec::new(),
             is_damped: false,
         };
         let unit = patch.unit();
@@ -82,6 +89,11 @@ impl Patch {
         patch.is_damped = patch.elements.iter().any(Shell::is_damped);
         patch.packs = packs(&patch.elements, |_| true, Shell::goes_with, Shell::pack);
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
+        let read = |point: &PatchPoint| {
+            let element = patch.find(point.at).0;
+            patch.patch_section(point.at, &section(element / m, element % m))
+        };
+        patch.sections = points.iter().map(read).collect();
         patch
     }
 
@@ -249,15 +261,19 @@ impl Patch {
         (i * (self.lines[1].len() - 1) + j, [xi, eta])
     }
 
+    /// Derivatives of the position of the unstressed surface at a place of an element.
+    fn tangents(&self, element: usize, xi: [f64; 2]) -> [Vector3<f64>; 2] {
+        let corners = self.mesh_nodes(element).map(|node| self.corners[node]);
+        [[1, 0], [0, 1]].map(|orders| {
+            let weights = self.elements[element].weights(xi, orders);
+            Vector3::from(weighted(&weights, &corners))
+        })
+    }
+
     /// The frame of a point: means over its pad of place and derivatives.
     fn frame(&self, point: &PatchPoint) -> PatchFrame {
         let (element, xi) = self.find(point.at);
-        let corners = self.mesh_nodes(element).map(|node| self.corners[node]);
-        let tangents = [[1, 0], [0, 1]].map(|orders| {
-            let weights = self.elements[element].weights(xi, orders);
-            Vector3::from(weighted(&weights, &corners))
-        });
-        let by = axis_components(&tangents, 0.0);
+        let by = axis_components(&self.tangents(element, xi), 0.0);
         let mut frame = PatchFrame::default();
         let mut total = 0.0;
         for (at, weight) in self.places(point) {

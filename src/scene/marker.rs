@@ -44,6 +44,7 @@ impl<'a> Resolved<'a> {
             angles: Vec::new(),
             points: Vec::new(),
             gauges: Vec::new(),
+            layers: Vec::new(),
             couplings: 0,
             numbers: 0,
             bodies_by_name: Default::default(),

@@ -55,7 +55,7 @@ pub use remarks::remarks;
 pub use resolved::{
     AngleId, BodyReference, Cable, ConstraintOwner, ConstraintOwnerId, Coupling, CouplingId,
     DirectionSource, EdgeBase, Ends, First, GaugeId, Incoming, Input, InputKind, JointCoordinate,
-    LineId, LoadId, MarkerId, Output, OutputTarget, Pivot, Place, Plate, PlateId, PointId,
+    LayerId, LineId, LoadId, MarkerId, Output, OutputTarget, Pivot, Place, Plate, PlateId, PointId,
     PortKind, Reaction, Reduced, ReducedId, Resolved, ResolvedEdge, ResolvedMarker, ResolvedMass,
     ResolvedPort, Rigid, RigidId, SlideId, Slider,
 };

@@ -9,7 +9,7 @@ use super::description::{FileBody, LineBody, PatchBody, Port as GivenPort, Rigid
 use super::joints::{ResolvedGear, ResolvedJoint};
 use super::loads::{Action, ResolvedLoad};
 use super::motions::{Driven, ResolvedMotion};
-pub use outputs::{Output, OutputTarget, Reaction, ResolvedGauge, SectionPoint};
+pub use outputs::{Output, OutputTarget, Reaction, ResolvedGauge, SectionLayer, SectionPoint};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
 macro_rules! numbers {
@@ -40,6 +40,8 @@ numbers! {
     PointId;
     /// A gauge whose stress is read.
     GaugeId;
+    /// A height in the section of a plate or shell where stress is read.
+    LayerId;
     /// A load.
     LoadId;
     /// A spring and damper of a port.
@@ -50,6 +52,13 @@ numbers! {
     ReducedId;
     /// A plate or shell, by its place among all bodies.
     PlateId;
+}
+
+impl LayerId {
+    /// Returns the layer `count` places after this one.
+    pub fn after(self, count: usize) -> Self {
+        Self(self.0 + count)
+    }
 }
 
 impl PointId {
@@ -432,6 +441,8 @@ pub struct Resolved<'a> {
     pub angles: Vec<DirectionSource<'a>>,
     /// Points of sections whose stress is read, by [`PointId`].
     pub points: Vec<SectionPoint<'a>>,
+    /// Heights in sections of plates and shells where stress is read, by [`LayerId`].
+    pub layers: Vec<SectionLayer<'a>>,
     /// Gauges whose stress is read, by [`GaugeId`].
     pub gauges: Vec<ResolvedGauge<'a>>,
     /// Number of couplings.

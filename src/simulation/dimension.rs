@@ -71,6 +71,7 @@ handed_on! {
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
     fn drawn_poses([&] self) -> Vec<Pose>;
     fn section_forces([&mut] self, state: &State, inputs: &Inputs) -> Vec<Vec<[f64; 3]>>;
+    fn face_stresses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Vec<[f64; 6]>>;
 }
 
 impl AnyEngine {

@@ -9,6 +9,7 @@ use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
 use super::{Error, Quantity, Report, Spectra, StepFailure, Variable, method};
+use crate::bodies::GridStress;
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::math::space::components;
@@ -54,6 +55,8 @@ pub(super) struct Engine<const D: usize> {
     pub(super) tolerance: Tolerance,
     evaluation: Evaluation<D>,
     evaluated: Evaluated,
+    /// Readers of the stress that pictures of plates and shells show, patch by patch; empty until it is asked for.
+    pub(super) grid_stresses: Vec<Option<GridStress>>,
     derivatives: Option<Box<Derivatives<D>>>,
     derived: Derived,
     pub(super) watch: Watch,
@@ -135,6 +138,7 @@ impl<const D: usize> Engine<D> {
             mesh: MeshWatch::default(),
             propeller: PropellerWatch::new(resolved),
             deformation: DeformationWatch::new(resolved),
+            grid_stresses: Vec::new(),
             derivatives: None,
             derived: Derived::Nothing,
             wanted: Spectra::wanted(variables),

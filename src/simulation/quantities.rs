@@ -11,8 +11,8 @@ use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{axis, components};
 use crate::scene::{
-    Along, AngleId, Assembled, ConstraintOwnerId, CouplingId, GaugeId, LoadId, MarkerId, PointId,
-    SlideId,
+    Along, AngleId, Assembled, ConstraintOwnerId, CouplingId, GaugeId, LayerId, LoadId, MarkerId,
+    PointId, SlideId,
 };
 use crate::system::{Attachment, Evaluation, System, von_mises};
 
@@ -63,6 +63,18 @@ pub enum Quantity {
     StressTensor(GaugeId, usize),
     /// Equivalent stress of von Mises at a gauge.
     VonMisesStress(GaugeId),
+    /// Component 11, 22 or twice 12 of the membrane strain of a plate or shell at a marker.
+    MembraneStrain(MarkerId, usize),
+    /// Component 11, 22 or twice 12 of the change of curvature of a plate or shell at a marker.
+    SurfaceCurvature(MarkerId, usize),
+    /// Component 11, 22 or 12 of the force per length in a plate or shell at a marker.
+    MembraneForce(MarkerId, usize),
+    /// Component 11, 22 or 12 of the moment per length in a plate or shell at a marker.
+    SurfaceMoment(MarkerId, usize),
+    /// Component 11, 22 or 12 of the stress at a height of a plate or shell.
+    LayerStress(LayerId, usize),
+    /// Equivalent stress of von Mises at a height of a plate or shell.
+    LayerVonMises(LayerId),
     /// Component of the force that the part of a cable before a marker exerts on the part after it.
     ConnectivityForce(MarkerId, usize),
     /// Where a slide is on its cable.
@@ -172,6 +184,16 @@ pub(super) fn value<const D: usize, N: Number>(
         TorsionStress(id) => values.torsion_stress(system, assembled.point(id)),
         StressTensor(id, k) => values.stress_tensor(system, assembled.gauge(id))[k],
         VonMisesStress(id) => von_mises(values.stress_tensor(system, assembled.gauge(id))),
+        MembraneStrain(id, k) => values.surface_strain(system, at(id))[0][k],
+        SurfaceCurvature(id, k) => values.surface_strain(system, at(id))[1][k],
+        MembraneForce(id, k) => values.surface_forces(system, at(id))[0][k],
+        SurfaceMoment(id, k) => values.surface_forces(system, at(id))[1][k],
+        LayerStress(id, k) => values.layer_stress(system, assembled.layer(id))[k],
+        LayerVonMises(id) => {
+            let [xx, yy, xy] = values.layer_stress(system, assembled.layer(id));
+            let none = N::of(0.0);
+            von_mises([xx, yy, none, xy, none, none])
+        }
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, ..) | ReactionMoment(joint, ..) => {
@@ -370,7 +392,11 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         }
         AngularVelocity(..) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
         AngularAcceleration(..) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
-        Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),
+        Strain(_) | Curvature(_) | MembraneStrain(..) | SurfaceCurvature(..) => {
+            (Kinematics, |_| Some(0.0))
+        }
+        MembraneForce(..) => (Kinematics, |by| Some(by.force / by.size)),
+        SurfaceMoment(..) => (Kinematics, |by| Some(by.force)),
         AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) | GearForce(_) => {
             (Dynamics, |by| Some(by.force))
         }
@@ -378,7 +404,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
             (Dynamics, |by| Some(by.force * by.size))
         }
         Stress(_) | TorsionStress(_) => (Dynamics, |by| Some(by.force / (by.size * by.size))),
-        StressTensor(..) | VonMisesStress(_) => {
+        StressTensor(..) | VonMisesStress(_) | LayerStress(..) | LayerVonMises(_) => {
             (Kinematics, |by| Some(by.force / (by.size * by.size)))
         }
         CouplingForce(..) | LoadForce(..) => (Kinematics, |by| Some(by.force)),

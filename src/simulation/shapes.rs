@@ -6,7 +6,9 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::bodies::{LineStance, Marker, Node, Patch, ReducedBody, axes_at, combined, completed};
+use crate::bodies::{
+    LineStance, Marker, Node, Patch, ReducedBody, SectionFaces, axes_at, combined, completed,
+};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId, ModalLine, PatchGrid};
 use crate::system::{Evaluation, State};
@@ -138,6 +140,18 @@ impl Simulation {
         Ok(forces.unwrap_or_default())
     }
 
+    /// Stress 11, 22 and 12 at the bottom and then at the top of every plate or shell now, at the points that it is drawn with and along the
+    /// axes of its section, Pa, in the order of the bodies; none of another body and of a section that is given as matrices.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn face_stresses(&mut self) -> Result<Vec<Vec<[f64; 6]>>, Error> {
+        self.refresh()?;
+        let engine = self.engine.as_mut();
+        let stresses = engine.map(|engine| engine.face_stresses(&self.state, &self.inputs));
+        Ok(stresses.unwrap_or_default())
+    }
+
     /// The value of a quantity now, whether it is an output or not.
     ///
     /// # Errors
@@ -231,6 +245,41 @@ impl<const D: usize> Engine<D> {
     /// How all bodies stand where the scene draws them.
     pub(super) fn drawn_poses(&self) -> Vec<Pose> {
         poses(&self.assembled, &self.assembled.nodes)
+    }
+
+    /// Stress at the bottom and the top of all plates and shells.
+    pub(super) fn face_stresses(&mut self, state: &State, inputs: &Inputs) -> Vec<Vec<[f64; 6]>> {
+        let patches = self.assembled.system.bodies().patches();
+        if self.grid_stresses.len() < patches.len() {
+            let read = |(patch, faces): (&Patch, &Option<SectionFaces>)| {
+                let grid = PatchGrid::new(patch.divisions());
+                let faces = faces.as_ref()?;
+                Some(patch.grid_stress(faces, &grid.lines_at()))
+            };
+            self.grid_stresses = patches
+                .iter()
+                .zip(&self.assembled.faces)
+                .map(read)
+                .collect();
+        }
+        let mut readers = std::mem::take(&mut self.grid_stresses);
+        let (assembled, values) = self.placed(state, inputs);
+        let patches = assembled.system.bodies().patches();
+        let mut found: Vec<Vec<[f64; 6]>> = (patches.iter().zip(&mut readers))
+            .map(|(patch, reader)| match reader {
+                Some(reader) => reader.read(patch, (&values.x, &values.v)),
+                None => Vec::new(),
+            })
+            .collect();
+        let of = |body: usize| {
+            let patch = assembled.patch_place(body);
+            patch.map_or_else(Vec::new, |patch| std::mem::take(&mut found[patch]))
+        };
+        let all = (0..assembled.system.bodies().ranges.len())
+            .map(of)
+            .collect();
+        self.grid_stresses = readers;
+        all
     }
 
     /// Axial force and bending moments at the nodes of all flexible bodies.

@@ -32,6 +32,7 @@ pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
 pub use outputs::gauge::{Gauge, von_mises};
 pub use outputs::stress::StressPoint;
+pub use outputs::surface::StressLayer;
 pub use signal::{Drive, InputSignal, Signal, Trajectory, moved};
 pub use spectra::fastest::fastest;
 pub use spectra::modes::{Mode, damping_along, modes};

@@ -9,6 +9,7 @@ mod header;
 mod numbers;
 mod picture;
 mod recording;
+mod run_modes;
 mod sections;
 mod sheets;
 mod skins;

@@ -81,6 +81,8 @@ pub struct Recording {
     pub(super) drawn: Vec<Pose>,
     /// Axial force (N) and bending moments (N m) at the nodes of all bodies, in every frame.
     pub(super) forces: Vec<Vec<Vec<[f64; 3]>>>,
+    /// Stress at the bottom and the top of plates and shells, by body and point, in every frame, Pa.
+    pub(super) stresses: Vec<Vec<Vec<[f64; 6]>>>,
     /// Outputs.
     pub(super) outputs: Vec<RecordedOutput>,
     /// Inputs that nothing moves.
@@ -155,7 +157,9 @@ impl Recording {
         let bodies = self.drawn.iter_mut().enumerate();
         let sheets = bodies.map(|(body, drawn)| {
             let is_sheet = !drawn.surface.is_empty();
-            is_sheet.then(|| SheetModes::of(drawn, &mut self.poses, body))
+            let stresses: Vec<&[[f64; 6]]> =
+                (self.stresses.iter().map(|bodies| &bodies[body][..])).collect();
+            is_sheet.then(|| SheetModes::of(drawn, &mut self.poses, body).with_stress(&stresses))
         });
         self.sheets = sheets.collect();
         self
@@ -224,6 +228,7 @@ impl UnfinishedRecording {
                 scene,
                 drawn,
                 forces: Vec::new(),
+                stresses: Vec::new(),
                 held,
                 times: Vec::new(),
                 poses: Vec::new(),
@@ -283,6 +288,7 @@ impl UnfinishedRecording {
     fn frame(&mut self, actions: &[MovingAction<'_>]) -> Result<(), String> {
         let poses = self.simulation.poses().map_err(|error| error.to_string())?;
         let forces = self.simulation.section_forces();
+        let stresses = self.simulation.face_stresses();
         let values = actions
             .iter()
             .map(|action| action.values(&mut self.simulation));
@@ -292,6 +298,9 @@ impl UnfinishedRecording {
         self.recording
             .forces
             .push(forces.map_err(|error| error.to_string())?);
+        self.recording
+            .stresses
+            .push(stresses.map_err(|error| error.to_string())?);
         self.recording
             .acting
             .push(values.map_err(|error| error.to_string())?);

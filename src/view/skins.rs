@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use super::numbers::{Numbers, list};
 use super::recording::Recording;
-use super::sheets::EXPECTED;
+use super::sheets::{EXPECTED, PAINTED};
 use crate::elements::reduced::Interface;
 use crate::picture::Skin;
 use crate::scene::{BodyReference, Container, Scene};
@@ -202,8 +202,11 @@ pub(super) fn size(scene: &Scene) -> [usize; 2] {
     let sheets = scene.bodies.iter().filter_map(|body| body.patch());
     let sheets = sheets.map(|body| {
         let grid = body.grid();
-        let points = grid.count() * 3 * 2 * (1 + EXPECTED);
-        [points + grid.triangles().len() * 3 * CORNER, EXPECTED]
+        let has_stress = grid.count() <= PAINTED && body.stiffness.is_none();
+        let stress = if has_stress { EXPECTED } else { 0 };
+        let points = grid.count() * 3 * 2 * (1 + EXPECTED + 2 * stress);
+        let corners = grid.triangles().len() * 3 * CORNER;
+        [points + corners, EXPECTED + stress]
     });
     let all = skins.chain(sheets);
     all.fold([0, 0], |[bytes, numbers], [own, of_frame]| {

@@ -6,6 +6,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::header::mesh;
 use super::recording::Recording;
 use super::sections::{has_corners, sections};
+use super::sheets::largest_von_mises;
 use super::skins::{MovingStress, seen_modes};
 use crate::elements::shape;
 use crate::math::rotation::{self, Quaternion};
@@ -55,7 +56,8 @@ pub(super) struct BodySurface {
     pub faces: Vec<Vec<usize>>,
     /// Modes that move points of a reduced body: their places in the file, and displacements of all points, m.
     pub modes: Vec<(usize, Vec<[f64; 3]>)>,
-    /// Stress of von Mises at all points of a reduced body whose file has stresses, frame by frame, Pa; else none.
+    /// Stress of von Mises at all points of a reduced body whose file has stresses, and of a plate or shell the larger one of both faces, frame
+    /// by frame, Pa; else none.
     pub stresses: Vec<Vec<f64>>,
     /// Where every place is; none of a rigid body, which has one place.
     stations: Vec<LineStation>,
@@ -412,8 +414,12 @@ fn sheet(recording: &Recording, patch: &PatchBody, body: usize) -> BodySurface {
     let modes = sheet.map_or(&[][..], |sheet| &sheet.modes);
     let ways = |of: &Vec<Vector3<f64>>| of.iter().map(|way| (*way).into()).collect();
     let modes = modes.iter().map(ways).enumerate().collect();
+    let frames = recording.stresses.iter().map(|bodies| &bodies[body]);
+    let frames = frames.filter(|points| !points.is_empty());
+    let stresses = frames.map(|points| points.iter().map(largest_von_mises).collect());
     BodySurface {
         modes,
+        stresses: stresses.collect(),
         ..built.rigid(&patch.name, body)
     }
 }

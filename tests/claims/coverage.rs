@@ -46,9 +46,9 @@ const TOGETHER: [&str; 7] = [
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
-/// whose element is chosen says is what the element says that it becomes (`elements.rs`). Plates and shells have theirs in `patches.rs`. What needs a file has its claims in `reduced.rs`,
+/// whose element is chosen says is what the element says that it becomes (`elements.rs`). Plates and shells have theirs in `patches.rs` and `tests/laws/plate_sections.rs`. What needs a file has its claims in `reduced.rs`,
 /// what reduces lines to modes in `tests/laws/modal_lines.rs` and `planar_modes.rs`.
-const OWN: [&str; 27] = [
+const OWN: [&str; 32] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
@@ -77,6 +77,10 @@ const OWN: [&str; 27] = [
     "initial.loads{pressure}",
     "initial.loads{area_force}",
     "outputs{stress_tensor}",
+    "outputs{membrane_strain}",
+    "outputs{membrane_force}",
+    "outputs{surface_stress}",
+    "outputs{ply_stress}",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];

@@ -1090,13 +1090,16 @@ class StrainOutput(Part):
 
 class CurvatureOutput(Part):
     """
-    Curvature at a marker of a cable that bends, in the strain measure of the body, 1/m; in space its size.
+    Curvature at a marker of a cable that bends, in the strain measure of the body, 1/m; in space its size. At a marker of a plate or
+    shell the change of curvature, 1/m: components 11, 22 and twice 12 along the axes of its section, positive where the surface
+    curves towards its normal.
     """
 
     kind: Literal["curvature"] = "curvature"
     marker: StrictStr
     """
-    Marker of the flexible cable, rod or beam at which the strain is read, `body.marker`.
+    Marker of the flexible cable, rod or beam, or of the plate or shell, at which the curvature is read, `body.marker`. That of a pad is
+    read in its middle.
     """
 
 
@@ -1117,13 +1120,74 @@ class BendingMomentOutput(Part):
     """
     Bending moment at a marker of a cable, N m: of the part after on the part before, positive where
     curvature is, from the balance of moments with inertia; of a rod the whole moment, with the torque. Where a load or joint acts,
-    that after it.
+    that after it. At a marker of a plate or shell the moment per length, N m/m: components 11, 22 and 12 along the axes of its section,
+    positive where curvature is, with that of damping.
     """
 
     kind: Literal["bending_moment"] = "bending_moment"
     marker: StrictStr
     """
-    Marker of the cable, rod or beam at which the section force is read, `body.marker`.
+    Marker of the cable, rod or beam, or of the plate or shell, at which the bending moment is read, `body.marker`. That of a pad is read
+    in its middle.
+    """
+
+
+class MembraneStrainOutput(Part):
+    """
+    Strain of the middle surface at a marker of a plate or shell: components 11, 22 and twice 12 along the axes of its section.
+    """
+
+    kind: Literal["membrane_strain"] = "membrane_strain"
+    marker: StrictStr
+    """
+    Marker of the plate or shell whose section is read, `body.marker`. That of a pad is read in its middle.
+    """
+
+
+class MembraneForceOutput(Part):
+    """
+    Force per length in a plate or shell at a marker, N/m: components 11, 22 and 12 along the axes of its section, tension positive,
+    with that of damping.
+    """
+
+    kind: Literal["membrane_force"] = "membrane_force"
+    marker: StrictStr
+    """
+    Marker of the plate or shell whose section is read, `body.marker`. That of a pad is read in its middle.
+    """
+
+
+class SurfaceStressOutput(Part):
+    """
+    Stress at the bottom and at the top of a plate or shell at a marker, Pa: components 11, 22 and 12 along the axes of its section,
+    tension positive, with that of damping, and the equivalent stresses of von Mises. The normal of the surface points to the top. Not
+    of sections that are given as `stiffness`. Derivatives of the equivalent stress are zero where there is no stress.
+    """
+
+    kind: Literal["surface_stress"] = "surface_stress"
+    marker: StrictStr
+    """
+    Marker of the plate or shell whose section is read, `body.marker`. That of a pad is read in its middle.
+    """
+
+
+Ply = TypeAliasType("Ply", Annotated[StrictInt, Field(ge=1)])
+
+
+class PlyStressOutput(Part):
+    """
+    Stress at the bottom and at the top of `plies` of a plate or shell with a `laminate` at a marker, Pa: along the fibres, across them
+    and shear, tension positive, with that of damping.
+    """
+
+    kind: Literal["ply_stress"] = "ply_stress"
+    marker: StrictStr
+    """
+    Marker of the plate or shell whose plies are read, `body.marker`. That of a pad is read in its middle.
+    """
+    plies: Annotated[list[Ply], Field(max_length=200, min_length=1)]
+    """
+    Numbers of the plies, from 1 at the bottom on. Names of their variables hold these.
     """
 
 
@@ -1435,6 +1499,10 @@ Output = TypeAliasType(
         | CurvatureOutput
         | AxialForceOutput
         | BendingMomentOutput
+        | MembraneStrainOutput
+        | MembraneForceOutput
+        | SurfaceStressOutput
+        | PlyStressOutput
         | TorqueOutput
         | StressOutput
         | TorsionStressOutput

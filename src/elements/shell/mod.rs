@@ -8,6 +8,7 @@ mod grid;
 mod kernel;
 mod mass;
 mod section;
+mod strain;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -26,6 +27,7 @@ use kernel::{Group, Kernel, Read, Single, curvature, metric};
 pub use mass::Mass;
 pub use section::{Ply, ShellSection, Stiffness};
 use section::{rotated, strain_transformation};
+pub use strain::GaussStrains;
 use tangent::{PAIRS, Part, Tangent};
 
 /// Vectors at a corner.

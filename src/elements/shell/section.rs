@@ -2,7 +2,9 @@
 //!
 //! Source: R. M. Jones, Mechanics of Composite Materials (1999), Eqs. 4.15-4.24 (laminates), 2.61 and 2.80 (plane stress along rotated axes).
 
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{Matrix3, Matrix6, Vector3};
+
+use super::axis_components;
 
 /// A symmetric matrix over components 11, 22 and 12.
 pub type Stiffness = [[f64; 3]; 3];
@@ -43,17 +45,49 @@ pub struct Ply {
 }
 
 impl Ply {
+    /// A layer of one isotropic material: Young's modulus (Pa), Poisson's ratio, density (kg/m^3), thickness (m).
+    pub fn isotropic(
+        youngs_modulus: f64,
+        poisson_ratio: f64,
+        density: f64,
+        thickness: f64,
+    ) -> Self {
+        Self {
+            youngs_moduli: [youngs_modulus; 2],
+            poisson_ratio,
+            shear_modulus: 0.5 * youngs_modulus / (1.0 + poisson_ratio),
+            density,
+            thickness,
+            angle: 0.0,
+        }
+    }
+
     /// Stiffness of plane stress along the axes of the section, Pa.
     pub fn stiffness(&self) -> Stiffness {
+        rotated(&self.along_fibres(), &self.to_fibres())
+    }
+
+    /// Stress along and across the fibres and shear stress, of strains along the axes of the section, Pa.
+    pub fn fibre_stress(&self) -> Stiffness {
+        let along = Matrix3::from(self.along_fibres()).transpose();
+        rows(&(along * self.to_fibres()))
+    }
+
+    /// Stiffness of plane stress along the axes of the material, Pa.
+    fn along_fibres(&self) -> Stiffness {
         let ([e1, e2], nu) = (self.youngs_moduli, self.poisson_ratio);
         let over = 1.0 / (1.0 - nu * nu * e2 / e1);
-        let along = [
+        [
             [e1 * over, nu * e2 * over, 0.0],
             [nu * e2 * over, e2 * over, 0.0],
             [0.0, 0.0, self.shear_modulus],
-        ];
+        ]
+    }
+
+    /// Takes strains along the axes of the section to those along the axes of the material.
+    fn to_fibres(self) -> Matrix3<f64> {
         let (sin, cos) = self.angle.sin_cos();
-        rotated(&along, &strain_transformation([[cos, sin], [-sin, cos]]))
+        strain_transformation([[cos, sin], [-sin, cos]])
     }
 }
 
@@ -76,8 +110,11 @@ pub(super) fn strain_transformation(c: [[f64; 2]; 2]) -> Matrix3<f64> {
 /// `T^T C T`.
 pub(super) fn rotated(stiffness: &Stiffness, by: &Matrix3<f64>) -> Stiffness {
     let stiffness = Matrix3::from_fn(|r, c| stiffness[r][c]);
-    let product = by.transpose() * stiffness * by;
-    std::array::from_fn(|r| std::array::from_fn(|c| product[(r, c)]))
+    rows(&(by.transpose() * stiffness * by))
+}
+
+fn rows(of: &Matrix3<f64>) -> Stiffness {
+    std::array::from_fn(|r| std::array::from_fn(|c| of[(r, c)]))
 }
 
 impl ShellSection {
@@ -88,14 +125,12 @@ impl ShellSection {
         density: f64,
         thickness: f64,
     ) -> Self {
-        Self::laminate(&[Ply {
-            youngs_moduli: [youngs_modulus; 2],
+        Self::laminate(&[Ply::isotropic(
+            youngs_modulus,
             poisson_ratio,
-            shear_modulus: 0.5 * youngs_modulus / (1.0 + poisson_ratio),
             density,
             thickness,
-            angle: 0.0,
-        }])
+        )])
     }
 
     /// Layers from the bottom to the top, about the middle of their whole thickness.
@@ -132,6 +167,14 @@ impl ShellSection {
             damping_time: 0.0,
             angle: 0.0,
         }
+    }
+
+    /// Takes covariant strains or curvatures, 11, 22 and twice 12, to those along the axes of the section, of the derivatives of the
+    /// position of the unstressed surface.
+    pub fn axes_transformation(&self, tangents: &[Vector3<f64>; 2]) -> [[f64; 3]; 3] {
+        rows(&strain_transformation(axis_components(
+            tangents, self.angle,
+        )))
     }
 
     /// Whether every strain and curvature stores energy.

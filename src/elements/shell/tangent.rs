@@ -392,7 +392,7 @@ impl<N: Real> Tangent<N> {
                 let mut factor = dot(&of_k.bending, &bent);
                 let (mut on_left, mut on_right) = (zero, zero);
                 if part == Part::Whole {
-                    factor = factor + dot(&of_k.dual, &curved_dual);
+                    factor += dot(&of_k.dual, &curved_dual);
                     on_left = times(&of_l.dual, -of_k.moment);
                     on_right = times(&of_k.dual, minus);
                 }

@@ -21,18 +21,19 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
-    self, CouplingId, DirectionSource, Ends, First, GaugeId, LoadId, MarkerId, Place, PointId,
-    Resolved,
+    self, BodyReference, CouplingId, DirectionSource, Ends, First, GaugeId, LayerId, LoadId,
+    MarkerId, Place, PointId, Resolved,
 };
 pub use modal::ModalLine;
 
 use super::{Error, OutputKind, Scene};
-use crate::bodies::{Bodies, LumpedMass, Marker, Node, Patch, ReducedBody};
+use crate::bodies::{Bodies, LumpedMass, Marker, Node, Patch, ReducedBody, SectionFaces};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, Attachment, AxisRotation, BuildError, Gauge, Parts, State, StressPoint, System,
+    Angle, Attachment, AxisRotation, BuildError, Gauge, Parts, State, StressLayer, StressPoint,
+    System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -64,6 +65,10 @@ pub struct Assembled<const D: usize = 2> {
     points: Vec<StressPoint>,
     /// Gauges whose stress is read.
     gauges: Vec<Gauge>,
+    /// Heights in sections of plates and shells where stress is read.
+    layers: Vec<StressLayer>,
+    /// Bottom and top of the sections of plates and shells, patch by patch; none of those whose stress is not known.
+    pub faces: Vec<Option<SectionFaces>>,
     /// First nodes of the interfaces of reduced bodies, by the index of the body.
     interfaces: BTreeMap<usize, Vec<usize>>,
     /// Lines that are reduced to modes, by the index of the body.
@@ -123,8 +128,12 @@ impl<const D: usize> Assembled<D> {
 
     /// The patch of a plate or shell, by its place among all bodies; none of another one.
     pub fn patch(&self, body: usize) -> Option<&Patch> {
-        let index = self.patches.iter().position(|of| *of == body)?;
-        self.system.bodies().patches().get(index)
+        self.system.bodies().patches().get(self.patch_place(body)?)
+    }
+
+    /// Index among the patches of a plate or shell, by its place among all bodies; none of another one.
+    pub fn patch_place(&self, body: usize) -> Option<usize> {
+        self.patches.iter().position(|of| *of == body)
     }
 
     /// A reduced body, by its place among all bodies; none of another one.
@@ -144,6 +153,11 @@ impl<const D: usize> Assembled<D> {
     /// A gauge of a reduced body whose stress is read.
     pub fn gauge(&self, id: GaugeId) -> &Gauge {
         &self.gauges[id.index()]
+    }
+
+    /// A height in the section of a plate or shell where stress is read.
+    pub fn layer(&self, id: LayerId) -> &StressLayer {
+        &self.layers[id.index()]
     }
 
     /// Place among the loads of the system of a load of the scene.
@@ -200,6 +214,7 @@ impl Resolved<'_> {
         builder.inputs();
         builder.ports();
         let (points, gauges) = (builder.section_points(), builder.gauges());
+        let layers = builder.layers();
         let nodes = builder.parts.bodies.reference.clone();
         let lines = builder.lines;
         let bodies = self.bodies.iter().enumerate();
@@ -213,6 +228,8 @@ impl Resolved<'_> {
             system,
             points,
             gauges,
+            layers,
+            faces: self.section_faces(),
             error: self.scene.error_wanted(),
             rates: builder.motions.rates(&nodes),
             motions: builder.motions,
@@ -227,6 +244,15 @@ impl Resolved<'_> {
             lines,
             patches: builder.patches,
         })
+    }
+
+    /// Bottom and top of the sections of plates and shells.
+    fn section_faces(&self) -> Vec<Option<SectionFaces>> {
+        let plates = self.bodies.iter().filter_map(|body| match body {
+            BodyReference::Plate(plate) => Some(plate.body.faces()),
+            BodyReference::Cable(_) | BodyReference::Rigid(_) | BodyReference::Reduced(_) => None,
+        });
+        plates.collect()
     }
 
     /// Nothing but what belongs to the scene as a whole.
@@ -248,19 +274,19 @@ impl Resolved<'_> {
     }
 
     /// Principal axes of a body in its frame, and the centre of all its mass, m; of bodies of the plane that are described their frame.
-    fn principal(&self, body: &resolved::BodyReference<'_>) -> (Matrix3<f64>, Vector3<f64>) {
+    fn principal(&self, body: &BodyReference<'_>) -> (Matrix3<f64>, Vector3<f64>) {
         match body {
-            resolved::BodyReference::Rigid(rigid) if self.scene.dimension == 3 => {
+            BodyReference::Rigid(rigid) if self.scene.dimension == 3 => {
                 let solid = self.solid(*rigid);
                 (solid.axes, solid.center)
             }
-            resolved::BodyReference::Reduced(reduced) => {
+            BodyReference::Reduced(reduced) => {
                 let container = reduced.body.contained();
                 (container.axes, container.center)
             }
-            resolved::BodyReference::Cable(_)
-            | resolved::BodyReference::Rigid(_)
-            | resolved::BodyReference::Plate(_) => (Matrix3::identity(), Vector3::zeros()),
+            BodyReference::Cable(_) | BodyReference::Rigid(_) | BodyReference::Plate(_) => {
+                (Matrix3::identity(), Vector3::zeros())
+            }
         }
     }
 

@@ -1,8 +1,8 @@
-//! Points of sections and gauges of reduced bodies whose stress is read.
+//! Points and heights of sections, and gauges of reduced bodies, whose stress is read.
 
 use super::Builder;
 use crate::scene::resolved;
-use crate::system::{Gauge, StressPoint};
+use crate::system::{Gauge, StressLayer, StressPoint};
 
 impl<const D: usize> Builder<'_, D> {
     /// All of them, as the scene numbers them.
@@ -23,6 +23,17 @@ impl<const D: usize> Builder<'_, D> {
             }
         };
         self.resolved.gauges.iter().map(gauge).collect()
+    }
+
+    /// Heights in sections of plates and shells, as the scene numbers them.
+    pub(super) fn layers(&self) -> Vec<StressLayer> {
+        let layers = self.resolved.layers.iter();
+        let layer = |layer: &resolved::SectionLayer<'_>| StressLayer {
+            marker: self.marker(layer.marker),
+            height: layer.height,
+            law: layer.law,
+        };
+        layers.map(layer).collect()
     }
 
     fn section_point(&self, given: &resolved::SectionPoint<'_>) -> StressPoint {

@@ -42,7 +42,7 @@ pub use body::{
 pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
-pub use output::{Along, DeflectionOutput, Output, OutputKind, ReactionOutput};
+pub use output::{Along, DeflectionOutput, Output, OutputKind, PlyStressOutput, ReactionOutput};
 pub use patch::{LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface};
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;

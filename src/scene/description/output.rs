@@ -45,15 +45,30 @@ kinds! {
         AngularAcceleration(TurningOutput),
         /// Axial strain at a marker of a cable that bends, in the strain measure of the body. Where a load or joint acts, that after it.
         Strain(AtFlexibleLine),
-        /// Curvature at a marker of a cable that bends, in the strain measure of the body, 1/m; in space its size.
-        Curvature(AtFlexibleLine),
+        /// Curvature at a marker of a cable that bends, in the strain measure of the body, 1/m; in space its size. At a marker of a plate or
+        /// shell the change of curvature, 1/m: components 11, 22 and twice 12 along the axes of its section, positive where the surface
+        /// curves towards its normal.
+        Curvature(CurvatureOutput),
         /// Axial force at a marker of a cable, N: the part of the section force along the tangent, tension
         /// positive, from the balance of forces with inertia. Where a load or joint acts, that after it.
         AxialForce(AtLine),
         /// Bending moment at a marker of a cable, N m: of the part after on the part before, positive where
         /// curvature is, from the balance of moments with inertia; of a rod the whole moment, with the torque. Where a load or joint acts,
-        /// that after it.
-        BendingMoment(AtLine),
+        /// that after it. At a marker of a plate or shell the moment per length, N m/m: components 11, 22 and 12 along the axes of its section,
+        /// positive where curvature is, with that of damping.
+        BendingMoment(BendingMomentOutput),
+        /// Strain of the middle surface at a marker of a plate or shell: components 11, 22 and twice 12 along the axes of its section.
+        MembraneStrain(AtSurface),
+        /// Force per length in a plate or shell at a marker, N/m: components 11, 22 and 12 along the axes of its section, tension positive,
+        /// with that of damping.
+        MembraneForce(AtSurface),
+        /// Stress at the bottom and at the top of a plate or shell at a marker, Pa: components 11, 22 and 12 along the axes of its section,
+        /// tension positive, with that of damping, and the equivalent stresses of von Mises. The normal of the surface points to the top. Not
+        /// of sections that are given as `stiffness`. Derivatives of the equivalent stress are zero where there is no stress.
+        SurfaceStress(AtSurface),
+        /// Stress at the bottom and at the top of `plies` of a plate or shell with a `laminate` at a marker, Pa: along the fibres, across them
+        /// and shear, tension positive, with that of damping.
+        PlyStress(PlyStressOutput),
         /// Torque about the tangent at a marker of a rod, N m: of the part after on the part before, positive where the twist is, from the
         /// balance of moments with inertia. Where a load or joint acts, that after it.
         Torque(AtRod),
@@ -194,6 +209,39 @@ pub struct TurningOutput {
 pub struct AtFlexibleLine {
     /// Marker of the flexible cable, rod or beam at which the strain is read, `body.marker`.
     pub marker: String,
+}
+
+/// A curvature of a line or a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CurvatureOutput {
+    /// Marker of the flexible cable, rod or beam, or of the plate or shell, at which the curvature is read, `body.marker`. That of a pad is
+    /// read in its middle.
+    pub marker: String,
+}
+
+/// A bending moment of a line or a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BendingMomentOutput {
+    /// Marker of the cable, rod or beam, or of the plate or shell, at which the bending moment is read, `body.marker`. That of a pad is read
+    /// in its middle.
+    pub marker: String,
+}
+
+/// A quantity of the section of a plate or shell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct AtSurface {
+    /// Marker of the plate or shell whose section is read, `body.marker`. That of a pad is read in its middle.
+    pub marker: String,
+}
+
+/// Stress in plies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PlyStressOutput {
+    /// Marker of the plate or shell whose plies are read, `body.marker`. That of a pad is read in its middle.
+    pub marker: String,
+    /// Numbers of the plies, from 1 at the bottom on. Names of their variables hold these.
+    #[schemars(length(min = 1, max = 200), inner(range(min = 1)))]
+    pub plies: Vec<u32>,
 }
 
 /// A section force of a line.
@@ -340,10 +388,14 @@ impl Output {
             Self::AngularVelocity(of) | Self::AngularAcceleration(of) => {
                 return either(&of.joint, &of.marker);
             }
-            Self::Strain(of) | Self::Curvature(of) => &of.marker,
-            Self::AxialForce(of) | Self::BendingMoment(of) | Self::ConnectivityForce(of) => {
+            Self::Strain(of) => &of.marker,
+            Self::Curvature(of) => &of.marker,
+            Self::AxialForce(of) | Self::ConnectivityForce(of) => &of.marker,
+            Self::BendingMoment(of) => &of.marker,
+            Self::MembraneStrain(of) | Self::MembraneForce(of) | Self::SurfaceStress(of) => {
                 &of.marker
             }
+            Self::PlyStress(of) => &of.marker,
             Self::Torque(of) => &of.marker,
             Self::Stress(of) => &of.marker,
             Self::TorsionStress(of) => &of.marker,

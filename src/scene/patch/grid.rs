@@ -50,6 +50,12 @@ impl PatchGrid {
         (0..=n).flat_map(move |i| (0..=m).map(move |j| place(i, j)))
     }
 
+    /// Coordinates of its lines across `s1` and across `s2`, in [0, 1].
+    pub fn lines_at(&self) -> [Vec<f64>; 2] {
+        let along = |cells: usize| (0..=cells).map(|k| k as f64 / cells as f64).collect();
+        self.cells().map(along)
+    }
+
     /// Element of every point, and its place there, in [0, 1].
     pub fn in_elements(self) -> impl Iterator<Item = ([usize; 2], [f64; 2])> {
         let (of, [n, m]) = (self, self.cells());

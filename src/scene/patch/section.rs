@@ -1,5 +1,6 @@
 //! Sections of plates and shells: from a material, plies or matrices.
 
+use crate::bodies::SectionFaces;
 use crate::elements::shell::{Ply, ShellSection};
 use crate::scene::description::{LaminatePly, PatchBody, PatchStiffness};
 
@@ -43,6 +44,51 @@ impl PatchBody {
             angle: self.axis_angle,
             ..section
         }
+    }
+}
+
+/// A layer of a section with the heights of its bottom and top from the middle surface, m.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionPly {
+    /// Material, thickness and angle.
+    pub ply: Ply,
+    /// Heights of bottom and top along the normal, m.
+    pub heights: [f64; 2],
+}
+
+impl PatchBody {
+    /// Layers of its section from the bottom to the top: plies, or the one of a material; none of matrices.
+    pub fn layers(&self) -> Vec<SectionPly> {
+        let plies: Vec<Ply> = match (&self.material, self.thickness) {
+            (Some(material), Some(thickness)) => vec![Ply::isotropic(
+                material.youngs_modulus,
+                material.poisson_ratio,
+                material.density,
+                thickness,
+            )],
+            _ => self.laminate.iter().map(LaminatePly::layer).collect(),
+        };
+        let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
+        let mut bottom = -0.5 * whole;
+        let layer = |ply: Ply| {
+            let heights = [bottom, bottom + ply.thickness];
+            bottom = heights[1];
+            SectionPly { ply, heights }
+        };
+        plies.into_iter().map(layer).collect()
+    }
+}
+
+impl PatchBody {
+    /// Bottom and top of its section; none of matrices.
+    pub fn faces(&self) -> Option<SectionFaces> {
+        let layers = self.layers();
+        let (bottom, top) = (layers.first()?, layers.last()?);
+        let of = |layer: &SectionPly, height: f64| (height, layer.ply.stiffness());
+        Some(SectionFaces {
+            section: self.section(),
+            faces: [of(bottom, bottom.heights[0]), of(top, top.heights[1])],
+        })
     }
 }
 

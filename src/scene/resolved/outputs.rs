@@ -1,7 +1,7 @@
 //! What the master reads.
 
 use super::{
-    AngleId, Cable, ConstraintOwnerId, DirectionSource, GaugeId, LoadId, PointId, Reduced,
+    AngleId, Cable, ConstraintOwnerId, DirectionSource, GaugeId, LayerId, LoadId, PointId, Reduced,
     ResolvedMarker, SlideId, Slider,
 };
 use crate::scene::description::{Along, OutputKind};
@@ -41,6 +41,10 @@ pub enum OutputTarget<'a> {
     Angle(DirectionSource<'a>, AngleId),
     /// Points of the section at a marker: the first, and the points as described.
     Points(ResolvedMarker<'a>, PointId, &'a [Vec<f64>]),
+    /// Bottom and top of the section at a marker: the first of both.
+    Faces(ResolvedMarker<'a>, LayerId),
+    /// Bottom and top of plies of the section at a marker: the first, and the numbers of the plies.
+    Plies(ResolvedMarker<'a>, LayerId, &'a [u32]),
     /// A gauge of a reduced body, of this name.
     Gauge(&'a str, GaugeId),
     /// A joint of this name, and its slide.
@@ -70,6 +74,17 @@ pub struct SectionPoint<'a> {
     pub at: f64,
     /// Coordinates along the first and the second axis of the section; in the plane the way from the line to the left, and 0, m.
     pub point: [f64; 2],
+}
+
+/// A height in the section of a plate or shell where stress is read.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionLayer<'a> {
+    /// Where on the surface.
+    pub marker: ResolvedMarker<'a>,
+    /// Height along the normal from the middle surface, m.
+    pub height: f64,
+    /// Stress of strains along the axes of the section, Pa.
+    pub law: [[f64; 3]; 3],
 }
 
 /// A gauge of a reduced body whose stress is read.

@@ -13,6 +13,7 @@ mod references;
 mod releases;
 mod sections;
 mod stress;
+mod surface;
 #[cfg(test)]
 mod tests;
 

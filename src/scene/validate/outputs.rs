@@ -193,17 +193,17 @@ impl<'a> Resolved<'a> {
             Output::Orientation(of) | Output::Quaternion(of) | Output::RotationVector(of) => {
                 OutputTarget::Marker(self.require_standing(&at("marker"), &of.marker)?)
             }
-            Output::Strain(of) | Output::Curvature(of) => {
-                OutputTarget::Marker(self.require_flexible_marker(&at("marker"), &of.marker)?)
-            }
-            Output::AxialForce(of) | Output::BendingMoment(of) | Output::ConnectivityForce(of) => {
-                OutputTarget::Marker(self.require_cable_marker(&at("marker"), &of.marker)?)
-            }
-            Output::Torque(of) => {
-                OutputTarget::Marker(self.require_rod_marker(&at("marker"), &of.marker)?)
-            }
-            Output::Stress(of) => self.stress_points(path, &of.marker, &of.points)?,
-            Output::TorsionStress(of) => self.torsion_points(path, &of.marker, &of.points)?,
+            Output::Strain(_)
+            | Output::Curvature(_)
+            | Output::AxialForce(_)
+            | Output::BendingMoment(_)
+            | Output::ConnectivityForce(_)
+            | Output::Torque(_)
+            | Output::MembraneStrain(_)
+            | Output::MembraneForce(_)
+            | Output::SurfaceStress(_)
+            | Output::PlyStress(_) => self.section_output(path, output)?,
+            Output::Stress(_) | Output::TorsionStress(_) => self.point_stress(path, output)?,
             Output::StressTensor(of) => self.gauge(&at("gauge"), &of.gauge)?,
             Output::Travel(of) => self.travel(&at("joint"), &of.joint)?,
             Output::Reaction(of) => OutputTarget::Reaction(self.reaction(path, of, false)?),

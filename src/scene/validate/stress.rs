@@ -2,6 +2,7 @@
 
 use super::checks::{expected, finite, quoted, unknown};
 use crate::scene::Error;
+use crate::scene::description::Output;
 use crate::scene::resolved::{
     BodyReference, GaugeId, OutputTarget, Place, PointId, Resolved, ResolvedGauge, ResolvedMarker,
     SectionPoint,
@@ -11,12 +12,28 @@ use crate::scene::resolved::{
 const MOST_POINTS: usize = 100;
 
 impl<'a> Resolved<'a> {
+    /// Resolves an output of stress at points of the section of a line.
+    ///
+    /// # Errors
+    /// A marker that does not exist, a section whose stress is not known, or points that are missing, too many or of another dimension.
+    pub(super) fn point_stress(
+        &mut self,
+        path: &str,
+        output: &'a Output,
+    ) -> Result<OutputTarget<'a>, Error> {
+        match output {
+            Output::TorsionStress(of) => self.torsion_points(path, &of.marker, &of.points),
+            Output::Stress(of) => self.stress_points(path, &of.marker, &of.points),
+            _ => unreachable!("what else is read is at no points of a section"),
+        }
+    }
+
     /// Resolves the points of the section at a marker where stress is read.
     ///
     /// # Errors
     /// A marker that does not exist, a section whose stress is not known, or points that are missing, too many or of
     /// another dimension.
-    pub(super) fn stress_points(
+    fn stress_points(
         &mut self,
         path: &str,
         marker: &'a str,
@@ -34,7 +51,7 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// A marker that does not exist, a section without a shape, or points that are missing, too many or of another dimension.
-    pub(super) fn torsion_points(
+    fn torsion_points(
         &mut self,
         path: &str,
         marker: &'a str,

@@ -240,6 +240,8 @@ fn component(name: &str, axis: usize) -> String {
 const AXES: [&str; 3] = ["x", "y", "z"];
 /// Components of a symmetric tensor.
 const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
+/// Components of a tensor in a surface.
+const SURFACE_COMPONENTS: [&str; 3] = ["11", "22", "12"];
 /// Parts of a quaternion.
 const PARTS: [&str; 4] = ["scalar part", "part x", "part y", "part z"];
 

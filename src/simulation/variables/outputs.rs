@@ -1,10 +1,11 @@
 //! Outputs, natural frequencies, eigenvalues, and what goes out of ports.
 
-use super::{AXES, COMPONENTS, List, PARTS, Quantity, Source, component};
+use super::{AXES, COMPONENTS, List, PARTS, Quantity, SURFACE_COMPONENTS, Source, component};
 use crate::scene::unit::*;
 use crate::scene::{
-    Along, AngleId, ConstraintOwnerId, DirectionSource, GaugeId, InputKind, LoadId, MarkerId,
-    Output, OutputKind, OutputTarget, PointId, PortKind, Resolved, ResolvedPort, SlideId,
+    Along, AngleId, ConstraintOwnerId, DirectionSource, GaugeId, InputKind, LayerId, LoadId,
+    MarkerId, Output, OutputKind, OutputTarget, Place, PointId, PortKind, Resolved, ResolvedPort,
+    SlideId,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -25,6 +26,8 @@ enum OutputShape {
     SymmetricMatrix,
     /// As many as are asked for; in its meaning, `{}` is the number from 1 on.
     List,
+    /// Three, of a surface: 11, 22 and 12.
+    Surface,
     /// One a point of a section, which its meaning ends with.
     Points,
 }
@@ -51,6 +54,8 @@ enum Read {
     Counted(fn(AngleId) -> Quantity),
     Points(fn(PointId) -> Quantity),
     Gauge(fn(GaugeId, usize) -> Quantity),
+    /// Quantities at a height of a surface, the given number after the first.
+    Layer(usize, fn(LayerId, usize) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
     ConstraintOwner(fn(ConstraintOwnerId, usize, Along) -> Quantity),
     Scene(fn(usize) -> Quantity),
@@ -65,6 +70,30 @@ struct OutputLabel {
     name: String,
     what: String,
     unit: Option<Unit>,
+}
+
+/// Lists the rows of an output of the section of a plate or shell; those of `ply_stress` for one ply.
+#[rustfmt::skip] // a table
+fn surface_rows(kind: OutputKind) -> Vec<OutputRow> {
+    use OutputKind as Kind;
+    use Quantity::*;
+    use OutputShape::{Scalar, Surface};
+    match kind {
+        Kind::Curvature => vec![("curvature", "Change of curvature at {}, 12 twice", Some(PER_METRE), Surface, Read::Marker(SurfaceCurvature))],
+        Kind::BendingMoment => vec![("bending_moment", "Bending moment per length at {}", Some(NEWTON_METRE_PER_METRE), Surface, Read::Marker(SurfaceMoment))],
+        Kind::MembraneStrain => vec![("membrane_strain", "Strain of the middle surface at {}, 12 twice", None, Surface, Read::Marker(MembraneStrain))],
+        Kind::MembraneForce => vec![("membrane_force", "Force per length at {}", Some(NEWTON_PER_METRE), Surface, Read::Marker(MembraneForce))],
+        Kind::PlyStress => vec![
+            ("bottom_stress", "Stress along the axes of {} at its bottom", Some(PASCAL), Surface, Read::Layer(0, LayerStress)),
+            ("top_stress", "Stress along the axes of {} at its top", Some(PASCAL), Surface, Read::Layer(1, LayerStress)),
+        ],
+        _ => vec![
+            ("bottom_stress", "Stress at the bottom at {}", Some(PASCAL), Surface, Read::Layer(0, LayerStress)),
+            ("top_stress", "Stress at the top at {}", Some(PASCAL), Surface, Read::Layer(1, LayerStress)),
+            ("bottom_von_mises_stress", "Equivalent stress of von Mises at the bottom at {}", Some(PASCAL), Scalar, Read::Layer(0, |of, _| LayerVonMises(of))),
+            ("top_von_mises_stress", "Equivalent stress of von Mises at the top at {}", Some(PASCAL), Scalar, Read::Layer(1, |of, _| LayerVonMises(of))),
+        ],
+    }
 }
 
 /// Lists the rows of an output kind.
@@ -98,6 +127,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         Kind::Curvature => vec![("curvature", "Curvature at {}", Some(PER_METRE), Scalar, Read::Marker(|m, _| Curvature(m)))],
         Kind::AxialForce => vec![("axial_force", "Axial force at {}", Some(NEWTON), Scalar, Read::Marker(|m, _| AxialForce(m)))],
         Kind::BendingMoment => vec![("bending_moment", "Bending moment at {}", Some(NEWTON_METRE), Rotational, Read::Marker(BendingMoment))],
+        Kind::MembraneStrain | Kind::MembraneForce | Kind::SurfaceStress | Kind::PlyStress => surface_rows(kind),
         Kind::Torque => vec![("torque", "Torque about the tangent at {}", Some(NEWTON_METRE), Scalar, Read::Marker(|m, _| Torque(m)))],
         Kind::Stress => vec![("stress", "Normal stress at {}", Some(PASCAL), AtPoints, Read::Points(Stress))],
         Kind::TorsionStress => vec![("torsion_stress", "Shear stress by torsion at {}", Some(PASCAL), AtPoints, Read::Points(TorsionStress))],
@@ -199,7 +229,16 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         OutputTarget::Spectrum(_, count) => count as usize,
         _ => list.dimension,
     };
-    for (key, what, unit, shape, read) in rows(output.kind, resolved) {
+    if let OutputTarget::Plies(marker, first, plies) = output.of {
+        return add_plies(list, marker.name, first, plies);
+    }
+    let rows = match output.of {
+        OutputTarget::Marker(marker) if matches!(marker.place, Place::Patch(..)) => {
+            surface_rows_or(output.kind, resolved)
+        }
+        _ => rows(output.kind, resolved),
+    };
+    for (key, what, unit, shape, read) in rows {
         let name = match port.unwrap_or(name) {
             "" => key.to_owned(),
             of => format!("{of}.{key}"),
@@ -237,13 +276,40 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
     }
 }
 
+/// Lists the rows of an output at a marker of a plate or shell.
+fn surface_rows_or(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
+    match kind {
+        OutputKind::Curvature | OutputKind::BendingMoment => surface_rows(kind),
+        _ => rows(kind, resolved),
+    }
+}
+
+/// Adds stress at the bottom and the top of plies.
+fn add_plies(list: &mut List, marker: &str, first: LayerId, plies: &[u32]) {
+    for (index, number) in plies.iter().enumerate() {
+        for (key, what, unit, shape, read) in surface_rows(OutputKind::PlyStress) {
+            let Read::Layer(after, quantity) = read else {
+                continue;
+            };
+            let label = OutputLabel {
+                name: format!("{marker}.ply{number}_{key}"),
+                what: what.replace("{}", &format!("ply {number} at {marker}")),
+                unit,
+            };
+            let layer = first.after(2 * index + after);
+            list.shaped(&label, shape, 3, |k| Source::Output(quantity(layer, k)));
+        }
+    }
+}
+
 /// Returns the name that variables of an output begin with, and its form in descriptions.
 fn words<'a>(of: &OutputTarget<'a>) -> (&'a str, String) {
     let second = |joint: &str| format!("the second marker of {joint} less that of its first");
     match of {
-        OutputTarget::Marker(marker) | OutputTarget::Points(marker, ..) => {
-            (marker.name, marker.name.into())
-        }
+        OutputTarget::Marker(marker)
+        | OutputTarget::Points(marker, ..)
+        | OutputTarget::Faces(marker, _)
+        | OutputTarget::Plies(marker, ..) => (marker.name, marker.name.into()),
         OutputTarget::Deflected(marker, None) => {
             let what = format!(
                 "{} from the mean of its body, along axes that follow the mean",
@@ -322,6 +388,9 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         (Read::Counted(quantity), OutputTarget::Angle(_, angle)) => quantity(*angle),
         (Read::Points(quantity), OutputTarget::Points(_, first, _)) => quantity(first.after(k)),
         (Read::Gauge(quantity), OutputTarget::Gauge(_, gauge)) => quantity(*gauge, k),
+        (Read::Layer(after, quantity), OutputTarget::Faces(_, first)) => {
+            quantity(first.after(after), k)
+        }
         (Read::Slide(quantity), OutputTarget::Slide(_, slide)) => quantity(*slide),
         (Read::ConstraintOwner(quantity), OutputTarget::Reaction(reaction)) => {
             quantity(reaction.holder, k, along)
@@ -424,6 +493,10 @@ impl List {
             }),
             (OutputShape::Quaternion, _) => (0..4).for_each(|k| {
                 let what = format!("{what}, {}", PARTS[k]);
+                self.output(component(name, k), what, *unit, source(k));
+            }),
+            (OutputShape::Surface, _) => (0..3).for_each(|k| {
+                let what = format!("{what}, component {}", SURFACE_COMPONENTS[k]);
                 self.output(component(name, k), what, *unit, source(k));
             }),
             _ => (0..count).for_each(|k| {

@@ -23,7 +23,7 @@ pub struct Edge<const D: usize> {
 }
 
 impl<const D: usize> Edge<D> {
-    /// Its linear rows, those of the joint with this index. Reactions follow from their terms on the nodes (`outputs/edge.rs`).
+    /// Linear rows of the edge, those of the joint with this index. Reactions follow from their terms on the nodes (`outputs/edge.rs`).
     pub(super) fn rows(&self, joint: usize) -> impl Iterator<Item = Linear<D>> {
         self.rows.iter().map(move |(row, value)| Linear {
             joint: Some(joint),

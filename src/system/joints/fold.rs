@@ -19,7 +19,7 @@ type Slopes<N = f64> = [Vector3<N>; 3];
 #[derive(Clone, Debug)]
 pub struct Fold {
     /// Markers whose directions add up to each of the slopes.
-    slopes: [[Marker; 2]; 3],
+    slopes: Box<[[Marker; 2]; 3]>,
     /// Sine and cosine of the angle, over the size of `g`.
     turned: [f64; 2],
 }
@@ -28,8 +28,10 @@ impl Fold {
     /// The angle at a point stays as it is in these nodes. Of each slope the markers whose directions add up to it are given: across the line
     /// on both surfaces, then along it.
     pub fn new<const D: usize>(slopes: [[Marker; 2]; 3], nodes: &[Node<D>]) -> Self {
-        let turned = [0.0, 1.0];
-        let mut fold = Self { slopes, turned };
+        let mut fold = Self {
+            slopes: Box::new(slopes),
+            turned: [0.0, 1.0],
+        };
         let [sine, cosine] = products(&fold.at(nodes));
         let size = sine.hypot(cosine).powi(2);
         fold.turned = [sine / size, cosine / size];
@@ -37,8 +39,8 @@ impl Fold {
     }
 
     fn at<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Slopes<N> {
-        self.slopes.map(|markers| {
-            let [first, second] = markers.map(|marker| marker.lift().direction(x));
+        std::array::from_fn(|k| {
+            let [first, second] = self.slopes[k].map(|marker| marker.lift().direction(x));
             components::<D, N>(&(first + second)).into()
         })
     }
@@ -64,7 +66,7 @@ impl Fold {
         view: &View<'_, D, N>,
     ) -> impl Iterator<Item = Gradient<D, N>> {
         let derivatives = self.derivatives(&self.at(view.x));
-        let pairs = self.slopes.into_iter().zip(derivatives);
+        let pairs = (*self.slopes).into_iter().zip(derivatives);
         pairs.map(|(markers, derivative)| {
             let on = [Vector::zeros(), vector::<D, N>(derivative.into())];
             Gradient {

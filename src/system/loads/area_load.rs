@@ -32,12 +32,12 @@ pub struct AreaLoad {
     pub patch: usize,
     /// The action.
     pub action: AreaAction,
-    /// Its components.
+    /// Components of the action.
     pub values: Vec<AreaValues>,
 }
 
 impl AreaValues {
-    /// The same value all over the area.
+    /// A value that is the same all over the area.
     pub fn uniform(uniform: Signal) -> Self {
         let places = Vec::new();
         Self { uniform, places }

@@ -12,3 +12,4 @@ mod resolution;
 pub(in crate::system) mod rod;
 pub(in crate::system) mod section;
 pub(in crate::system) mod stress;
+pub(in crate::system) mod surface;

@@ -18,8 +18,19 @@ const ROUNDOFF_OF_OTHERS = 1e-12;
 const NO_VECTOR = /_body$|^deflection|stress$|^quaternion$|^orientation$|^natural_frequency$/;
 /** Components of a stress. */
 const COMPONENTS = ['xx', 'yy', 'zz', 'xy', 'xz', 'yz'];
+/** Components in a surface. */
+const SURFACE_COMPONENTS = ['11', '22', '12'];
+/** Quantities that have these; bending moments do per length. */
+const OF_SURFACE = /^membrane_|^curvature$|(bottom|top)_stress$/;
 /** Most points of a line; of more, the least and the largest of as many parts are drawn. */
 const MOST_POINTS = 1200;
+
+/** Words for the components of a quantity. */
+function axesOf(quantity, unit) {
+  if (quantity === 'stress_tensor') return COMPONENTS;
+  if (OF_SURFACE.test(quantity) || (quantity === 'bending_moment' && unit.endsWith('/m'))) return SURFACE_COMPONENTS;
+  return NO_VECTOR.test(quantity) ? [] : ['x', 'y', 'z'];
+}
 
 /** Outputs by what they are read at and by what is read: `rope.middle`, `position`, then the columns. */
 export function groups(outputs) {
@@ -33,7 +44,7 @@ export function groups(outputs) {
     const key = of === 'energy' || of === 'work' ? of : quantity;
     if (!quantities.has(key)) quantities.set(key, { unit, lines: [], isSum: key === of });
     const index = name.slice(whole.length);
-    const axes = quantity === 'stress_tensor' ? COMPONENTS : NO_VECTOR.test(quantity) ? [] : ['x', 'y', 'z'];
+    const axes = axesOf(quantity, unit);
     const axis = axes[index.slice(1, -1) - 1];
     const label = key === of ? quantity : axis ?? (index || quantity);
     quantities.get(key).lines.push({ name, column, label, roundoff: roundoff ?? 0 });

@@ -75,7 +75,7 @@ class Body {
       const { points, modes, amplitudes, triangles, edges, stress } = described.skin;
       this.skin = { points: tracks[points].values, modes: tracks[modes], amplitudes: tracks[amplitudes], triangles, edges };
       if (stress) {
-        this.skin.stress = { modes: tracks[stress.modes], strains: tracks[stress.strains], most: stress.most };
+        this.skin.stress = { modes: tracks[stress.modes], strains: tracks[stress.strains], most: stress.most, hasFaces: stress.hasFaces };
         this.strains = new Float32Array(tracks[stress.strains].width);
       }
       this.amplitudes = new Float32Array(tracks[amplitudes].width);
@@ -142,11 +142,14 @@ class Body {
 
   /** Stress of von Mises at a point of a surface, Pa. */
   vonMises(point) {
-    const { values, width, rows } = this.skin.stress.modes;
+    const { modes: { values, width, rows }, hasFaces } = this.skin.stress;
     const first = rows > 1 ? point * width : 0;
-    const [xx, yy, zz, xy, xz, yz] = [0, 1, 2, 3, 4, 5].map((part) => (
+    const parts = [0, 1, 2, 3, 4, 5].map((part) => (
       this.strains.reduce((sum, strain, mode) => sum + strain * values[first + 6 * mode + part], 0)
     ));
+    // Of a plate or shell they are 11, 22 and 12 at its bottom, then at its top.
+    if (hasFaces) return Math.max(...[0, 3].map((k) => Math.hypot(parts[k] - parts[k + 1] / 2, Math.sqrt(0.75) * parts[k + 1], Math.sqrt(3) * parts[k + 2])));
+    const [xx, yy, zz, xy, xz, yz] = parts;
     return Math.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy * xy + xz * xz + yz * yz));
   }
 

@@ -63,7 +63,6 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
     let mut bodies = Bodies::new(nodes, ranges);
     bodies.add_line(chain);
     let system = System::new(Parts {
-        held: Vec::new(),
         bodies,
         rigid: Vec::new(),
         joints: vec![pin],

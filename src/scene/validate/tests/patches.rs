@@ -205,3 +205,47 @@ fn bare_points_are_told() {
     pushed["loads"] = force(json!([0, 1, 3]));
     assert_eq!(told(&pushed).len(), 1);
 }
+
+/// Sections are read at markers of plates and shells, where there are such quantities.
+#[test]
+fn sections_are_read_where_they_are() {
+    check(
+        scene,
+        r#"
+        /outputs/0/kind | "membrane_strain" | accepted
+        /outputs/0/kind | "membrane_force" | accepted
+        /outputs/0/kind | "curvature" | accepted
+        /outputs/0/kind | "bending_moment" | accepted
+        /outputs/0/kind | "surface_stress" | accepted
+        /outputs/0/kind | "strain" | outputs[0].marker: expected a marker of a cable, found "panel.tip"
+        /outputs/0/kind | "axial_force" | outputs[0].marker: expected a marker of a cable, found "panel.tip"
+        /outputs/0 | {"kind": "curvature", "marker": "ball.c"} | outputs[0].marker: expected a marker of a cable, found "ball.c"
+        /outputs/0 | {"kind": "membrane_force", "marker": "ball.c"} | outputs[0].marker: expected a marker of a plate or shell, found "ball.c"
+        /outputs/0 | {"kind": "surface_stress", "marker": "panel.top"} | outputs[0].marker
+        /outputs/0 | {"kind": "ply_stress", "marker": "panel.tip", "plies": [1]} | outputs[0].marker: expected a marker of a plate or shell with a laminate, found "panel.tip"
+        /outputs/0 | {"kind": "ply_stress", "marker": "roof.top", "plies": [2, 1]} | accepted
+        /outputs/0 | {"kind": "ply_stress", "marker": "roof.top", "plies": [2, 2]} | outputs[0].plies[1]: expected a ply not named before, found 2
+        /outputs/0 | {"kind": "ply_stress", "marker": "roof.top", "plies": [0]} | outputs[0].plies[0]: expected the number of a ply, from 1 to 2, found 0
+        /outputs/0 | {"kind": "ply_stress", "marker": "roof.top", "plies": [3]} | outputs[0].plies[0]: expected the number of a ply, from 1 to 2, found 3
+        /outputs/0 | {"kind": "ply_stress", "marker": "roof.top", "plies": []} | outputs[0].plies: expected 1 to 200 numbers of plies, found 0
+        /outputs/0 | {"kind": "ply_stress", "marker": "roof.top"} | outputs[0].plies
+    "#,
+    );
+    let stiff = || {
+        let mut scene = scene();
+        let panel = scene["bodies"][0].as_object_mut().expect("a body");
+        panel.remove("material");
+        panel.remove("thickness");
+        let rows = json!([[2, 0, 0], [0, 2, 0], [0, 0, 1]]);
+        panel.insert("stiffness".into(), json!({"A": rows, "D": rows}));
+        panel.insert("area_density".into(), json!(1));
+        scene
+    };
+    check(
+        stiff,
+        r#"
+        /outputs/0/kind | "membrane_force" | accepted
+        /outputs/0/kind | "surface_stress" | outputs[0].marker: expected a marker of a plate or shell with a material or a laminate
+    "#,
+    );
+}

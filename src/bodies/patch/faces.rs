@@ -1,0 +1,72 @@
+//! Stress at the bottom and the top of a patch at a grid of points, for pictures.
+
+use super::recovery::{RecoveryLine, times};
+use super::{GaussStrains, Patch};
+use crate::bodies::connectivity::Node;
+use crate::elements::shell::{ShellSection, Stiffness};
+
+/// Section of a patch whose stress is known, with heights (m) of its bottom and top and stress there of strains along its axes, Pa.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionFaces {
+    /// The section.
+    pub section: ShellSection,
+    /// Height along the normal, and stress of strains: of the bottom, then of the top.
+    pub faces: [(f64, Stiffness); 2],
+}
+
+/// Reader of stress at a grid of points.
+#[derive(Clone, Debug)]
+pub struct GridStress {
+    faces: [(f64, Stiffness); 2],
+    lines: [Vec<RecoveryLine>; 2],
+    /// Takes covariant components to those along the axes of the section, at every point.
+    to_axes: Vec<[[f64; 3]; 3]>,
+    /// Scratch: strains of all elements.
+    strains: Vec<GaussStrains>,
+}
+
+impl Patch {
+    /// Reader of stress at a grid of points, whose coordinates along both directions are in [0, 1].
+    pub fn grid_stress(&self, of: &SectionFaces, at: &[Vec<f64>; 2]) -> GridStress {
+        let line = |k: usize| at[k].iter().map(move |at| self.recovery_line(k, *at));
+        let points = at[0].iter().flat_map(|a| at[1].iter().map(|b| [*a, *b]));
+        let to_axes = points.map(|at| {
+            let (element, xi) = self.find(at);
+            of.section.axes_transformation(&self.tangents(element, xi))
+        });
+        GridStress {
+            faces: of.faces,
+            lines: [line(0).collect(), line(1).collect()],
+            to_axes: to_axes.collect(),
+            strains: vec![[[[[0.0; 3]; 3]; 3]; 2]; self.elements.len()],
+        }
+    }
+}
+
+impl GridStress {
+    /// Stress 11, 22 and 12 at the bottom, then at the top, along the axes of the section at every point, with that of damping, Pa.
+    pub fn read<const D: usize>(
+        &mut self,
+        patch: &Patch,
+        (x, v): (&[Node<D>], &[Node<D>]),
+    ) -> Vec<[f64; 6]> {
+        for (element, strains) in self.strains.iter_mut().enumerate() {
+            let [e, rate] = [x, v].map(|x| patch.element(element, x));
+            *strains = patch.elements[element].strains(&e, Some(&rate));
+        }
+        let across = self.lines[1].iter();
+        let pairs = (self.lines[0].iter()).flat_map(|a| across.clone().map(move |b| [a, b]));
+        let stress = |(lines, to_axes): ([&RecoveryLine; 2], &[[f64; 3]; 3])| {
+            let of = patch.recovered(lines, |element| self.strains[element]);
+            let [strain, curvature] = of.map(|of| times(to_axes, of));
+            let [bottom, top] = self.faces.map(|(height, law)| {
+                times(
+                    &law,
+                    std::array::from_fn(|k| strain[k] - height * curvature[k]),
+                )
+            });
+            [bottom[0], bottom[1], bottom[2], top[0], top[1], top[2]]
+        };
+        pairs.zip(&self.to_axes).map(stress).collect()
+    }
+}
