@@ -64,13 +64,13 @@ impl Ply {
 
     /// Stiffness of plane stress along the axes of the section, Pa.
     pub fn stiffness(&self) -> Stiffness {
-        rotated(&self.along_fibres(), &self.to_fibres())
+        rotated(&self.along_fibres(), &self.fibre_strains())
     }
 
     /// Stress along and across the fibres and shear stress, of strains along the axes of the section, Pa.
     pub fn fibre_stress(&self) -> Stiffness {
         let along = Matrix3::from(self.along_fibres()).transpose();
-        rows(&(along * self.to_fibres()))
+        rows(&(along * self.fibre_strains()))
     }
 
     /// Stiffness of plane stress along the axes of the material, Pa.
@@ -85,7 +85,7 @@ impl Ply {
     }
 
     /// Takes strains along the axes of the section to those along the axes of the material.
-    fn to_fibres(self) -> Matrix3<f64> {
+    fn fibre_strains(&self) -> Matrix3<f64> {
         let (sin, cos) = self.angle.sin_cos();
         strain_transformation([[cos, sin], [-sin, cos]])
     }
