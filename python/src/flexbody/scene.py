@@ -509,7 +509,8 @@ class PointOnCable(Part):
 
 class Clamped(Part):
     """
-    Holds an edge of a plate or shell on the ground, and the normal along it. The edge may not stretch; beside it the surface may.
+    Holds an edge of a plate or shell, and the normal along it, on the ground, on a rigid body or on another edge. On the ground and on a
+    rigid body the edge may not stretch; beside it the surface may. Two edges keep the angle between both surfaces.
     """
 
     name: StrictStr
@@ -519,7 +520,8 @@ class Clamped(Part):
     kind: Literal["clamped"] = "clamped"
     edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    `ground`, then the edge, `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
+    `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
+    `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -530,7 +532,7 @@ class Clamped(Part):
 
 class Pinned(Part):
     """
-    Holds an edge of a plate or shell on the ground, about which it may rotate.
+    Holds an edge of a plate or shell on the ground, on a rigid body or on another edge. The surface may rotate about the edge.
     """
 
     name: StrictStr
@@ -540,7 +542,29 @@ class Pinned(Part):
     kind: Literal["pinned"] = "pinned"
     edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    `ground`, then the edge, `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
+    `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
+    `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
+    """
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
+    does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
+    """
+
+
+class Smooth(Part):
+    """
+    Continues a plate or shell smoothly beyond an edge by another one, or by its own opposite edge.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["smooth"] = "smooth"
+    edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    Two edges at the same place, of different bodies or of one that closes: `body.s1=0`, `body.s1=1`, `body.s2=0` or `body.s2=1`.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -2488,7 +2512,7 @@ class Generic(Part):
 
 class Symmetry(Part):
     """
-    Holds an edge of a plate or shell in a plane of symmetry, and the normal there.
+    Holds an edge of a plate or shell in a plane of symmetry, and the normal of the surface there.
     """
 
     name: StrictStr
@@ -2530,6 +2554,7 @@ Joint = TypeAliasType(
         | Generic
         | Clamped
         | Pinned
+        | Smooth
         | Symmetry,
         Field(discriminator="kind"),
     ],
@@ -3728,7 +3753,7 @@ class PressureLoad(Part):
     """
     value: LoadValue
     """
-    Pressure along the normal, Pa: one value.
+    Pressure along the normal, Pa: one value. Expressions may contain the coordinates `s1` and `s2` of the body, each from 0 to 1.
     """
 
 
@@ -3748,7 +3773,7 @@ class AreaForceLoad(Part):
     """
     value: LoadValue
     """
-    Components of the force per area, N/m^2.
+    Components of the force per area, N/m^2. Expressions may contain the coordinates `s1` and `s2` of the body, each from 0 to 1.
     """
 
 
