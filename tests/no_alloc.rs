@@ -199,8 +199,6 @@ fn scenes() -> Vec<String> {
     scenes.push(include_str!("cases/contact/slide.json").into());
     scenes.push(include_str!("../scenes/mooring_line.json").into());
     scenes.push(include_str!("cases/hoisted_mass/space.json").into());
-    // A shell whose edges bodies hold, with stresses that are read.
-    scenes.push(include_str!("../scenes/leaf_spring.json").into());
     scenes
 }
 
