@@ -52,7 +52,7 @@ pub use lumped::{LumpedMass, RigidRod};
 pub use map::{Rotations, ScratchVectors};
 pub use marker::{Marker, Partial, block_of};
 pub use nodes::NodeKind;
-pub use patch::{GridStress, Patch, PatchPoint, SectionFaces};
+pub use patch::{GridStress, Patch, PatchPoint, SectionFaces, stress_at};
 pub use probe::{NodeBlocks, Nodes, Probe, SKEW};
 pub use reduced::ReducedBody;
 pub use rod_chain::{RodChain, middle, planar_axes, rotate_inner, transported_nodes, untwisted};

@@ -25,6 +25,7 @@ use crate::math::space::{components, vector};
 pub use faces::{GridStress, SectionFaces};
 use point::{MeshWeights, PatchFrame};
 use recovery::PatchSection;
+pub use recovery::stress_at;
 
 /// A point of a patch that something acts on or is read at.
 #[derive(Clone, Copy, Debug, PartialEq)]

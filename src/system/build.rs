@@ -76,8 +76,7 @@ impl<const D: usize> System<D> {
         let links = links(&parts, &nonlinear);
         let (assembly, dependent) = Assembly::new(parts.bodies.reference.len(), &rows, &links);
         let mut redundant = redundant(&linear, &dependent)?;
-        // Edges that meet at a corner hold it both.
-        redundant.retain(|joint| parts.joints[*joint].edge().is_none());
+        redundant.retain(|joint| !parts.joints[*joint].shares_corners());
         let mass = parts.bodies.mass_matrix(&assembly);
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
         let loads_damped = parts.loads.iter().any(AppliedLoad::is_damped);

@@ -48,13 +48,15 @@ impl<const K: usize> RunModes<K> {
         }
         Self { modes, amplitudes }
     }
+}
 
-    /// Numbers of the modes, point by point, as a table of a page.
-    pub fn by_points(&self, points: usize) -> Vec<Vec<f64>> {
-        let row = |point: usize| {
-            let modes = self.modes.iter();
-            modes.flat_map(|ways| ways[point].iter().copied()).collect()
-        };
-        (0..points).map(row).collect()
-    }
+/// Numbers of modes, point by point, as a table of a page.
+pub(super) fn by_points<const K: usize>(modes: &[PointVectors<K>], points: usize) -> Vec<Vec<f64>> {
+    (0..points).map(|point| at_point(modes, point)).collect()
+}
+
+/// Numbers of modes at a point.
+pub(super) fn at_point<const K: usize>(modes: &[PointVectors<K>], point: usize) -> Vec<f64> {
+    let modes = modes.iter();
+    modes.flat_map(|ways| ways[point].iter().copied()).collect()
 }

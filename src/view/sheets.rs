@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use super::numbers::{Numbers, list};
-use super::run_modes::RunModes;
+use super::run_modes::{RunModes, at_point, by_points};
 use crate::scene::PatchBody;
 use crate::simulation::Pose;
 use crate::system::von_mises;
@@ -57,7 +57,10 @@ impl SheetStress {
         if self.modes.modes.is_empty() || points > PAINTED {
             return String::new();
         }
-        let tables = [self.modes.by_points(points), self.modes.amplitudes.clone()];
+        let tables = [
+            by_points(&self.modes.modes, points),
+            self.modes.amplitudes.clone(),
+        ];
         let [modes, strains] = tables.map(|rows| numbers.stepped(&rows));
         let most = self.most;
         format!(
@@ -131,13 +134,7 @@ impl SheetModes {
             .iter()
             .map(|at| at.iter().copied().collect())
             .collect();
-        let moved = |point: usize| {
-            let modes = self.modes.iter();
-            modes
-                .flat_map(|ways| <[f64; 3]>::from(ways[point]))
-                .collect()
-        };
-        let moved: Vec<Vec<f64>> = (0..points.len()).map(moved).collect();
+        let moved = by_points(&self.modes, points.len());
         let amplitudes: Vec<Vec<f64>> = frames
             .iter()
             .map(|poses| poses[place].amplitudes.clone())
@@ -162,9 +159,7 @@ impl SheetModes {
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .map_or(0, |(point, _)| point);
         let point = <[f64; 3]>::from(self.points[nearest]);
-        let modes: Vec<f64> = (self.modes.iter())
-            .flat_map(|ways| <[f64; 3]>::from(ways[nearest]))
-            .collect();
+        let modes = at_point(&self.modes, nearest);
         format!("\"point\":{point:?},\"modes\":{modes:?}")
     }
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use serde_json::{Value, json};
 
+use super::plates::ALL;
 use super::runs::Run;
 
 /// A rectangular plate along the first two axes with keys of its section, and all outputs of sections at some markers.
@@ -36,20 +37,12 @@ fn hold(scene: &mut Value, kind: &str, edges: &[&str]) {
     scene["joints"] = edges.iter().map(joint).collect();
 }
 
-fn at_rest(mut scene: Value, loads: Value) -> Run {
-    scene["loads"] = loads;
-    scene["initial"] = json!("static_equilibrium");
-    Run::started(&scene)
-}
-
-const ALL: [&str; 4] = ["s1=0", "s1=1", "s2=0", "s2=1"];
-
 /// Moments of a plate with D = 1 under a small uniform pressure, over the pressure, at some markers.
 fn moments(sides: [f64; 2], mesh: [u32; 2], kind: &str, markers: &Value) -> Vec<[f64; 3]> {
     let mut scene = plate(sides, mesh, &material(0.01, 0.3), markers);
     hold(&mut scene, kind, &ALL);
     let load = json!([{"name": "q", "kind": "pressure", "body": "p", "value": 1e-4}]);
-    let mut run = at_rest(scene, load);
+    let mut run = Run::at_rest(scene, &load);
     let markers = markers.as_object().expect("markers").keys();
     let read = |marker: &String| run.read_all(&format!("p.{marker}.bending_moment"));
     markers
@@ -121,7 +114,7 @@ fn strips_are_beams() {
     // One at a time: tension straightens what is bent.
     for (tension, force) in [(2e-4, 0.0), (0.0, 3e-5)] {
         let load = json!([{"name": "F", "kind": "force", "marker": "p.end", "value": [tension, 0, force]}]);
-        let mut run = at_rest(scene.clone(), load);
+        let mut run = Run::at_rest(scene.clone(), &load);
         for (k, at) in places.iter().enumerate() {
             let name = |what: &str| format!("p.m{k}.{what}");
             let [n, _, _] = run.read_all(&name("membrane_force"));
@@ -163,7 +156,7 @@ fn coupled_strips_bend_under_tension() {
     let mut scene = plate([1.0, width], [4, 1], &keys, &markers);
     hold(&mut scene, "clamped", &["s1=0"]);
     let load = json!([{"name": "F", "kind": "force", "marker": "p.end", "value": [width * tension, 0, 0]}]);
-    let mut run = at_rest(scene, load);
+    let mut run = Run::at_rest(scene, &load);
     let determinant = a * d - b * b;
     let (strain, curvature) = (tension * d / determinant, tension * b / determinant);
     for marker in ["m", "root"] {
@@ -194,7 +187,7 @@ fn tubes_carry_pressure_around() {
         plane("s1=1", [0.0, 1.0, 0.0]),
     ]);
     let load = json!([{"name": "q", "kind": "pressure", "body": "p", "value": pressure}]);
-    let mut run = at_rest(scene, load);
+    let mut run = Run::at_rest(scene, &load);
     for marker in ["m", "seam"] {
         let [around, along, shear] = run.read_all(&format!("p.{marker}.membrane_force"));
         is_near(around, pressure * radius, 1e-3 * pressure * radius);
@@ -275,7 +268,7 @@ fn plies_have_the_stress_of_laminate_theory() {
             {"name": "level", "kind": "generic", "markers": ["ground", "p.m"],
                 "free": ["x", "y", "rotation_x", "rotation_y", "rotation_z"]}]);
         let load = json!([{"name": "F", "kind": "force", "marker": "p.end", "value": [0.6 * tension, 0, 0]}]);
-        let mut run = at_rest(scene, load);
+        let mut run = Run::at_rest(scene, &load);
         for marker in ["m", "edge"] {
             let force: [f64; 3] = run.read_all(&format!("p.{marker}.membrane_force"));
             for (found, exact) in force.into_iter().zip(turned([tension, 0.0, 0.0], axis)) {

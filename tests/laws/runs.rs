@@ -2,7 +2,7 @@
 
 use flexbody::scene::Scene;
 use flexbody::simulation::{Causality, Simulation, Snapshot};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// A simulation of a scene, started.
 pub struct Run(pub Simulation);
@@ -20,6 +20,25 @@ impl Run {
         let mut run = Self::ready(scene);
         run.start();
         run
+    }
+
+    /// A simulation of a scene in static equilibrium under loads, started.
+    pub fn at_rest(mut scene: Value, loads: &Value) -> Self {
+        scene["loads"] = loads.clone();
+        scene["initial"] = json!("static_equilibrium");
+        Self::started(&scene)
+    }
+
+    /// Kinetic and strain energy of a scene that reads its energy, J.
+    pub fn mechanical_energy(&mut self) -> f64 {
+        self.read("energy.kinetic") + self.read("energy.strain")
+    }
+
+    /// Outputs whose names have the word momentum.
+    pub fn momenta(&mut self) -> Vec<f64> {
+        let names = self.names().into_iter();
+        let own = names.filter(|name| name.contains("momentum"));
+        own.map(|name| self.read(&name)).collect()
     }
 
     /// Computes the initial state and starts.

@@ -1,6 +1,6 @@
 //! Stress at the bottom and the top of a patch at a grid of points, for pictures.
 
-use super::recovery::{RecoveryLine, times};
+use super::recovery::{RecoveryLine, stress_at, times};
 use super::{GaussStrains, Patch};
 use crate::bodies::connectivity::Node;
 use crate::elements::shell::{ShellSection, Stiffness};
@@ -58,13 +58,9 @@ impl GridStress {
         let pairs = (self.lines[0].iter()).flat_map(|a| across.clone().map(move |b| [a, b]));
         let stress = |(lines, to_axes): ([&RecoveryLine; 2], &[[f64; 3]; 3])| {
             let of = patch.recovered(lines, |element| self.strains[element]);
-            let [strain, curvature] = of.map(|of| times(to_axes, of));
-            let [bottom, top] = self.faces.map(|(height, law)| {
-                times(
-                    &law,
-                    std::array::from_fn(|k| strain[k] - height * curvature[k]),
-                )
-            });
+            let of = of.map(|of| times(to_axes, of));
+            let faces = self.faces.each_ref();
+            let [bottom, top] = faces.map(|(height, law)| stress_at((*height, law), of));
             [bottom[0], bottom[1], bottom[2], top[0], top[1], top[2]]
         };
         pairs.zip(&self.to_axes).map(stress).collect()

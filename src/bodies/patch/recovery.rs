@@ -238,6 +238,15 @@ impl Patch {
     }
 }
 
+/// Stress 11, 22 and 12 by a law at a height (m) along the normal, of membrane strains and changes of curvature, Pa.
+pub fn stress_at<N: Number>(
+    (height, law): (f64, &[[f64; 3]; 3]),
+    [strain, curvature]: [[N; 3]; 2],
+) -> [N; 3] {
+    let strain = |k: usize| strain[k] - N::of(height) * curvature[k];
+    times(law, std::array::from_fn(strain))
+}
+
 /// A matrix times components.
 pub(super) fn times<N: Number>(matrix: &[[f64; 3]; 3], of: [N; 3]) -> [N; 3] {
     matrix.map(|row| N::of(row[0]) * of[0] + N::of(row[1]) * of[1] + N::of(row[2]) * of[2])

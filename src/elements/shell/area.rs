@@ -74,18 +74,10 @@ impl Shell {
         e: &ElementCorners<N>,
         pressure: &[N; AREA_PLACES],
     ) -> ElementCorners<N> {
-        let mut out = [[[N::of(0.0); 3]; VECTORS]; 4];
-        for place in 0..AREA_PLACES {
+        self.on_values(|place| {
             let [first, second] = self.tangents(e, place);
-            let force = first.cross(&second) * (pressure[place] * N::of(weight(place)));
-            for (k, out) in out.as_flattened_mut().iter_mut().enumerate() {
-                let part = force * N::of(functions(k, place)[0] * self.scale(k));
-                out.iter_mut()
-                    .zip(&part)
-                    .for_each(|(out, part)| *out += *part);
-            }
-        }
-        out
+            first.cross(&second) * (pressure[place] * N::of(weight(place)))
+        })
     }
 
     /// Forces of a dead load per area of the unstressed surface, N/m^2.
@@ -99,13 +91,19 @@ impl Shell {
 
     /// Forces of a dead load per area of the unstressed surface at the places of quadrature, N/m^2.
     pub fn varying_area_force<N: Number>(&self, load: &[[N; 3]; AREA_PLACES]) -> ElementCorners<N> {
+        self.on_values(|place| Vector3::from(load[place]) * N::of(self.areas[place]))
+    }
+
+    /// Forces on the coordinates of a force at every place, N.
+    fn on_values<N: Number>(&self, force: impl Fn(usize) -> Vector3<N>) -> ElementCorners<N> {
         let mut out = [[[N::of(0.0); 3]; VECTORS]; 4];
-        for (place, load) in load.iter().enumerate() {
+        for place in 0..AREA_PLACES {
+            let force = force(place);
             for (k, out) in out.as_flattened_mut().iter_mut().enumerate() {
-                let by = N::of(self.areas[place] * functions(k, place)[0] * self.scale(k));
+                let part = force * N::of(functions(k, place)[0] * self.scale(k));
                 out.iter_mut()
-                    .zip(load)
-                    .for_each(|(out, load)| *out += *load * by);
+                    .zip(&part)
+                    .for_each(|(out, part)| *out += *part);
             }
         }
         out

@@ -362,9 +362,8 @@ impl<N: Real> Tangent<N> {
             twist + twist,
         ];
         let curved = -dot(&m, &curved);
-        let mut coupled = [zero; 4];
+        let (coupling, mut coupled) = (kernel.law(1, i, j, read), [zero; 4]);
         if kernel.is_coupled {
-            let coupling = kernel.law(1, i, j, read);
             for k in 0..4 {
                 let (alpha, beta) = functions(a, k);
                 coupled[k] = apply(&coupling, self.rows[i][j][alpha][beta].bending);
@@ -382,6 +381,10 @@ impl<N: Real> Tangent<N> {
                 }
             }
             let bent = apply(&bend, of_l.bending);
+            let mut coupled_l = zero;
+            if kernel.is_coupled {
+                coupled_l = apply(&coupling, of_l.bending);
+            }
             let (minus, curved_dual) = (-of_l.moment, times(&of_l.dual, curved));
             for k in 0..4 {
                 if a == b && k < l {
@@ -397,9 +400,8 @@ impl<N: Real> Tangent<N> {
                     on_right = times(&of_k.dual, minus);
                 }
                 if kernel.is_coupled {
-                    let of_b = apply(&kernel.law(1, i, j, read), of_l.bending);
                     for c in 0..3 {
-                        on_left = plus(&of_k.membrane[c], -of_b[c], &on_left);
+                        on_left = plus(&of_k.membrane[c], -coupled_l[c], &on_left);
                         on_right = plus(&of_l.membrane[c], -coupled[k][c], &on_right);
                     }
                 }

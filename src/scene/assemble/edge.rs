@@ -51,13 +51,12 @@ struct Line<'a> {
 impl<'a> Line<'a> {
     fn new(patch: &'a Patch, line: &MeshLine<'_>) -> Self {
         let (held, direction) = (line.line as usize, 1 - line.across);
-        let slopes = |first: usize| [(first, 1), (first + 1, 0)];
         let node = |k: usize| {
             let first = match line.across {
                 0 => patch.mesh_node(held, k),
                 _ => patch.mesh_node(k, held),
             };
-            let slopes = slopes(first);
+            let slopes = [(first, 1), (first + 1, 0)];
             let (along, across) = (slopes[direction], slopes[line.across]);
             LineNode {
                 first,
@@ -89,6 +88,27 @@ impl<'a> Line<'a> {
         let mut weights = [0.0; 4];
         weights[part] = weight;
         Marker::weighted(self.body, [node, node], weights)
+    }
+
+    /// First node of its middle node, or of that after the middle.
+    fn middle(&self) -> usize {
+        self.nodes[self.nodes.len() / 2].first
+    }
+
+    /// The middle: the element and the place in it.
+    fn middle_place(&self, line: usize) -> ([usize; 2], [f64; 2]) {
+        let (mut element, mut place) = ([0; 2], [0.0; 2]);
+        let (across, along) = (self.across, 1 - self.across);
+        element[across] = line.min(self.patch.divisions()[across] - 1);
+        place[across] = (line - element[across]) as f64;
+        element[along] = self.lengths.len() / 2;
+        place[along] = 0.5 * (self.lengths.len() % 2) as f64;
+        (element, place)
+    }
+
+    /// End of a joint at its middle node.
+    fn end<const D: usize>(&self) -> Attachment<D> {
+        Attachment::Body(self.marker((self.middle(), 1), 1.0))
     }
 
     /// Marker at the same vector of both ends of an element, with their weights.
@@ -135,16 +155,14 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     fn edge(&self, edge: &ResolvedEdge<'_>) -> JointEquations<D> {
-        let (patch, line) = (self.patch_of(edge.line.plate), &edge.line);
-        let of = Line::new(patch, line);
+        let of = Line::new(self.patch_of(edge.line.plate), &edge.line);
         let (mut rows, mut constraints) = (Vec::new(), Vec::new());
-        let middle = of.nodes[of.nodes.len() / 2].first;
         let first = match &edge.base {
             EdgeBase::Ground => {
                 for node in &of.nodes {
                     rows.extend(self.rows_on_ground(edge.hold, node));
                 }
-                Attachment::Ground(self.parts.bodies.reference[middle][0].into())
+                Attachment::Ground(self.parts.bodies.reference[of.middle()][0].into())
             }
             EdgeBase::Marker(marker) => {
                 let marker = self.marker(*marker);
@@ -157,47 +175,27 @@ impl<const D: usize> Builder<'_, D> {
             EdgeBase::Line(base, is_reversed) => {
                 let base = Line::new(self.patch_of(base.plate), base);
                 let base = if *is_reversed { base.reversed() } else { base };
+                let units = of.patch.unit() / base.patch.unit();
+                let units = (edge.hold == EdgeHold::Smooth).then_some(units);
                 for nodes in base.nodes.iter().zip(&of.nodes) {
-                    rows.extend(self.rows_between(nodes, edge.hold == EdgeHold::Smooth));
+                    rows.extend(self.rows_between(nodes, units));
                 }
                 if edge.hold == EdgeHold::Clamped {
                     constraints.extend(self.folds(&base, &of));
                 }
-                let node = base.nodes[base.nodes.len() / 2].first;
-                let along = [0.0, 1.0, 0.0, 0.0];
-                Attachment::Body(Marker::weighted(base.body, [node, node], along))
-            }
-        };
-        let count = of.lengths.len();
-        let (element, xi) = (count / 2, if count.is_multiple_of(2) { 0.0 } else { 0.5 });
-        let beside = (line.line as usize).min(patch.divisions()[of.across] - 1);
-        let place = if beside == line.line as usize {
-            0.0
-        } else {
-            1.0
-        };
-        let ordered = |across, along| {
-            if of.across == 0 {
-                [across, along]
-            } else {
-                [along, across]
+                base.end()
             }
         };
         let held = Edge {
-            patch: self.patch_index(line.plate),
+            patch: self.patch_index(edge.line.plate),
             nodes: of.nodes.iter().map(|node| node.first).collect(),
-            middle: (
-                [0, 1].map(|k| if k == of.across { beside } else { element }),
-                ordered(place, xi),
-            ),
+            middle: of.middle_place(edge.line.line as usize),
             rows,
             constraints,
         };
-        let along = [0.0, 1.0, 0.0, 0.0];
-        let second = Attachment::Body(Marker::weighted(of.body, [middle, middle], along));
         JointEquations {
             holds: vec![Primitive::Edge(held)],
-            ends: [first, second],
+            ends: [first, of.end()],
             spring: None,
             turn: None,
             way: None,
@@ -249,11 +247,12 @@ impl<const D: usize> Builder<'_, D> {
         rows.into_iter().map(row).collect()
     }
 
-    /// Rows that give a node of a second line the place of one of the first, and the slope along it; where the surface is `smooth` all slopes.
+    /// Rows that give a node of a second line the place of one of the first, and the slope along it; of a smooth surface all slopes, with the
+    /// unit of length of its mixed derivatives over that of the first.
     fn rows_between(
         &self,
         (first, second): (&LineNode, &LineNode),
-        smooth: bool,
+        units: Option<f64>,
     ) -> Vec<(ConnectivityRow<D>, f64)> {
         let ratio = |[of, by]: [NodeVector; 2]| {
             let [of, by] = [of, by].map(|of| self.vector_of(of));
@@ -265,9 +264,8 @@ impl<const D: usize> Builder<'_, D> {
             ([first.point(), second.point()], 1.0),
             (along, ratio(along)),
         ];
-        if smooth {
-            let units = [first, second].map(|node| self.unit_at(node.first));
-            let of_mixed = ratio(along) * ratio(across) * units[1] / units[0];
+        if let Some(units) = units {
+            let of_mixed = ratio(along) * ratio(across) * units;
             pairs.extend([(across, ratio(across)), (mixed, of_mixed)]);
         }
         let row = |(pair, ratio): ([NodeVector; 2], f64), axis: usize| {
@@ -282,14 +280,6 @@ impl<const D: usize> Builder<'_, D> {
         pairs
             .flat_map(|pair| (0..D).map(move |axis| row(pair, axis)))
             .collect()
-    }
-
-    /// Unit of length of the mixed derivative at a node, m.
-    fn unit_at(&self, node: usize) -> f64 {
-        let mut patches = self.parts.bodies.patches().iter();
-        patches
-            .find(|patch| patch.all().contains(&node))
-            .map_or(1.0, Patch::unit)
     }
 
     /// Conditions that hold a node of a line on the frame of a marker, and the normal where it `is_clamped`.

@@ -209,7 +209,7 @@ impl<'a> ActingLoad<'a> for Action<'a> {
                     [_] => format!("{path}.value"),
                     _ => format!("{path}.value[{k}]"),
                 };
-                load.values[*k].places = builder.over_places(plate, text, &path)?;
+                load.action.values_mut()[*k].places = builder.over_places(plate, text, &path)?;
             }
         }
         Ok(load)
@@ -325,14 +325,15 @@ impl<const D: usize> Builder<'_, D> {
 
     /// A load over the surface of a plate or shell.
     fn over(&self, plate: Plate<'_>, action: &Action<'_>) -> AppliedLoad<D> {
-        let values = action.components.iter().cloned();
+        let components = &action.components;
         AppliedLoad::AreaLoad(Box::new(AreaLoad {
             patch: self.patch_index(plate),
             action: match action.kind {
-                ActionKind::Pressure => AreaAction::Pressure,
-                _ => AreaAction::Force,
+                ActionKind::Pressure => {
+                    AreaAction::Pressure(AreaValues::uniform(components[0].clone()))
+                }
+                _ => AreaAction::Force(Box::new(each(components).map(AreaValues::uniform))),
             },
-            values: values.map(AreaValues::uniform).collect(),
         }))
     }
 

@@ -4,49 +4,6 @@ use crate::bodies::SectionFaces;
 use crate::elements::shell::{Ply, ShellSection};
 use crate::scene::description::{LaminatePly, PatchBody, PatchStiffness};
 
-impl PatchBody {
-    /// Stiffness and mass of its section.
-    pub fn section(&self) -> ShellSection {
-        let damping_time = self.damping_time.unwrap_or_default();
-        let section = if let (Some(material), Some(thickness)) = (&self.material, self.thickness) {
-            let isotropic = ShellSection::isotropic(
-                material.youngs_modulus,
-                material.poisson_ratio,
-                material.density,
-                thickness,
-            );
-            return ShellSection {
-                damping_time: material.damping_time,
-                ..isotropic
-            };
-        } else if let Some(PatchStiffness { A, B, D }) = self.stiffness {
-            ShellSection {
-                membrane: A,
-                coupling: B,
-                bending: D,
-                area_density: self.area_density.unwrap_or_default(),
-                damping_time,
-                angle: 0.0,
-            }
-        } else {
-            ShellSection {
-                damping_time,
-                ..ShellSection::laminate(
-                    &self
-                        .laminate
-                        .iter()
-                        .map(LaminatePly::layer)
-                        .collect::<Vec<_>>(),
-                )
-            }
-        };
-        ShellSection {
-            angle: self.axis_angle,
-            ..section
-        }
-    }
-}
-
 /// A layer of a section with the heights of its bottom and top from the middle surface, m.
 #[derive(Clone, Copy, Debug)]
 pub struct SectionPly {
@@ -57,9 +14,30 @@ pub struct SectionPly {
 }
 
 impl PatchBody {
-    /// Layers of its section from the bottom to the top: plies, or the one of a material; none of matrices.
-    pub fn layers(&self) -> Vec<SectionPly> {
-        let plies: Vec<Ply> = match (&self.material, self.thickness) {
+    /// Stiffness and mass of its section.
+    pub fn section(&self) -> ShellSection {
+        let section = match self.stiffness {
+            Some(PatchStiffness { A, B, D }) => ShellSection {
+                membrane: A,
+                coupling: B,
+                bending: D,
+                area_density: self.area_density.unwrap_or_default(),
+                damping_time: 0.0,
+                angle: 0.0,
+            },
+            None => ShellSection::laminate(&self.plies()),
+        };
+        let of_material = self.material.as_ref().map(|material| material.damping_time);
+        ShellSection {
+            damping_time: of_material.or(self.damping_time).unwrap_or_default(),
+            angle: self.axis_angle,
+            ..section
+        }
+    }
+
+    /// Plies, or the one of a material; none of matrices.
+    fn plies(&self) -> Vec<Ply> {
+        match (&self.material, self.thickness) {
             (Some(material), Some(thickness)) => vec![Ply::isotropic(
                 material.youngs_modulus,
                 material.poisson_ratio,
@@ -67,7 +45,12 @@ impl PatchBody {
                 thickness,
             )],
             _ => self.laminate.iter().map(LaminatePly::layer).collect(),
-        };
+        }
+    }
+
+    /// Layers of its section from the bottom to the top; none of matrices.
+    pub fn layers(&self) -> Vec<SectionPly> {
+        let plies = self.plies();
         let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
         let mut bottom = -0.5 * whole;
         let layer = |ply: Ply| {
@@ -77,9 +60,7 @@ impl PatchBody {
         };
         plies.into_iter().map(layer).collect()
     }
-}
 
-impl PatchBody {
     /// Bottom and top of its section; none of matrices.
     pub fn faces(&self) -> Option<SectionFaces> {
         let layers = self.layers();

@@ -233,8 +233,14 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         return add_plies(list, marker.name, first, plies);
     }
     let rows = match output.of {
-        OutputTarget::Marker(marker) if matches!(marker.place, Place::Patch(..)) => {
-            surface_rows_or(output.kind, resolved)
+        OutputTarget::Marker(marker)
+            if matches!(marker.place, Place::Patch(..))
+                && matches!(
+                    output.kind,
+                    OutputKind::Curvature | OutputKind::BendingMoment
+                ) =>
+        {
+            surface_rows(output.kind)
         }
         _ => rows(output.kind, resolved),
     };
@@ -273,14 +279,6 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             continue;
         }
         list.shaped(&label, shape, count, source);
-    }
-}
-
-/// Lists the rows of an output at a marker of a plate or shell.
-fn surface_rows_or(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
-    match kind {
-        OutputKind::Curvature | OutputKind::BendingMoment => surface_rows(kind),
-        _ => rows(kind, resolved),
     }
 }
 

@@ -464,6 +464,11 @@ impl<const D: usize> JointEquations<D> {
         })
     }
 
+    /// Whether it may hold what others hold without a mistake of a person: edges of plates that meet at a corner both hold it.
+    pub fn shares_corners(&self) -> bool {
+        self.edge().is_some()
+    }
+
     /// Whether it holds one position on the other and nothing else.
     pub fn is_pin(&self) -> bool {
         matches!(self.holds[..], [Primitive::Coincident])

@@ -3,17 +3,17 @@
 
 use super::{Add, ForceElement, Instant, hold};
 use crate::bodies::{Bodies, Node, Patch, block_of_parts};
-use crate::elements::shell::{AREA_PLACES, ElementCorners, VECTORS};
+use crate::elements::shell::{AREA_PLACES, ElementCorners};
 use crate::math::jet::Number;
 use crate::system::signal::Signal;
 
 /// Action on an area.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum AreaAction {
-    /// Pressure along the normal `r1 x r2`, Pa: one component.
-    Pressure,
+    /// Pressure along the normal `r1 x r2`, Pa.
+    Pressure(AreaValues),
     /// Force per area of the unstressed surface in global components, N/m^2.
-    Force,
+    Force(Box<[AreaValues; 3]>),
 }
 
 /// A component of a load on an area.
@@ -32,8 +32,24 @@ pub struct AreaLoad {
     pub patch: usize,
     /// The action.
     pub action: AreaAction,
+}
+
+impl AreaAction {
     /// Components of the action.
-    pub values: Vec<AreaValues>,
+    fn values(&self) -> &[AreaValues] {
+        match self {
+            Self::Pressure(pressure) => std::slice::from_ref(pressure),
+            Self::Force(load) => load.as_slice(),
+        }
+    }
+
+    /// Components of the action, to be set.
+    pub fn values_mut(&mut self) -> &mut [AreaValues] {
+        match self {
+            Self::Pressure(pressure) => std::slice::from_mut(pressure),
+            Self::Force(load) => load.as_mut_slice(),
+        }
+    }
 }
 
 impl AreaValues {
@@ -67,11 +83,6 @@ impl AreaLoad {
         &bodies.patches()[self.patch]
     }
 
-    /// Whether a component changes over the area.
-    fn varies(&self) -> bool {
-        self.values.iter().any(|values| !values.places.is_empty())
-    }
-
     /// Forces on the corners of an element.
     fn force<const D: usize, N: Number>(
         &self,
@@ -80,18 +91,17 @@ impl AreaLoad {
     ) -> ElementCorners<N> {
         let patch = self.of(at.bodies);
         let of = &patch.elements()[element];
-        match (self.action, &self.values[..]) {
-            (AreaAction::Pressure, [pressure, ..]) => {
+        match &self.action {
+            AreaAction::Pressure(pressure) => {
                 of.pressure_force(&patch.element(element, at.x), &pressure.at(at, element))
             }
-            (AreaAction::Force, [x, y, z]) if self.varies() => {
-                let values = [x, y, z].map(|values| values.at(at, element));
+            AreaAction::Force(load) if load.iter().all(|values| values.places.is_empty()) => {
+                of.area_force(&load.each_ref().map(|values| values.uniform.value(at)))
+            }
+            AreaAction::Force(load) => {
+                let values = load.each_ref().map(|values| values.at(at, element));
                 of.varying_area_force(&std::array::from_fn(|place| values.map(|of| of[place])))
             }
-            (AreaAction::Force, [x, y, z]) => {
-                of.area_force(&[x, y, z].map(|values| values.uniform.value(at)))
-            }
-            _ => [[[N::of(0.0); 3]; VECTORS]; 4],
         }
     }
 
@@ -121,7 +131,7 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
 
     /// Of pressure the symmetric part: all of it but at edges that move freely.
     fn add_tangent(&self, at: Instant<'_, D>, add: Add<'_, D>, _damping: Add<'_, D>) {
-        let (AreaAction::Pressure, [pressure, ..]) = (self.action, &self.values[..]) else {
+        let AreaAction::Pressure(pressure) = &self.action else {
             return;
         };
         let patch = self.of(at.bodies);
@@ -149,21 +159,19 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
     }
 
     fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
-        for values in &mut self.values {
+        for values in self.action.values_mut() {
             values.uniform = values.uniform.held(at, fraction);
             hold(&mut values.places, at, fraction);
         }
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
-        self.values
-            .iter()
-            .flat_map(AreaValues::signals)
-            .for_each(call);
+        let values = self.action.values().iter();
+        values.flat_map(AreaValues::signals).for_each(call);
     }
 
     fn is_conservative(&self) -> bool {
-        self.action == AreaAction::Force
+        matches!(self.action, AreaAction::Force(_))
     }
 
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {

@@ -335,13 +335,13 @@ impl<const D: usize> System<D> {
             .count()
     }
 
-    /// Returns the owners of constraints. Edges of plates that meet at a corner hold it both, which is no mistake of a person.
+    /// Returns the owners of constraints, but those of joints that may repeat others.
     fn holding(&self, rows: impl IntoIterator<Item = usize>) -> HoldingParts {
         let mut held = HoldingParts::default();
         for row in rows {
             let constraint = &self.constraints[row];
             match (constraint.joint, &constraint.kind) {
-                (Some(joint), _) if self.joints[joint].edge().is_some() => {}
+                (Some(joint), _) if self.joints[joint].shares_corners() => {}
                 (Some(joint), _) => held.holders.push(joint),
                 (None, ConstraintKind::UnitLength(unit)) => {
                     held.bodies.extend(self.bodies.body_of(unit.node));

@@ -4,7 +4,7 @@
 //! moments per length).
 
 use super::evaluation::Evaluation;
-use crate::bodies::Marker;
+use crate::bodies::{Marker, stress_at};
 use crate::math::jet::Number;
 use crate::system::System;
 
@@ -44,12 +44,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let Some((patch, point)) = system.bodies.patch_point(&layer.marker) else {
             return [N::of(0.0); 3];
         };
-        let [strain, curvature] = patch.section_strain(point, &self.x, Some(&self.v));
-        let height = N::of(layer.height);
-        let strain: [N; 3] = std::array::from_fn(|k| strain[k] - height * curvature[k]);
-        layer.law.map(|row| {
-            let terms = row.iter().zip(strain);
-            terms.fold(N::of(0.0), |sum, (by, strain)| sum + N::of(*by) * strain)
-        })
+        let strain = patch.section_strain(point, &self.x, Some(&self.v));
+        stress_at((layer.height, &layer.law), strain)
     }
 }
