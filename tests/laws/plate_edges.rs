@@ -40,14 +40,8 @@ fn off<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
 }
 
 /// A square cantilever in one piece, with a force at its corner.
-fn whole() -> [f64; 3] {
-    let body = plate(
-        "p",
-        [0.0; 3],
-        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        [4, 2],
-        0.3,
-    );
+fn whole(mesh: [u32; 2]) -> [f64; 3] {
+    let body = plate("p", [0.0; 3], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], mesh, 0.3);
     let outputs = json!([{"kind": "position", "marker": "p.c"}]);
     let joints = json!([joint("wall", "clamped", "ground", "p.s1=0")]);
     let loads = json!([{"name": "F", "kind": "force", "marker": "p.c", "value": [0.1, -0.2, 2]}]);
@@ -81,7 +75,7 @@ fn halves(
 /// middles comes close.
 #[test]
 fn parts_that_continue_each_other_are_one_plate() {
-    let whole = whole();
+    let [whole, fine] = [[4, 2], [8, 2]].map(whole);
     let (x, y) = ([0.5, 0.0, 0.0], [0.0, 1.0, 0.0]);
     let back = |v: [f64; 3]| v.map(|part| -part);
     let described = [
@@ -99,6 +93,10 @@ fn parts_that_continue_each_other_are_one_plate() {
         let found = halves("clamped", names, part);
         assert!(off(&found, &whole) < 4e-3, "{names:?} {found:?} {whole:?}");
     }
+    // Smaller elements on one side, whose mixed derivatives have another unit.
+    let part = ([0.5, 0.0, 0.0], [x, y], [4, 2]);
+    let found = halves("smooth", ["q.s1=0", "q.c"], part);
+    assert!(off(&found, &fine) < 1e-3, "{found:?} {fine:?}");
 }
 
 /// A frame of two legs of length 1 at a right angle, clamped at its foot, with a small force `F` across the end of the second:
