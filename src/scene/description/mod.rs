@@ -54,7 +54,7 @@ pub use solid::Solid;
 pub use strict::Strict;
 pub use surface::Surface;
 pub use tagged::Kinds;
-pub use value::{ALONG_LINE, Interpolation, LoadValue, MotionValue, Table, Value};
+pub use value::{ALONG_LINE, Interpolation, LoadValue, MotionValue, OVER_SURFACE, Table, Value};
 pub use vector::{SceneVector, Spin};
 
 /// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.

@@ -244,7 +244,7 @@ fn add_sizes(list: &mut List, rigid: &Rigid<'_>) {
 fn add_loads(list: &mut List, resolved: &Resolved<'_>) {
     for (i, load) in resolved.loads.iter().enumerate() {
         let mut given = load.given.clone();
-        let numbers = given.numbers(load.kind.place().is_angle()).into_iter();
+        let numbers = given.numbers(load.kind.place().extent()).into_iter();
         let numbers = numbers.enumerate();
         for (k, number) in numbers.filter(|(_, of)| load.kind.has_number(of.key, resolved)) {
             let of = load.name;
