@@ -41,6 +41,7 @@ mod planar_files;
 mod planar_modes;
 mod plate_edges;
 mod plate_sections;
+mod plate_stiffeners;
 mod plates;
 mod ports;
 mod projection;
