@@ -10,8 +10,8 @@
 
 use nalgebra::{SVector, Vector3};
 
-use crate::bodies::connectivity::Node;
 use super::RotatingNodes;
+use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{Axes, axes_at, combined};
 use crate::math::space::{Vector, components, tangent_axes, vector};
 

@@ -329,17 +329,19 @@ impl<const D: usize> Builder<'_, D> {
         let frames = sections.into_iter().flat_map(RodChain::frames);
         let frames: BTreeMap<usize, usize> = frames.map(|(frame, line)| (line, frame)).collect();
         let x = &self.parts.bodies.reference;
-        base.iter().zip(&of.nodes).filter_map(move |(node, second)| {
-            let frame = *frames.get(node)?;
-            let normal = self.normal_at(second);
-            let normal = axes_at(frame, x).map(|axis| axis.dot(&normal));
-            let normal = Marker::framed(index, frame, [0.0; 3], normal);
-            let across = of.marker(second.across, 1.0);
-            Some(ConstraintKind::Perpendicular(Perpendicular {
-                direction: Direction::Of(normal),
-                across: Across::Direction(Direction::Of(across)),
-            }))
-        })
+        base.iter()
+            .zip(&of.nodes)
+            .filter_map(move |(node, second)| {
+                let frame = *frames.get(node)?;
+                let normal = self.normal_at(second);
+                let normal = axes_at(frame, x).map(|axis| axis.dot(&normal));
+                let normal = Marker::framed(index, frame, [0.0; 3], normal);
+                let across = of.marker(second.across, 1.0);
+                Some(ConstraintKind::Perpendicular(Perpendicular {
+                    direction: Direction::Of(normal),
+                    across: Across::Direction(Direction::Of(across)),
+                }))
+            })
     }
 
     /// Conditions that hold a node of a line on the frame of a marker, and the normal where it `is_clamped`.
