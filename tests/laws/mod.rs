@@ -42,6 +42,7 @@ mod planar_modes;
 mod plate_edges;
 mod plate_loads;
 mod plate_sections;
+mod plate_stiffeners;
 mod plates;
 mod ports;
 mod projection;
