@@ -43,7 +43,9 @@ pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, PlyStressOutput, ReactionOutput};
-pub use patch::{LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface};
+pub use patch::{
+    LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface, PatchThickness,
+};
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;
 pub use reduced::{DampingRatio, FileBody, FixedInterfaceModes, Modes, ModesUpTo};

@@ -98,7 +98,7 @@ impl FluidLoad {
                 return Err(expected(&format!("{path}.{key}"), wanted, value));
             }
         }
-        if self.lifts() && plate.body.layers().is_empty() {
+        if self.lifts() && plate.body.layers([0.5; 2]).is_empty() {
             let wanted = "false for a section whose thickness is not given";
             return Err(expected(&format!("{path}.buoyancy"), wanted, true));
         }
@@ -275,23 +275,26 @@ impl<'a> ResolvedFluid<'a> {
         builder: &Builder<'_, D>,
         path: &str,
     ) -> AssembledLoad<D> {
-        let layers = plate.body.layers();
-        let thickness: f64 = layers.iter().map(|layer| layer.ply.thickness).sum();
         let mut current = each(&self.current).map(AreaValues::uniform);
         for (k, text) in &self.varying {
             let path = format!("{path}.current[{k}]");
             current[*k].places = builder.over_places(plate, text, &path)?;
         }
         let coefficients = [self.given.tangential_drag, self.given.drag];
-        let faced = 0.5 * self.given.density;
-        let displaced = self.given.density * thickness;
+        let (density, lifts) = (self.given.density, self.given.lifts());
+        let drag = coefficients.map(|of| 0.5 * density * of.unwrap_or_default());
+        let segment = |at: [f64; 2]| {
+            let displaced = density * plate.body.whole_thickness(at);
+            FluidSegment {
+                drag,
+                buoyant: if lifts { displaced } else { 0.0 },
+                inert: displaced,
+            }
+        };
+        let places = builder.patch_of(plate).area_places();
         Ok(AppliedLoad::SurfaceFluid(Box::new(SurfaceFluid {
             patch: builder.patch_index(plate),
-            coefficients: FluidSegment {
-                drag: coefficients.map(|of| faced * of.unwrap_or_default()),
-                buoyant: if self.given.lifts() { displaced } else { 0.0 },
-                inert: displaced,
-            },
+            places: places.map(segment).collect(),
             current,
             gravity: builder.resolved.scene.gravity.full(),
             carried: [[0.0; 3]; 2],

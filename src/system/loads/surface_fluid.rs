@@ -25,8 +25,8 @@ use crate::system::signal::Signal;
 pub struct SurfaceFluid {
     /// Index among the plates and shells.
     pub patch: usize,
-    /// Coefficients per area, of all elements.
-    pub coefficients: FluidSegment,
+    /// Coefficients per area at the places of quadrature, element by element.
+    pub places: Vec<FluidSegment>,
     /// Velocity of the fluid, m/s.
     pub current: [AreaValues; 3],
     /// Gravitational acceleration, m/s^2.
@@ -76,7 +76,7 @@ impl SurfaceFluid {
                 drag,
                 buoyant,
                 inert,
-            } = self.coefficients;
+            } = self.places[AREA_PLACES * element + place];
             let rate = Vector3::from(rates.map(|of| of[place]));
             let lift = Vector3::from(self.gravity.map(|part| N::of(-buoyant * part)));
             let force = flow.drag(drag) + rate * N::of(inert) + lift;
@@ -98,11 +98,16 @@ impl SurfaceFluid {
         self.of(at.bodies).elements()[element].varying_area_force(&load)
     }
 
+    /// Whether there is drag.
+    fn is_dragged(&self) -> bool {
+        self.places.iter().any(|of| of.drag != [0.0; 2])
+    }
+
     /// Whether it can do without a potential: buoyancy alone acts on what rests in a fluid at rest.
     pub(super) fn streams(&self) -> bool {
         let is_carried = self.carried != [[0.0; 3]; 2];
         let mut signals = self.current.iter().flat_map(AreaValues::signals);
-        self.coefficients.drag != [0.0; 2] && (is_carried || !signals.all(Signal::is_zero))
+        self.is_dragged() && (is_carried || !signals.all(Signal::is_zero))
     }
 }
 
@@ -129,14 +134,15 @@ impl<const D: usize> ForceElement<D> for SurfaceFluid {
     /// Adds the damping matrix of drag. Derivatives by the rotation of the surface are left out: they are not symmetric, and steps
     /// converge without them.
     fn add_tangent(&self, at: Instant<'_, D>, _stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        if self.coefficients.drag == [0.0; 2] {
+        if !self.is_dragged() {
             return;
         }
         let patch = self.of(at.bodies);
         for (index, element) in patch.elements().iter().enumerate() {
             let flows = self.flows(at, index);
             let matrices: [Matrix3<f64>; AREA_PLACES] = std::array::from_fn(|place| {
-                flows[place].flow.damping(self.coefficients.drag) * self.fraction
+                let drag = self.places[AREA_PLACES * index + place].drag;
+                flows[place].flow.damping(drag) * self.fraction
             });
             add_element(
                 &patch.element_nodes(index),
@@ -150,8 +156,10 @@ impl<const D: usize> ForceElement<D> for SurfaceFluid {
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let (mut on_surface, mut lost) = (N::of(0.0), N::of(0.0));
         for (index, element) in self.of(at.bodies).elements().iter().enumerate() {
-            for (flow, area) in self.flows(at, index).iter().zip(element.place_areas()) {
-                let drag = flow.flow.drag(self.coefficients.drag) * N::of(self.fraction * area);
+            let places = self.places[AREA_PLACES * index..].iter();
+            let places = places.zip(element.place_areas());
+            for (flow, (own, area)) in self.flows(at, index).iter().zip(places) {
+                let drag = flow.flow.drag(own.drag) * N::of(self.fraction * area);
                 on_surface += flow.force.dot(&flow.velocity) * N::of(*area);
                 lost += drag.dot(&flow.flow.past());
             }
@@ -181,7 +189,7 @@ impl<const D: usize> ForceElement<D> for SurfaceFluid {
     }
 
     fn is_damped(&self) -> bool {
-        self.coefficients.drag != [0.0; 2]
+        self.is_dragged()
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {

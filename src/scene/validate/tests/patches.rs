@@ -75,6 +75,11 @@ fn sections_are_checked() {
         scene,
         r#"
         /bodies/0/thickness | 0 | bodies[0].thickness: expected a positive number (m), found 0
+        /bodies/0/thickness | "0.01*(1-0.5*s1*s2)" | accepted
+        /bodies/0/thickness | "0.01*(1-2*s1)" | bodies[0].thickness: expected a positive thickness (m) all over the surface, found 0 at s1 = 0.5, s2 = 0
+        /bodies/0/thickness | "0.01*(1+t)" | bodies[0].thickness: expected an expression in `s1` and `s2` alone
+        /bodies/0/thickness | "0.01*(1+s)" | bodies[0].thickness
+        /bodies/0/thickness | {"table": [[0, 1], [1, 2]]} | bodies[0].thickness: expected a number or an expression
         /bodies/0/thickness | null | bodies[0].thickness: expected a thickness, found nothing
         /bodies/0/material/poisson_ratio | 0.6 | bodies[0].material.poisson_ratio: expected a number above -1 and up to 0.5, found 0.6
         /bodies/0/material/poisson_ratio | -1 | bodies[0].material.poisson_ratio
