@@ -39,6 +39,7 @@ mod planar;
 mod planar_beams;
 mod planar_files;
 mod planar_modes;
+mod plate_cases;
 mod plate_edges;
 mod plate_loads;
 mod plate_sections;

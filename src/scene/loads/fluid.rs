@@ -141,7 +141,7 @@ impl SceneLoad for FluidLoad {
         let current = self.current.as_ref().unwrap_or(&rest);
         let current = components(&at("current"), dimension, current, |path, of| {
             let coordinates = match on {
-                LoadPlace::Surface(_) => OVER_SURFACE,
+                LoadPlace::Surface(_) => &OVER_SURFACE,
                 _ => ALONG_LINE,
             };
             component(path, of, coordinates)

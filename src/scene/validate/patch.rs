@@ -55,10 +55,6 @@ impl PatchBody {
         self.surface.validate(&at("surface"))?;
         check_map(&at("surface"), &SurfaceMap::new(&self.surface), is_plate)?;
         self.validate_section(path)?;
-        if self.motion.deformation.is_some() {
-            let wanted = "none of a plate or shell";
-            return Err(expected(&at("motion.deformation"), wanted, "one"));
-        }
         for (marker, place) in &self.markers {
             place.validate(&at(&format!("markers.{marker}")))?;
         }

@@ -97,7 +97,11 @@ fn sections_are_checked() {
         /bodies/1/laminate/1/thickness | 0 | bodies[1].laminate[1].thickness
         /bodies/1/axis_angle | 1 | accepted
         /bodies/1/damping_time | 1e-3 | accepted
-        /bodies/0/motion | {"deformation": ["s", "s", "s"]} | bodies[0].motion.deformation: expected none of a plate or shell, found one
+        /bodies/0/motion | {"deformation": ["s1*s2", "0", "sin(PI*s2)"]} | accepted
+        /bodies/0/motion | {"deformation": ["s", "0", "0"]} | bodies[0].motion.deformation[0]: expected one of the names s1, s2, PI
+        /bodies/0/motion | {"deformation": ["0", "0", "t"]} | bodies[0].motion.deformation[2]: expected one of the names s1, s2, PI
+        /bodies/0/motion | {"deformation": ["0", "s1"]} | bodies[0].motion.deformation: expected 3 values [x, y, z], found 2
+        /bodies/0/motion | {"deformation": ["0", "1/s2", "0"]} | bodies[0].motion.deformation[1]: expected a finite velocity and finite derivatives at [s1, s2] = [0, 0], found
         "#,
     );
     let given = || {
