@@ -40,6 +40,7 @@ mod planar_beams;
 mod planar_files;
 mod planar_modes;
 mod plate_edges;
+mod plate_loads;
 mod plate_sections;
 mod plates;
 mod ports;

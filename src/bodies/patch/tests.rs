@@ -57,7 +57,7 @@ fn patch() -> Patch {
             has_section: false,
         },
     ];
-    Patch::new(2, lines, &nodes, |_, _| section, &points)
+    Patch::new(2, lines, &nodes, |_| section, &points)
 }
 
 /// A configuration that is not the reference, with its points.
