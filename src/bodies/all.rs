@@ -88,6 +88,13 @@ impl<const D: usize> Bodies<D> {
         cost
     }
 
+    /// Cost of a tangent of the bodies beyond that of lines whose evaluation costs as much, in the unit of [`Self::cost_units`].
+    pub fn tangent_cost(&self) -> usize {
+        let mut cost = 0;
+        each!(self, |body| cost += BodyPart::<D>::tangent_cost(body));
+        cost
+    }
+
     /// Whether anything in a body dissipates.
     pub fn is_damped(&self) -> bool {
         let mut is_damped = false;

@@ -7,8 +7,8 @@ use nalgebra::SMatrix;
 
 use super::connectivity::{Cluster, ConnectivityRow, Dependent, Node, clusters, no_node};
 use super::layout::{
-    Entry, FreeRange, MultiplierConstraint, Tied, alone, components, entries, held, runs,
-    side_by_side, vertices,
+    Entry, FreeRange, MultiplierConstraint, Tied, alone, components, entries, held, late,
+    mass_pattern, runs, side_by_side, vertices,
 };
 use crate::math::sparse::{Cholesky, General, Matrix, Number, Pattern, Reach, Slot};
 
@@ -34,6 +34,17 @@ pub fn block_of_parts<const D: usize>(
     block
 }
 
+/// Nodes of an element of a surface, and pairs of them: the second one is no later one.
+const SURFACE_NODES: usize = 8;
+const SURFACE_PAIRS: usize = SURFACE_NODES * (SURFACE_NODES + 1) / 2;
+
+/// Where the block of two nodes that are alone stands in the values of a matrix.
+#[derive(Clone, Copy, Debug)]
+struct BlockPlace {
+    at: u32,
+    is_transposed: bool,
+}
+
 /// Where the coordinates of a node are.
 #[derive(Clone, Copy, Debug)]
 enum NodeCoordinates {
@@ -50,6 +61,8 @@ pub struct Links {
     pub mass: Vec<(usize, usize)>,
     /// Pairs that stiffness and damping may couple besides.
     pub stiffness: Vec<(usize, usize)>,
+    /// Nodes of each element of surfaces, which its mass couples.
+    pub surfaces: Vec<[usize; SURFACE_NODES]>,
     /// Nodes that constraints with multipliers hold, and how many constraints there are on the same nodes.
     pub held: Vec<(Vec<usize>, usize)>,
 }
@@ -59,7 +72,7 @@ pub struct Links {
 pub struct Assembly<const D: usize = 2> {
     /// Structure of matrices over the free coordinates and multipliers.
     pattern: Pattern,
-    /// Structure of the mass, over the free coordinates alone and in the same order.
+    /// Structure of the mass, over the free coordinates alone.
     of_mass: Pattern,
     runs: Vec<FreeRange>,
     held: Vec<MultiplierConstraint>,
@@ -80,6 +93,17 @@ pub struct Assembly<const D: usize = 2> {
     diagonal: Vec<Option<Slot>>,
     /// Block of a node with the one after it, where both are alone and linked.
     next: Vec<Option<Slot>>,
+    /// Blocks of all pairs of nodes of each element of surfaces, where both are alone.
+    of_elements: Vec<[Option<BlockPlace>; SURFACE_PAIRS]>,
+}
+
+/// Nodes of a pair of an element.
+fn pair_of(pair: usize) -> [usize; 2] {
+    let before = |a: usize| a * (a + 1) / 2;
+    let a = (1..SURFACE_NODES)
+        .take_while(|a| before(*a) <= pair)
+        .count();
+    [a, pair - before(a)]
 }
 
 impl<const D: usize> Assembly<D> {
@@ -103,7 +127,12 @@ impl<const D: usize> Assembly<D> {
         let of_multipliers = links.held.iter().map(|(_, count)| *count);
         let all: Vec<usize> = sizes.iter().copied().chain(of_multipliers).collect();
         let pattern = Pattern::with_multipliers(&all, &edges, first);
-        let of_mass = pattern.of_part(&sizes, &mass_edges);
+        let late = late::<D>(
+            (&links.surfaces, &vertices),
+            (&clusters, &of_cluster),
+            (&sizes, &mass_edges),
+        );
+        let of_mass = mass_pattern(&pattern, (&sizes, &mass_edges), &late);
         let place = |node: usize| match tied[node] {
             None => NodeCoordinates::Alone(of_mass.range(vertices[node]).start),
             Some((index, row)) => NodeCoordinates::Tied(index, row),
@@ -127,6 +156,17 @@ impl<const D: usize> Assembly<D> {
                 NodeCoordinates::Tied(..) => None,
             })
             .collect();
+        let of_element = |nodes: &[usize; SURFACE_NODES]| {
+            std::array::from_fn(|pair| {
+                let [a, b] = pair_of(pair).map(|k| nodes[k]);
+                let are_alone = [a, b].map(|n| matches!(places[n], NodeCoordinates::Alone(_)));
+                let slot = slot(a, b).filter(|_| are_alone == [true; 2])?;
+                Some(BlockPlace {
+                    at: u32::try_from(slot.at).ok()?,
+                    is_transposed: slot.transposed,
+                })
+            })
+        };
         let range = |v: &Option<usize>| v.map_or(0..0, |v| of_mass.range(v));
         let ranges: Vec<Range<usize>> = of_cluster.iter().map(range).collect();
         let (entries, of_node) = entries::<D>(&clusters, &ranges, nodes);
@@ -139,6 +179,7 @@ impl<const D: usize> Assembly<D> {
             held,
             diagonal,
             next,
+            of_elements: links.surfaces.iter().map(of_element).collect(),
             alone,
             tied: side_by_side((0..nodes).filter(|node| tied[*node].is_some())),
             places,
@@ -353,13 +394,37 @@ impl<const D: usize> Assembly<D> {
         let Some(slot) = slot else {
             return self.add_apart(a, b, block, matrix);
         };
-        let values = &mut matrix.values[slot.at..slot.at + 4 * D * D];
+        Self::add_at((slot.at, slot.transposed), block, matrix);
+    }
+
+    /// Adds a block over two nodes of an element of a surface, as [`Self::add`] does; the second of them is no later one in the element.
+    #[inline(always)]
+    pub fn add_of_element(
+        &self,
+        (element, nodes): (usize, &[usize; SURFACE_NODES]),
+        (a, b): (usize, usize),
+        block: &NodeBlock<D>,
+        matrix: &mut Matrix<f64>,
+    ) {
+        let places = self.of_elements.get(element);
+        match places.and_then(|places| places[a * (a + 1) / 2 + b]) {
+            Some(BlockPlace { at, is_transposed }) => {
+                Self::add_at((at as usize, is_transposed), block, matrix);
+            }
+            None => self.add(nodes[a], nodes[b], block, matrix),
+        }
+    }
+
+    /// Adds a block over two nodes that are alone to the one that stands here, or to its transpose.
+    #[inline(always)]
+    fn add_at((at, is_transposed): (usize, bool), block: &NodeBlock<D>, matrix: &mut Matrix<f64>) {
+        let values = &mut matrix.values[at..at + 4 * D * D];
         let values = values.as_chunks_mut::<D>().0.as_chunks_mut::<2>().0;
         let values = values.as_chunks_mut::<D>().0;
         for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             for r in 0..D {
                 for c in 0..D {
-                    values[p][r][q][c] += if slot.transposed {
+                    values[p][r][q][c] += if is_transposed {
                         block[q][c][p][r]
                     } else {
                         block[p][r][q][c]

@@ -88,7 +88,7 @@ pub(super) use each;
 /// Each default means that the part contributes nothing. Only that of [`BodyPart::add_inertia_now`] falls back on another item. The compiler
 /// does not see that an item is missing, and results are then wrong. By groups, a part implements:
 ///
-/// - Building: `add_links`, `cost`. Damped parts implement `is_damped`. Parts with constant node entries implement `unplace` and
+/// - Building: `add_links`, `cost`, and `tangent_cost` where tangents are dearer than those of lines. Damped parts implement `is_damped`. Parts with constant node entries implement `unplace` and
 ///   `add_fixed_numbers`, those with frames `frame_count`. Parts with stiffness or with nodes of sections implement `mark_rotating`.
 /// - Map, where axes follow from rotations: `place`, `place_rates`, `place_changes`, `add_centripetal`, `pull_back`, `for_each_geometric`.
 ///   Rotations that `q` alone tells need `convert`, `rotation_in` and `renew`. Those of sections need `convert_free`, `rotation_at` and
@@ -108,6 +108,11 @@ pub(super) trait BodyPart<const D: usize> {
 
     /// Cost of one evaluation, where one line element costs 1.
     fn cost(&self) -> usize {
+        0
+    }
+
+    /// Cost of a tangent beyond that of lines whose evaluation costs as much, in the same unit.
+    fn tangent_cost(&self) -> usize {
         0
     }
 

@@ -107,6 +107,24 @@ pub struct Cluster {
     pub multipliers: DMatrix<f64>,
 }
 
+impl Cluster {
+    /// Whether each of its free vectors moves the vectors of its nodes by numbers times the identity of space with so many axes.
+    pub fn is_isotropic(&self, axes: usize) -> bool {
+        let basis = &self.basis;
+        let mut entries = (0..basis.nrows()).flat_map(|r| (0..basis.ncols()).map(move |c| (r, c)));
+        basis.ncols().is_multiple_of(axes)
+            && entries.all(|(r, c)| {
+                let is_of_axis = r % axes == c % axes;
+                basis[(r, c)]
+                    == if is_of_axis {
+                        basis[(r - r % axes, c - c % axes)]
+                    } else {
+                        0.0
+                    }
+            })
+    }
+}
+
 /// With how many nodes each is tied together, itself among them.
 pub fn tied_with<const D: usize>(nodes: usize, rows: &[&ConnectivityRow<D>]) -> Vec<usize> {
     let mut groups = Groups::of_rows(nodes, rows.iter().copied());

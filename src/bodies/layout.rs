@@ -1,10 +1,11 @@
 //! Where free coordinates and multipliers stand: in vectors of the former alone, and in those that matrices are applied
 //! to, where multipliers stand between them.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::connectivity::Cluster;
-use crate::math::sparse::{GraphComponent, Pattern};
+use crate::math::sparse::{GraphComponent, Pattern, graph, parts};
 
 /// A constraint with a multiplier.
 #[derive(Clone, Debug)]
@@ -142,6 +143,48 @@ pub(super) fn vertices<const D: usize>(
     };
     let vertices = tied.iter().map(vertex).collect();
     (vertices, sizes, of_cluster)
+}
+
+/// Which vertices the mass may eliminate last: clusters whose free coordinates depend on the direction, on parts that surfaces belong to. All that
+/// is eliminated before them has numbers times the identity of space. `edges` are those of the mass.
+pub(super) fn late<const D: usize>(
+    (surfaces, vertices): (&[[usize; 8]], &[usize]),
+    (clusters, of_cluster): (&[Cluster], &[Option<usize>]),
+    (sizes, edges): (&[usize], &[(usize, usize)]),
+) -> Vec<bool> {
+    let mut late = vec![false; sizes.len()];
+    if surfaces.is_empty() {
+        return late;
+    }
+    let of_surface: BTreeSet<usize> = (surfaces.as_flattened().iter())
+        .map(|node| vertices[*node])
+        .collect();
+    for (cluster, vertex) in clusters.iter().zip(of_cluster) {
+        if let Some(vertex) = vertex {
+            late[*vertex] = !cluster.is_isotropic(D);
+        }
+    }
+    for part in parts(&graph(sizes, edges)) {
+        if !part.iter().any(|v| of_surface.contains(v)) {
+            part.iter().for_each(|v| late[*v] = false);
+        }
+    }
+    late
+}
+
+/// The structure of the mass: in the order of the whole matrix, or with vertices that are `late` last where substitutions are less work then.
+pub(super) fn mass_pattern(
+    pattern: &Pattern,
+    (sizes, edges): (&[usize], &[(usize, usize)]),
+    late: &[bool],
+) -> Pattern {
+    let as_it_is = pattern.of_part(sizes, edges, &vec![false; sizes.len()]);
+    if !late.contains(&true) {
+        return as_it_is;
+    }
+    let with_late = pattern.of_part(sizes, edges, late);
+    let [before, after] = [&as_it_is, &with_late].map(|of| of.substitution_in_space(late));
+    if after < before { with_late } else { as_it_is }
 }
 
 /// Lists the nonzero entries of the bases of clusters, node by node, and the range of entries of every node, `[nodes]`.

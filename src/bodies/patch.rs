@@ -34,12 +34,17 @@ pub struct PatchPoint {
     pub at: [f64; 2],
     /// Lengths of the pad over which it is the mean, m; zeros of a bare point.
     pub pad: [f64; 2],
+    /// Whether strains, forces or stress of its section are read.
+    pub has_section: bool,
 }
 
 /// A plate or shell: `n` by `m` elements.
 #[derive(Clone, Debug)]
 pub struct Patch {
     first: usize,
+    /// Elements and points of patches before.
+    pub(super) first_element: usize,
+    pub(super) first_point: usize,
     /// Places of the mesh lines along both directions, m.
     lines: [Vec<f64>; 2],
     /// The unstressed surface at mesh nodes.
@@ -48,8 +53,8 @@ pub struct Patch {
     elements: Vec<Shell>,
     packs: Vec<Pack<ShellPack>>,
     points: Vec<PatchFrame>,
-    /// What section forces at each point are read by.
-    sections: Vec<PatchSection>,
+    /// What section forces at each point are read by, where they are.
+    sections: Vec<Option<PatchSection>>,
     is_damped: bool,
 }
 
@@ -66,6 +71,8 @@ impl Patch {
         let [n, m] = [0, 1].map(|k| lines[k].len() - 1);
         let mut patch = Self {
             first,
+            first_element: 0,
+            first_point: 0,
             lines,
             corners: Vec::new(),
             elements: Vec::new(),
@@ -91,7 +98,9 @@ impl Patch {
         patch.is_damped = patch.elements.iter().any(Shell::is_damped);
         patch.packs = packs(&patch.elements, |_| true, Shell::goes_with, Shell::pack);
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
-        let read = |point: &PatchPoint| patch.patch_section(point.at, &section(point.at));
+        let read = |point: &PatchPoint| {
+            (point.has_section).then(|| patch.patch_section(point.at, &section(point.at)))
+        };
         patch.sections = points.iter().map(read).collect();
         patch
     }
@@ -145,6 +154,16 @@ impl Patch {
     /// First node of the frame of a point.
     pub fn point_node(&self, index: usize) -> usize {
         self.first + 2 * (self.corners.len() + index)
+    }
+
+    /// Number of points.
+    pub(super) fn point_count(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Index of a point among those of all patches.
+    pub fn point_of_all(&self, point: usize) -> usize {
+        self.first_point + point
     }
 
     /// Second nodes of mesh nodes and of points, which hold no positions.

@@ -57,8 +57,16 @@ impl<const D: usize> Bodies<D> {
     }
 
     /// Adds a plate or shell.
-    pub fn add_patch(&mut self, patch: Patch) {
+    pub fn add_patch(&mut self, mut patch: Patch) {
+        let before = self.patches.iter().map(|patch| patch.elements().len());
+        patch.first_element = before.sum();
+        patch.first_point = self.surface_points();
         self.patches.push(patch);
+    }
+
+    /// Number of points of plates and shells.
+    pub fn surface_points(&self) -> usize {
+        self.patches.iter().map(|patch| patch.point_count()).sum()
     }
 
     /// Puts a line on a winch at its last end or its first one. The driven coordinate is the length that has been paid out, m.

@@ -105,6 +105,7 @@ pub(super) fn choose<const D: usize>(
     } else {
         EXPLICIT
     };
+    let explicit_up_to = explicit_up_to * system.implicit_price();
     let is_soft = frequency.max(decay) <= explicit_up_to * rate / relative.min(LOOSE).cbrt();
     Ok((
         tolerance,

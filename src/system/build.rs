@@ -8,6 +8,7 @@ use super::joints::{
     Constraint, ConstraintKind, Equation as _, JointEquations, Linear, Primitive, Target, View,
 };
 use super::loads::{AppliedLoad, ForceElement as _};
+use super::motion::prices::Prices;
 use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{DrivenRow, System};
@@ -85,6 +86,7 @@ impl<const D: usize> System<D> {
         let (described, mut bodies) = (parts.bodies.reference.clone(), parts.bodies);
         bodies.unplace();
         let mut system = Self {
+            prices: Prices::default(),
             is_driven_by_time: false,
             has_breaks: false,
             grounded,
@@ -93,7 +95,7 @@ impl<const D: usize> System<D> {
             needs_rates: loads_damped
                 || parts.rotation != [0.0; 3]
                 || parts.tracks_work
-                || !bodies.has_no_frames(),
+                || bodies.frame_count() > 0,
             reach: 0.0,
             bodies,
             elimination,
@@ -124,6 +126,7 @@ impl<const D: usize> System<D> {
         system.reach = system.find_reach();
         system.weight = system.bodies.weight(system.gravity);
         system.keep(nonlinear, &described);
+        system.prices = Prices::new(system.parts(), &system.bodies, &system.elimination);
         system.needs_rates |= !system.constraints.is_empty() || system.bodies.pays_out();
         Ok(system)
     }

@@ -53,6 +53,7 @@ use crate::bodies::{Bodies, Elimination, Node};
 pub use joints::Release;
 use joints::{Constraint, JointEquations, Linear};
 use loads::{AppliedLoad, ForceElement as _};
+use motion::prices::Prices;
 use motion::tree::Tree;
 
 /// Everything about a system that does not change in time.
@@ -103,6 +104,8 @@ pub struct System<const D: usize = 2> {
     /// Whether a function of time may have a kink or a jump.
     has_breaks: bool,
     grounded: Vec<usize>,
+    /// What operations cost in accelerations.
+    prices: Prices,
     /// For every node, whether something besides the cable may exert a moment there.
     takes_moments: Vec<bool>,
 }
@@ -161,6 +164,11 @@ impl<const D: usize> System<D> {
     /// evaluation counts as four elements.
     pub fn parts(&self) -> usize {
         4 + self.bodies.cost_units() + self.constraints.len()
+    }
+
+    /// Price of an implicit step over that along a chain of elements.
+    pub fn implicit_price(&self) -> f64 {
+        self.prices.beside_chain()
     }
 
     /// Whether the frame turns that the scene is described in.

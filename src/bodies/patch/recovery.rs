@@ -173,6 +173,12 @@ impl Patch {
         }
     }
 
+    /// The section of a point that is read.
+    fn section_at(&self, point: usize) -> &PatchSection {
+        let section = self.sections[point].as_ref();
+        section.unwrap_or_else(|| unreachable!("a patch is told which sections are read"))
+    }
+
     /// Membrane strains and changes of curvature (1/m) at a point along the axes of its section, 11, 22 and twice 12; with rates of the
     /// nodes plus the damping time times their rates.
     pub fn section_strain<const D: usize, N: Number>(
@@ -181,7 +187,7 @@ impl Patch {
         x: &[Node<D, N>],
         v: Option<&[Node<D, N>]>,
     ) -> [[N; 3]; 2] {
-        let PatchSection { lines, to_axes, .. } = &self.sections[point];
+        let PatchSection { lines, to_axes, .. } = self.section_at(point);
         let strains = |element: usize| {
             let rates = v.map(|v| self.element(element, v));
             self.elements[element].strains(&self.element(element, x), rates.as_ref())
@@ -201,7 +207,7 @@ impl Patch {
             coupling,
             bending,
             ..
-        } = &self.sections[point].section;
+        } = &self.section_at(point).section;
         let less = |a: [N; 3], b: [N; 3]| std::array::from_fn(|k| a[k] - b[k]);
         [
             less(times(membrane, strain), times(coupling, curvature)),

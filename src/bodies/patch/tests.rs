@@ -49,10 +49,12 @@ fn patch() -> Patch {
         PatchPoint {
             at: [0.3, 0.7],
             pad: [0.0; 2],
+            has_section: true,
         },
         PatchPoint {
             at: [0.6, 0.4],
             pad: [0.2, 0.3],
+            has_section: false,
         },
     ];
     Patch::new(2, lines, &nodes, |_| section, &points)

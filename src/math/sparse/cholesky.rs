@@ -1,12 +1,13 @@
 //! The triangular factor of a positive definite matrix, as a change of coordinates.
 //!
 //! Masses are isotropic: a block over two nodes of a chain is a 2 x 2 matrix times the identity of the
-//! plane or of space. Runs of such blocks have loops of their own, on two vectors a node.
+//! plane or of space. Runs of such blocks have loops of their own, on two vectors a node; columns of surfaces have those of `vectors`.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::pattern::{CHAINS, Column, Step, of_size};
+use super::vectors::{Sweep, VectorColumns};
 use super::{Matrix, Pattern, kernels};
 
 /// Cholesky factor W, lower triangular in elimination order, of a positive definite A = W W^T,
@@ -33,6 +34,8 @@ enum PieceKind {
     Identity,
     /// Isotropic columns of nodes, each joined to the next one alone.
     Nodes(NodeRun),
+    /// Isotropic columns in space with the same rows below.
+    Vectors(VectorColumns),
     /// A step of the pattern.
     Step(Step),
 }
@@ -203,6 +206,16 @@ impl Cholesky {
         })
     }
 
+    /// Variables that three directions at once are gone through with.
+    #[cfg(test)]
+    pub(super) fn in_vectors(&self) -> usize {
+        let sizes = self.pieces.iter().map(|piece| match &piece.kind {
+            PieceKind::Vectors(columns) => columns.variables(),
+            _ => 0,
+        });
+        sizes.sum()
+    }
+
     /// `x <- W^-1 x`.
     pub fn forward(&self, pattern: &Pattern, x: &mut [f64]) {
         for piece in &self.pieces {
@@ -228,6 +241,10 @@ impl Cholesky {
             PieceKind::Identity => {}
             PieceKind::Nodes(run) => {
                 of_size!(run.size, B => forward_nodes::<{ B / 2 }>(run, skipped, x));
+            }
+            // Columns that may be skipped are zero.
+            PieceKind::Vectors(columns) => {
+                columns.apply(Sweep::Forward, &self.factors.values, x);
             }
             PieceKind::Step(step) => {
                 let values = &self.factors.values;
@@ -278,6 +295,9 @@ impl Cholesky {
                 PieceKind::Nodes(run) => {
                     of_size!(run.size, B => backward_nodes::<{ B / 2 }>(run, y));
                 }
+                PieceKind::Vectors(columns) => {
+                    columns.apply(Sweep::Backward, &self.factors.values, y);
+                }
                 PieceKind::Step(step) => {
                     let step = std::slice::from_ref(step);
                     kernels::backward::<f64, false>(pattern, step, &self.factors.values, y);
@@ -295,6 +315,9 @@ impl Cholesky {
                 PieceKind::Nodes(run) => {
                     of_size!(run.size, B => multiply_nodes::<{ B / 2 }>(run, x));
                 }
+                PieceKind::Vectors(columns) => {
+                    columns.apply(Sweep::Multiply, &self.factors.values, x);
+                }
                 PieceKind::Step(_) => {
                     for column in pattern.columns[piece.columns.clone()].iter().rev() {
                         kernels::multiply_lower(pattern, column, &self.factors.values, x);
@@ -311,6 +334,9 @@ impl Cholesky {
                 PieceKind::Identity => {}
                 PieceKind::Nodes(run) => {
                     of_size!(run.size, B => multiply_nodes_transposed::<{ B / 2 }>(run, x));
+                }
+                PieceKind::Vectors(columns) => {
+                    columns.apply(Sweep::MultiplyTransposed, &self.factors.values, x);
                 }
                 PieceKind::Step(_) => {
                     for column in &pattern.columns[piece.columns.clone()] {
@@ -332,6 +358,12 @@ impl Cholesky {
 fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut first = 0;
+    let mut is_alone = vec![false; pattern.columns.len()];
+    for step in &pattern.steps {
+        if let Step::Column(j) = step {
+            is_alone[*j] = true;
+        }
+    }
     for step in &pattern.steps {
         let count = match step {
             Step::Column(_) => 1,
@@ -340,6 +372,14 @@ fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
             } => variables.len() / size,
         };
         let columns = first..first + count;
+        if pieces
+            .last()
+            .is_some_and(|before| before.columns.end > first)
+        {
+            // A column of those before.
+            first += count;
+            continue;
+        }
         first += count;
         let run = NodeRun::new(pattern, step, &factors.values);
         if let (Some(next), Some(before)) = (&run, pieces.last_mut())
@@ -354,7 +394,15 @@ fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
                 PieceKind::Identity
             }
             (Some(run), _) => PieceKind::Nodes(run),
+            (None, Step::Column(j)) => {
+                let of = VectorColumns::new(pattern, &factors.values, *j, |j| is_alone[j]);
+                of.map_or_else(|| PieceKind::Step(step.clone()), PieceKind::Vectors)
+            }
             (None, step) => PieceKind::Step(step.clone()),
+        };
+        let columns = match &kind {
+            PieceKind::Vectors(of) => of.columns.clone(),
+            _ => columns,
         };
         pieces.push(Piece { columns, kind });
     }

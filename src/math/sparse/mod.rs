@@ -16,11 +16,14 @@ mod panels;
 mod pattern;
 #[cfg(test)]
 mod tests;
+mod vectors;
+mod work;
 
 pub use cholesky::{Cholesky, Reach};
 pub use general::{Factors, General};
 pub use order::{graph, parts};
 pub use pattern::{GraphComponent, Pattern, Slot};
+pub use work::FactorWork;
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -116,7 +119,7 @@ impl<T: Number> Matrix<T> {
         }
     }
 
-    /// The blocks of this matrix, over `whole`, that `part` stores: [`Pattern::of_part`] of it.
+    /// The blocks of this matrix, over `whole`, that `part` stores: [`Pattern::of_part`] of it, in any order.
     pub fn part(&self, whole: &Pattern, part: &Pattern) -> Self {
         let mut blocks = Self::zeros(part);
         let vertices: Vec<usize> = part.vertices().copied().collect();
@@ -126,8 +129,14 @@ impl<T: Number> Matrix<T> {
             let later = later.map(|row| (vertices[row.column], row.at, row.size));
             for (w, to, height) in later.chain([(v, column.at, size)]) {
                 if let Some(slot) = whole.slot(w, v) {
-                    let from = &self.values[slot.at..slot.at + size * height];
-                    blocks.values[to..to + size * height].copy_from_slice(from);
+                    for (r, row) in blocks.values[to..to + size * height]
+                        .chunks_exact_mut(size)
+                        .enumerate()
+                    {
+                        for (c, value) in row.iter_mut().enumerate() {
+                            *value = self.values[slot.entry(r, c)];
+                        }
+                    }
                 }
             }
         }

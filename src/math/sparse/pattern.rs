@@ -216,8 +216,9 @@ impl Pattern {
     }
 
     /// The pattern of some of the edges over the first `sizes.len()` vertices, as one component. What these edges join stands
-    /// together, at the place of its first vertex and in the same order: chains that other edges join are chains again.
-    pub fn of_part(&self, sizes: &[usize], edges: &[(usize, usize)]) -> Self {
+    /// together, at the place of its first vertex and in the same order, those that are `late` last: chains that other edges join are chains
+    /// again.
+    pub fn of_part(&self, sizes: &[usize], edges: &[(usize, usize)], late: &[bool]) -> Self {
         let mut graph = graph(sizes, edges);
         let order = self.order.iter().copied();
         let mut order: Vec<usize> = order.filter(|v| *v < sizes.len()).collect();
@@ -229,7 +230,7 @@ impl Pattern {
             let least = least.expect("a part has a vertex");
             part.iter().for_each(|v| first[*v] = least);
         }
-        order.sort_by_key(|v| first[*v]);
+        order.sort_by_key(|v| (first[*v], late[*v]));
         let whole = [order.clone()];
         Self::in_order(sizes, order, &whole, &mut graph)
     }

@@ -285,6 +285,73 @@ fn cholesky_factors_of_isotropic_matrices_multiply_and_solve() {
     }
 }
 
+/// A mesh of so many nodes a side, whose nodes are coupled with all around them, and further vertices at its first line.
+fn surface_edges(side: usize, further: usize) -> Vec<(usize, usize)> {
+    let node = |i: usize, j: usize| i * side + j;
+    let mut edges = Vec::new();
+    for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+        for (k, l) in [(i, j + 1), (i + 1, j), (i + 1, j + 1)] {
+            if k < side && l < side {
+                edges.push((node(i, j), node(k, l)));
+            }
+        }
+        if i + 1 < side && j > 0 {
+            edges.push((node(i, j), node(i + 1, j - 1)));
+        }
+    }
+    for k in 0..further {
+        let own = side * side + k;
+        let near = k.saturating_sub(1)..(k + 2).min(side);
+        edges.extend(near.map(|j| (own, j)));
+        edges.extend((k > 0).then_some((own - 1, own)));
+    }
+    edges
+}
+
+/// Masses of surfaces: nodes of two vectors in space, and at an edge vertices whose blocks depend on the direction. Nodes go three directions at
+/// once, also where blocks to the edge do not.
+#[test]
+fn cholesky_factors_of_surfaces_multiply_and_solve() {
+    for (side, further) in [(2, 0), (7, 0), (9, 0), (7, 7), (9, 4)] {
+        let (nodes, edges) = (side * side, surface_edges(side, further));
+        let all = nodes + further;
+        let sizes: Vec<usize> = (0..all).map(|v| if v < nodes { 6 } else { 2 }).collect();
+        let late: Vec<bool> = (0..all).map(|v| v >= nodes).collect();
+        let pattern = Pattern::new(&sizes, &edges).of_part(&sizes, &edges, &late);
+        assert!((nodes..all).all(|v| pattern.range(v).start >= 6 * nodes));
+        let mut random = Random((side + further) as u64);
+        let mut a = Matrix::zeros(&pattern);
+        let mut dense = DMatrix::zeros(pattern.len(), pattern.len());
+        for (v, w) in edges.iter().copied().chain((0..all).map(|v| (v, v))) {
+            let slot = pattern.slot(v, w).expect("stored");
+            let numbers: [f64; 36] = std::array::from_fn(|_| random.number());
+            let is_directed = v.max(w) >= nodes;
+            for (r, i) in pattern.range(v).enumerate() {
+                for (c, j) in pattern.range(w).enumerate() {
+                    let own = if v == w { (r.max(c), r.min(c)) } else { (r, c) };
+                    let value = match (is_directed, own.0 % 3 == own.1 % 3) {
+                        (true, _) => numbers[6 * own.0 + own.1],
+                        (false, true) => numbers[6 * (own.0 / 3) + own.1 / 3],
+                        (false, false) => 0.0,
+                    };
+                    let value = value + if i == j { 30.0 } else { 0.0 };
+                    a.values[slot.entry(r, c)] = value;
+                    (dense[(i, j)], dense[(j, i)]) = (value, value);
+                }
+            }
+        }
+        check_cholesky(&pattern, (&a, &dense), side);
+        let factor = Cholesky::new(&pattern, &a).expect("positive definite");
+        let most = if side > 2 { 3 * nodes } else { 0 };
+        assert!(
+            factor.in_vectors() >= most,
+            "{} of {}",
+            factor.in_vectors(),
+            6 * nodes
+        );
+    }
+}
+
 #[test]
 fn components_are_contiguous() {
     for (sizes, edges) in graphs() {
@@ -461,7 +528,7 @@ fn chains_stand_together_in_a_part() {
     let chains = [(0, 2), (2, 4), (1, 3), (3, 5)];
     let across = [(0, 1), (2, 3), (4, 5), (0, 3), (1, 2), (2, 5), (3, 4)];
     let pattern = Pattern::new(&sizes, &[&chains[..], &across].concat());
-    let part = pattern.of_part(&sizes, &chains);
+    let part = pattern.of_part(&sizes, &chains, &vec![false; sizes.len()]);
     let of = |part: &[usize], is_even: bool| {
         let chosen = part.iter().filter(|v| (**v % 2 == 0) == is_even);
         chosen.copied().collect::<Vec<_>>()

@@ -1,14 +1,20 @@
 //! Plates and shells: patches of elements, and frames at their markers.
 
 use super::Builder;
-use crate::bodies::{Marker, Patch};
-use crate::scene::resolved::Plate;
+use crate::bodies::{Marker, Patch, PatchPoint};
+use crate::scene::description::OutputKind;
+use crate::scene::resolved::{OutputTarget, Place, Plate};
 
 impl<const D: usize> Builder<'_, D> {
     /// Adds the patch of a plate or shell, and its nodes. Returns those that hold axes only.
     pub(super) fn patch(&mut self, plate: Plate<'_>) -> Vec<usize> {
         let (body, geometry) = (plate.body, plate.body.geometry());
-        let points = body.markers.values().map(|marker| geometry.point(marker));
+        let read: Vec<usize> = self.sections_read(plate).collect();
+        let point = |(index, marker)| PatchPoint {
+            has_section: read.contains(&index),
+            ..geometry.point(marker)
+        };
+        let points = body.markers.values().enumerate().map(point);
         let uniform = body.is_uniform().then(|| body.section([0.5; 2]));
         let patch = Patch::new(
             self.parts.bodies.reference.len(),
@@ -22,6 +28,28 @@ impl<const D: usize> Builder<'_, D> {
         self.parts.bodies.add_patch(patch);
         self.patches.push(plate.id.index());
         axes
+    }
+
+    /// Markers, by their index among those of a plate or shell, whose section an output reads.
+    fn sections_read(&self, plate: Plate<'_>) -> impl Iterator<Item = usize> {
+        let read = self.resolved.outputs.iter().filter_map(|output| {
+            let reads_section = matches!(
+                output.kind,
+                OutputKind::Curvature
+                    | OutputKind::BendingMoment
+                    | OutputKind::MembraneStrain
+                    | OutputKind::MembraneForce
+            );
+            match output.of {
+                OutputTarget::Marker(marker) if reads_section => Some(marker),
+                OutputTarget::Faces(marker, _) | OutputTarget::Plies(marker, ..) => Some(marker),
+                _ => None,
+            }
+        });
+        read.filter_map(move |marker| match marker.place {
+            Place::Patch(of, index) if of.id.index() == plate.id.index() => Some(index),
+            _ => None,
+        })
     }
 
     /// A marker of a plate or shell, with the line along `s1` as direction.

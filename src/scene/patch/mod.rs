@@ -73,12 +73,16 @@ impl<'a> PatchGeometry<'a> {
                 (at[k], pad[k]) = (0.5 * (low + high), (high - low) * self.lengths[k]);
             }
         }
-        PatchPoint { at, pad }
+        PatchPoint {
+            at,
+            pad,
+            has_section: false,
+        }
     }
 
     /// Where a marker is: a point, or the mean over a pad, m.
     pub fn position(&self, marker: &PatchMarker) -> [f64; 3] {
-        let PatchPoint { at, pad } = self.point(marker);
+        let PatchPoint { at, pad, .. } = self.point(marker);
         let ends: [f64; 2] = std::array::from_fn(|k| pad[k] / self.lengths[k]);
         let mut mean = Vector3::zeros();
         for p in GAUSS_3 {

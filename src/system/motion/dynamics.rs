@@ -114,14 +114,6 @@ pub enum StepOutcome {
     NotFinite,
 }
 
-/// Costs of operations in accelerations: medians over 15 scenes with 1 to 16 elements, which scatter by a factor of 2
-/// (docs/decisions/0034-integrator-by-counted-cost.md).
-const LINEARIZE: f64 = 2.5;
-const FACTOR: f64 = 0.6;
-const FACTOR_COMPLEX: f64 = 1.5;
-const SOLVE: f64 = 0.5;
-const SOLVE_STAGES: f64 = 2.5;
-
 /// Residual of positions, relative, beyond which constraints count as broken.
 const BROKEN: f64 = 1e-8;
 
@@ -311,7 +303,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
     /// Number of negative eigenvalues of `m I + r R + K` for weights `[m, r]` where constraints leave freedom, and its
     /// factors for [`Dynamics::solve`]; nothing where it is singular.
     pub fn inertia(&mut self, weights: [f64; 2]) -> Option<usize> {
-        self.operations += FACTOR;
+        self.operations += self.system.prices.factor;
         let elimination = &self.system.elimination;
         self.work
             .linearization
@@ -365,7 +357,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
 
     /// Solves in place over what the tangent is made in.
     pub fn solve_counted(&mut self, x: &mut [f64]) {
-        self.operations += SOLVE;
+        self.operations += self.system.prices.solve;
         self.work
             .linearization
             .tangent
@@ -445,7 +437,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     }
 
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
-        self.operations += LINEARIZE;
+        self.operations += self.system.prices.linearize;
         if self.system.stiffens() {
             self.accelerate(time, q, v);
         } else {
@@ -460,17 +452,18 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
             return self.linearize(time, q, v);
         }
         // The count compares methods, so it does not depend on what is at hand.
-        self.operations += LINEARIZE + f64::from(u8::from(self.system.stiffens()));
+        self.operations +=
+            self.system.prices.linearize + f64::from(u8::from(self.system.stiffens()));
         self.system.assemble(time, self.work);
     }
 
     fn factor(&mut self, weights: [f64; 2]) -> bool {
-        self.operations += FACTOR;
+        self.operations += self.system.prices.factor;
         (self.work.linearization.tangent).factor(&self.system.elimination, weights)
     }
 
     fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool {
-        self.operations += FACTOR_COMPLEX;
+        self.operations += self.system.prices.factor_complex;
         (self.work.linearization.tangent).factor_complex(&self.system.elimination, weights)
     }
 
@@ -489,7 +482,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     }
 
     fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]) {
-        self.operations += SOLVE_STAGES;
+        self.operations += self.system.prices.solve_stages;
         let system = self.system;
         for (i, q) in stages.iter_mut().enumerate() {
             system.to_tangent(1 + i, self.work, q);

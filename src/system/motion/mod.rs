@@ -5,6 +5,7 @@ pub(in crate::system) mod dynamics;
 mod followed;
 pub(in crate::system) mod forces;
 pub(in crate::system) mod multipliers;
+pub(in crate::system) mod prices;
 pub(in crate::system) mod rank;
 mod rotations;
 pub(in crate::system) mod tree;

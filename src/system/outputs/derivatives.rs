@@ -107,6 +107,7 @@ impl<const D: usize> Derivatives<D> {
                 Jet::new(a, third, fourth),
             ];
         }
+        self.values.forget();
         lift(
             &mut self.values.x,
             [&plain.x, &plain.v, &plain.acceleration],
@@ -156,6 +157,7 @@ impl<const D: usize> Derivatives<D> {
             }
         }
         self.one.fill(no_node());
+        self.values.forget();
         lift(&mut self.values.x, [&plain.x, &self.one, &self.one]);
         lift(&mut self.values.v, [&plain.v, &self.one, &self.one]);
         self.follow(system, plain);

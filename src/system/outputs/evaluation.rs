@@ -1,5 +1,7 @@
 //! Quantities that follow from a state.
 
+use std::cell::Cell;
+
 use nalgebra::Vector3;
 
 use crate::bodies::{Marker, NodalMotion, Node, axes_at, combined, completed, spin_at};
@@ -15,7 +17,7 @@ use crate::system::{Attachment, DrivenSystem, State, System, Workspace};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
-pub struct Evaluation<const D: usize = 2, N = f64> {
+pub struct Evaluation<const D: usize = 2, N: Copy = f64> {
     pub(in crate::system) time: N,
     /// Inputs, and their rates.
     pub(in crate::system) inputs: Vec<N>,
@@ -37,6 +39,8 @@ pub struct Evaluation<const D: usize = 2, N = f64> {
     pub(in crate::system) drives: Vec<[N; 3]>,
     /// Frames that the state holds of rigid bodies of space.
     pub(in crate::system) frames: Vec<Quaternion>,
+    /// Strains and curvatures at points of surfaces that were asked for since the last change, without and with rates, `[points]`.
+    pub(in crate::system) strains: Vec<[SectionStrain<N>; 2]>,
     /// Release state of every joint that can be released.
     pub(in crate::system) released: Vec<bool>,
 }
@@ -59,7 +63,20 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             travel: vec![zero; system.slides.len()],
             drives: vec![[zero; 3]; system.drives.len()],
             frames: vec![NO_ROTATION; system.bodies.frame_count()],
+            strains: vec![Default::default(); system.bodies.surface_points()],
             released: vec![false; system.releases.len()],
+        }
+    }
+}
+
+/// Membrane strains and changes of curvature at a point of a surface, if they are known.
+pub(in crate::system) type SectionStrain<N> = Cell<Option<[[N; 3]; 2]>>;
+
+impl<const D: usize, N: Copy> Evaluation<D, N> {
+    /// Forgets what followed from coordinates or rates that have changed.
+    pub(in crate::system) fn forget(&self) {
+        for strain in self.strains.as_flattened() {
+            strain.set(None);
         }
     }
 }
@@ -87,6 +104,7 @@ impl<const D: usize> Evaluation<D> {
     /// Computes coordinates and rates.
     pub fn kinematics(&mut self, system: &System<D>, state: &State, work: &mut Workspace<D>) {
         work.resume(state);
+        self.forget();
         self.time = system.now(state.time);
         system.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
         self.x.copy_from_slice(&work.kinematics.x);

@@ -4,7 +4,7 @@
 //! moments per length).
 
 use super::evaluation::Evaluation;
-use crate::bodies::{Marker, stress_at};
+use crate::bodies::{Marker, Patch, stress_at};
 use crate::math::jet::Number;
 use crate::system::System;
 
@@ -25,7 +25,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn surface_strain(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 2] {
         let at = system.bodies.patch_point(marker);
         at.map_or([[N::of(0.0); 3]; 2], |(patch, point)| {
-            patch.section_strain(point, &self.x, None)
+            self.strain_at(patch, point, false)
         })
     }
 
@@ -34,8 +34,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn surface_forces(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 2] {
         let at = system.bodies.patch_point(marker);
         at.map_or([[N::of(0.0); 3]; 2], |(patch, point)| {
-            let strain = patch.section_strain(point, &self.x, Some(&self.v));
-            patch.section_force(point, strain)
+            patch.section_force(point, self.strain_at(patch, point, true))
         })
     }
 
@@ -44,7 +43,18 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let Some((patch, point)) = system.bodies.patch_point(&layer.marker) else {
             return [N::of(0.0); 3];
         };
-        let strain = patch.section_strain(point, &self.x, Some(&self.v));
+        let strain = self.strain_at(patch, point, true);
         stress_at((layer.height, &layer.law), strain)
+    }
+
+    /// Strains at a point, with those that rates add where that is asked for: recovered once for all outputs.
+    fn strain_at(&self, patch: &Patch, point: usize, is_damped: bool) -> [[N; 3]; 2] {
+        let known = &self.strains[patch.point_of_all(point)][usize::from(is_damped)];
+        known.get().unwrap_or_else(|| {
+            let rates = is_damped.then_some(&self.v[..]);
+            let found = patch.section_strain(point, &self.x, rates);
+            known.set(Some(found));
+            found
+        })
     }
 }
