@@ -219,7 +219,7 @@ fn a_spinning_plate_wobbles_as_a_rigid_one() {
         });
         for (k, exact) in exact.into_iter().enumerate() {
             let found = run.read(&format!("p.middle.orientation[{}]", 3 * k + 3));
-            assert!((found - exact).abs() < 1e-4, "{t} {k}: {found} for {exact}");
+            assert!((found - exact).abs() < 1e-6, "{t} {k}: {found} for {exact}");
         }
     }
 }
