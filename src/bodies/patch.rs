@@ -60,7 +60,7 @@ impl Patch {
         first: usize,
         lines: [Vec<f64>; 2],
         nodes: &[Corner],
-        section: impl Fn(usize, usize) -> ShellSection,
+        section: impl Fn([f64; 2]) -> ShellSection,
         points: &[PatchPoint],
     ) -> Self {
         let [n, m] = [0, 1].map(|k| lines[k].len() - 1);
@@ -83,17 +83,15 @@ impl Patch {
         for element in 0..n * m {
             let at = [element / m, element % m];
             let corners = patch.mesh_nodes(element).map(|node| patch.corners[node]);
-            let section = section(at[0], at[1]);
             let sizes = [0, 1].map(|k| patch.spacing(k, at[k]));
-            (patch.elements).push(Shell::new(&section, (sizes, unit), &corners));
+            let section = |xi: [f64; 2]| section([0, 1].map(|k| patch.along(k, at[k], xi[k])));
+            let element = Shell::new(section, (sizes, unit), &corners);
+            patch.elements.push(element);
         }
         patch.is_damped = patch.elements.iter().any(Shell::is_damped);
         patch.packs = packs(&patch.elements, |_| true, Shell::goes_with, Shell::pack);
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
-        let read = |point: &PatchPoint| {
-            let element = patch.find(point.at).0;
-            patch.patch_section(point.at, &section(element / m, element % m))
-        };
+        let read = |point: &PatchPoint| patch.patch_section(point.at, &section(point.at));
         patch.sections = points.iter().map(read).collect();
         patch
     }
@@ -107,6 +105,12 @@ impl Patch {
     /// Length of an element along a direction, m.
     pub fn spacing(&self, direction: usize, element: usize) -> f64 {
         self.lines[direction][element + 1] - self.lines[direction][element]
+    }
+
+    /// Material coordinate in [0, 1] along a direction at a place of an element, `xi` in [0, 1].
+    fn along(&self, direction: usize, element: usize, xi: f64) -> f64 {
+        let from = self.lines[direction][element];
+        (from + xi * self.spacing(direction, element)) / self.lengths()[direction]
     }
 
     /// Numbers of elements along both directions.
@@ -236,15 +240,12 @@ impl Patch {
     /// Coordinates in [0, 1] of the places of quadrature of loads, element by element.
     pub fn area_places(&self) -> impl Iterator<Item = [f64; 2]> {
         let across = self.lines[1].len() - 1;
-        let along = |k: usize, element: usize, xi: f64| {
-            (self.lines[k][element] + xi * self.spacing(k, element)) / self.lengths()[k]
-        };
         (0..self.elements.len()).flat_map(move |element| {
             (0..AREA_PLACES).map(move |place| {
                 let [xi, eta] = area_place(place);
                 [
-                    along(0, element / across, xi),
-                    along(1, element % across, eta),
+                    self.along(0, element / across, xi),
+                    self.along(1, element % across, eta),
                 ]
             })
         })

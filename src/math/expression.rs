@@ -29,6 +29,8 @@ pub struct Expression {
 pub(super) enum Operation {
     Time,
     Number(f64),
+    /// Value where the variable is zero, and its constant rate.
+    Line([f64; 2]),
     Negate,
     /// The next four: of the number below and the one on top.
     Add,
@@ -83,13 +85,37 @@ impl Expression {
     /// # Errors
     /// What was expected in the text, and what was found.
     pub fn at(text: &str, place: &[(&'static str, f64)]) -> Result<Self, String> {
-        Self::read(text, "t", place)
+        let numbers: Vec<_> = place.iter().map(|(name, at)| (*name, [*at, 0.0])).collect();
+        Self::read(text, "t", &numbers)
+    }
+
+    /// Value, derivatives by both variables and the mixed second derivative of an expression in two variables, at a place.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn of_two(
+        text: &str,
+        [first, second]: [&'static str; 2],
+        [u, v]: [f64; 2],
+    ) -> Result<[f64; 4], String> {
+        // Along both diagonals: f' = f_1 + rate f_2 and f'' = f_11 + 2 rate f_12 + f_22.
+        let along = |rate: f64| {
+            let line = [(second, [v - rate * u, rate])];
+            Self::read(text, first, &line).map(|of| of.derivatives(u))
+        };
+        let ([value, slope, bend], [_, other, unbend]) = (along(1.0)?, along(-1.0)?);
+        Ok([
+            value,
+            0.5 * (slope + other),
+            0.5 * (slope - other),
+            0.25 * (bend - unbend),
+        ])
     }
 
     fn read(
         text: &str,
         variable: &'static str,
-        given: &[(&'static str, f64)],
+        given: &[(&'static str, [f64; 2])],
     ) -> Result<Self, String> {
         let program = grammar::program(text, variable, given)?;
         let switches = switches::any(&program);
@@ -171,7 +197,7 @@ impl Operation {
     /// Change of the height of the stack.
     pub(super) fn rise(self) -> isize {
         match self {
-            Self::Time | Self::Number(_) => 1,
+            Self::Time | Self::Number(_) | Self::Line(_) => 1,
             Self::Negate | Self::PowerOf(_) | Self::Function(_) => 0,
             Self::Add | Self::Subtract | Self::Multiply | Self::Divide | Self::Power => -1,
             Self::Switch(switch) => 1 - switch.arity() as isize,
@@ -284,6 +310,7 @@ fn run_telling<N: ConstantPower>(
         stack[top] = match *operation {
             Operation::Time => t,
             Operation::Number(number) => N::from(number),
+            Operation::Line([at_zero, rate]) => N::from(at_zero) + t * N::from(rate),
             Operation::Negate => -stack[top],
             Operation::Add => stack[top] + stack[height],
             Operation::Subtract => stack[top] - stack[height],
@@ -370,6 +397,25 @@ mod tests {
                 assert!(error < 1e-10, "{text}: {found:?}, expected {wanted:?}");
             }
         }
+    }
+
+    #[test]
+    fn derivatives_of_two_variables_are_those_of_calculus() {
+        let (u, v) = (0.3_f64, 0.7_f64);
+        let wave = u.sin() * v.powi(3) - 2.0 * u;
+        let wanted = [
+            wave,
+            u.cos() * v.powi(3) - 2.0,
+            3.0 * u.sin() * v * v,
+            3.0 * u.cos() * v * v,
+        ];
+        let found = Expression::of_two("sin(a)*b^3 - 2*a", ["a", "b"], [u, v]);
+        for (found, wanted) in found.expect("an expression").into_iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-14, "{found} {wanted}");
+        }
+        assert!(Expression::of_two("a*t", ["a", "b"], [u, v]).is_err());
+        let kink = Expression::of_two("abs(a-b)*b", ["a", "b"], [u, v]).expect("an expression");
+        assert!((kink[3] + 1.0).abs() < 1e-14, "{kink:?}");
     }
 
     #[test]

@@ -293,6 +293,9 @@ fn holds(program: &[Operation], a: f64, b: f64) -> bool {
         let x = stack[top];
         let mut found = match *operation {
             Operation::Time => time,
+            Operation::Line([at_zero, rate]) => {
+                Range::constant(at_zero).plus(time.times(Range::constant(rate)))
+            }
             Operation::Number(number) => Range::constant(number),
             Operation::Negate => x.negated(),
             Operation::Add => x.plus(stack[height]),

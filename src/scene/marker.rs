@@ -273,6 +273,12 @@ impl Plate<'_> {
         self.body.geometry().position(self.body.marker_at(index))
     }
 
+    /// Material coordinates of a marker, in [0, 1].
+    pub fn place(&self, index: usize) -> [f64; 2] {
+        let marker = self.body.marker_at(index);
+        self.body.geometry().point(marker).at
+    }
+
     /// Axes of a marker as described: along the lines along `s1`, across them in the surface, and the normal.
     pub fn axes(&self, index: usize) -> [Vector3<f64>; 3] {
         self.body.geometry().axes(self.body.marker_at(index))

@@ -60,6 +60,7 @@ pub const INERTIA: Unit = unit("kg.m2", 1, 2, 0, 0);
 pub const NEWTON: Unit = unit("N", 1, 1, -2, 0);
 pub const NEWTON_PER_METRE: Unit = unit("N/m", 1, 0, -2, 0);
 pub const NEWTON_PER_SQUARE_METRE: Unit = unit("N/m2", 1, -1, -2, 0);
+pub const NEWTON_PER_CUBIC_METRE: Unit = unit("N/m3", 1, -2, -2, 0);
 pub const NEWTON_SECOND: Unit = unit("N.s", 1, 1, -1, 0);
 pub const NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", 1, 0, -1, 0);
 pub const NEWTON_METRE: Unit = unit("N.m", 1, 2, -2, 0);

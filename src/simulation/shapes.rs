@@ -6,11 +6,9 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Evaluated, value};
 use super::{ENGINE, Error, Quantity, Simulation, Source, Variable};
-use crate::bodies::{
-    LineStance, Marker, Node, Patch, ReducedBody, SectionFaces, axes_at, combined, completed,
-};
+use crate::bodies::{LineStance, Marker, Node, Patch, ReducedBody, axes_at, combined, completed};
 use crate::math::space::{Vector, components};
-use crate::scene::{Assembled, LoadId, ModalLine, PatchGrid};
+use crate::scene::{Assembled, LoadId, ModalLine, PatchBody, PatchGrid};
 use crate::system::{Evaluation, State};
 
 /// Where a body is: what a line or surface of it is drawn from.
@@ -251,14 +249,13 @@ impl<const D: usize> Engine<D> {
     pub(super) fn face_stresses(&mut self, state: &State, inputs: &Inputs) -> Vec<Vec<[f64; 6]>> {
         let patches = self.assembled.system.bodies().patches();
         if self.grid_stresses.len() < patches.len() {
-            let read = |(patch, faces): (&Patch, &Option<SectionFaces>)| {
+            let read = |(patch, body): (&Patch, &PatchBody)| {
                 let grid = PatchGrid::new(patch.divisions());
-                let faces = faces.as_ref()?;
-                Some(patch.grid_stress(faces, &grid.lines_at()))
+                patch.grid_stress(|at| body.faces(at), &grid.lines_at())
             };
             self.grid_stresses = patches
                 .iter()
-                .zip(&self.assembled.faces)
+                .zip(&self.assembled.plates)
                 .map(read)
                 .collect();
         }

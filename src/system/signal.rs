@@ -40,6 +40,11 @@ impl Signal {
         }
     }
 
+    /// Whether it is the constant zero.
+    pub fn is_zero(&self) -> bool {
+        matches!(self, Self::Function(Function::Constant(0.0)))
+    }
+
     /// A fraction of what it is at an instant, from then on.
     pub fn held<const D: usize>(&self, at: Instant<'_, D>, fraction: f64) -> Self {
         Self::Function(Function::constant(fraction * self.value(at)))

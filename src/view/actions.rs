@@ -58,7 +58,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<MovingAction<'a>> {
     let known = known.filter(|known| !matches!(known.action.on, LoadPlace::Surface(_)));
     let known = known.map(|known| of_action(known.name, known.action, dimension));
     let fluids = resolved.loads.iter();
-    let fluids = fluids.filter_map(|load| Some(of_fluid(load.name, load.kind.fluid()?)));
+    let fluids = fluids.filter_map(|load| of_fluid(load.name, load.kind.fluid()?));
     let springs = resolved.numbered_loads();
     let springs = springs.flat_map(|(id, load)| of_spring(id, load, dimension));
     let reactions = reactions(resolved);
@@ -180,17 +180,17 @@ fn of_spring<'a>(
     }]
 }
 
-/// The current of a fluid.
-fn of_fluid<'a>(name: &'a str, fluid: &'a scene::ResolvedFluid<'a>) -> MovingAction<'a> {
-    MovingAction {
+/// The current of a fluid along a line.
+fn of_fluid<'a>(name: &'a str, fluid: &'a scene::ResolvedFluid<'a>) -> Option<MovingAction<'a>> {
+    Some(MovingAction {
         name,
         unit: "m/s",
         is_moment: false,
         follower: false,
         components: fluid.current.len(),
-        on: Where::Body(fluid.on.id.body_index()),
-        of: Origin::Components(&fluid.current, &fluid.along),
-    }
+        on: Where::Body(fluid.line()?.id.body_index()),
+        of: Origin::Components(&fluid.current, &fluid.varying),
+    })
 }
 
 fn of_action<'a>(

@@ -432,3 +432,32 @@ fn surfaces_are_as_described() {
         1e-14,
     );
 }
+
+/// A plate that is thrown with a velocity of deformation beside spin: between nodes too, the field is a product of cubics.
+#[test]
+fn plates_deform_at_the_start() {
+    let surface =
+        json!({"rectangle": {"corner": [0, 0, 0], "edges": [[LENGTH, 0, 0], [0, WIDTH, 0]]}});
+    let motion = json!({"velocity": [0.1, 0.2, 0.3], "spin": [0, 0, 2],
+        "deformation": ["0.5*s1^2*s2", "s1*s2", "s1^3*s2^2-0.1"]});
+    let keys = json!({"motion": motion, "markers": {"tip": [1, 1], "inside": [0.4, 0.3]}});
+    let scene = json!({"name": "thrown", "dimension": 3, "gravity": [0, 0, 0],
+        "bodies": [body("plate", &surface, [3, 2], &keys)],
+        "outputs": [{"kind": "velocity", "marker": "p.tip"}, {"kind": "velocity", "marker": "p.inside"},
+            {"kind": "angular_velocity", "marker": "p.inside"}]});
+    let mut run = Run::started(&scene);
+    for (name, [u, v]) in [("tip", [1.0, 1.0]), ("inside", [0.4, 0.3_f64])] {
+        let exact = [
+            0.1 - 2.0 * v * WIDTH + 0.5 * u * u * v,
+            0.2 + 2.0 * u * LENGTH + u * v,
+            0.3 + u.powi(3) * v * v - 0.1,
+        ];
+        all_near(run.read_all(&format!("p.{name}.velocity")), exact, 1e-12);
+    }
+    // The normal turns with the slopes, the frame about it with half the difference of both shears.
+    let ([u, v], [a, b]) = ([0.4, 0.3_f64], [LENGTH, WIDTH]);
+    let slopes = [3.0 * u * u * v * v / a, 2.0 * u.powi(3) * v / b];
+    let turn = 2.0 + 0.5 * (v / a - 0.5 * u * u / b);
+    let exact = [slopes[1], -slopes[0], turn];
+    all_near(run.read_all("p.inside.angular_velocity"), exact, 1e-12);
+}

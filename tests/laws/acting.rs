@@ -7,8 +7,8 @@ use flexbody::math::curve::Curve;
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
-    AppliedLoad, Bushing, BushingMeasure, Contact, ContactPoint, ContactSurface, ForceElement as _,
-    FromAngle, FromPoint, JointLimit, JointSpring, OneSidedSpring, TableSpring,
+    AppliedLoad, Bushing, BushingMeasure, Contact, ContactLaw, ContactPoint, ContactSurface,
+    ForceElement as _, FromAngle, FromPoint, JointLimit, JointSpring, OneSidedSpring, TableSpring,
 };
 use flexbody::system::{Angle, Attachment, Coordinate, Direction, Signal, Translation};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -194,13 +194,15 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
             frame,
             load: AppliedLoad::Contact(Box::new(Contact {
                 places: places.clone(),
-                surface,
-                spring: OneSidedSpring {
-                    stiffness: 5.0 + made.noise[24],
-                    damping,
+                law: ContactLaw {
+                    surface,
+                    spring: OneSidedSpring {
+                        stiffness: 5.0 + made.noise[24],
+                        damping,
+                    },
+                    friction,
+                    slip_velocity: 2.0,
                 },
-                friction,
-                slip_velocity: 2.0,
             })),
             angles: Vec::new(),
         })

@@ -331,3 +331,67 @@ fn forces_are_damped() {
         );
     }
 }
+
+/// A strip whose thickness falls to the half is a tapered beam: `w'' = F (L - x) / EI(x)`, elongation `N / (E h(x))`, and stress at the faces
+/// `6 M / h^2`. Its mass is that of a trapezoid, and a thickness that varies across the strip is found across it.
+#[test]
+fn tapered_strips_are_tapered_beams() {
+    let (length, width, h, modulus): (f64, f64, f64, f64) = (2.0, 0.1, 0.02, 1e9);
+    let strip = |thickness: &str, load: Value| {
+        let keys = json!({"thickness": thickness,
+            "material": {"youngs_modulus": modulus, "poisson_ratio": 0.0, "density": 1000}});
+        let markers = json!({"end": {"at": [1, 0.5], "pad": [1e-9, width]}, "middle": [0.5, 0.5]});
+        let mut scene = plate([length, width], [8, 1], &keys, &markers);
+        hold(&mut scene, "clamped", &["s1=0"]);
+        let outputs = scene["outputs"].as_array_mut().expect("outputs");
+        outputs.extend([
+            json!({"kind": "position", "marker": "p.end"}),
+            json!({"kind": "surface_stress", "marker": "p.middle"}),
+            json!({"kind": "momentum"}),
+        ]);
+        let load = json!([{"name": "F", "kind": "force", "marker": "p.end", "value": load}]);
+        Run::at_rest(scene, &load)
+    };
+    let taper = |x: f64| h * (1.0 - 0.5 * x / length);
+    let over = |of: &dyn Fn(f64) -> f64| {
+        let parts = 2000;
+        let d = length / f64::from(parts);
+        let middles = (0..parts).map(|k| d * (f64::from(k) + 0.5));
+        middles.map(|x| of(x) * d).sum::<f64>()
+    };
+    let bending = |x: f64| modulus * width * taper(x).powi(3) / 12.0;
+    let force = 1e-3;
+    let mut run = strip("0.02*(1-0.5*s1)", json!([0, 0, force]));
+    let exact = over(&|x| force * (length - x).powi(2) / bending(x));
+    is_near(run.read("p.end.position[3]") / exact, 1.0, 2e-4);
+    let moment = force * 0.5 * length / width;
+    let stress = 6.0 * moment / taper(0.5 * length).powi(2);
+    is_near(run.read("p.middle.bottom_stress[1]") / stress, 1.0, 2e-3);
+    is_near(run.read("p.middle.top_stress[1]") / stress, -1.0, 2e-3);
+    let tension = 10.0;
+    let mut run = strip("0.02*(1-0.5*s1)", json!([tension, 0, 0]));
+    let exact = over(&|x| tension / (modulus * width * taper(x)));
+    is_near((run.read("p.end.position[1]") - length) / exact, 1.0, 1e-4);
+    // A wedge across the strip: the mean thickness carries tension, the mean of its cube bends.
+    let mut run = strip("0.02*(0.5+s2)", json!([0, 0, force]));
+    let cubes = (1.5_f64.powi(4) - 0.5_f64.powi(4)) / 4.0;
+    let exact = force * length.powi(3) / (3.0 * modulus * width * h.powi(3) / 12.0 * cubes);
+    is_near(run.read("p.end.position[3]") / exact, 1.0, 2e-3);
+}
+
+/// A free plate whose thickness varies has the momentum of its mass about the origin.
+#[test]
+fn tapered_plates_have_their_mass() {
+    let keys = json!({"thickness": "0.01*(1+s1)*(2-s2)",
+        "material": {"youngs_modulus": 1e9, "poisson_ratio": 0.3, "density": 1000},
+        "motion": {"velocity": [0, 0, 1]}});
+    let mut scene = plate([2.0, 0.5], [3, 2], &keys, &json!({"corner": [1, 1]}));
+    scene["outputs"] = json!([{"kind": "momentum"}]);
+    let mut run = Run::started(&scene);
+    let mass = 1000.0 * 0.01 * 1.5 * 1.5;
+    is_near(run.read("momentum[3]") / mass, 1.0, 1e-9);
+    // First moments: of `1 + s1` 5/6 over its mean of 3/2, of `2 - s2` 2/3.
+    let (x, y) = (2.0 * (5.0 / 6.0) / 1.5, 0.5 * (2.0 / 3.0) / 1.5);
+    is_near(run.read("angular_momentum[1]") / (mass * y), 1.0, 1e-9);
+    is_near(run.read("angular_momentum[2]") / (-mass * x), 1.0, 1e-9);
+}

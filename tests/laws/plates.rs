@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::runs::Run;
 
 /// A rectangular plate along the first two axes with D = 1, thickness `h` and so many elements.
-fn plate(sides: [f64; 2], mesh: [u32; 2], h: f64, poisson: f64) -> Value {
+pub(super) fn plate(sides: [f64; 2], mesh: [u32; 2], h: f64, poisson: f64) -> Value {
     let modulus = 12.0 * (1.0 - poisson * poisson) / h.powi(3);
     json!({"name": "plate", "dimension": 3, "gravity": [0, 0, 0],
         "bodies": [{"name": "p", "element": "plate", "mesh": mesh, "thickness": h,
@@ -19,7 +19,7 @@ fn plate(sides: [f64; 2], mesh: [u32; 2], h: f64, poisson: f64) -> Value {
 }
 
 /// Holds edges of the plate.
-fn hold(scene: &mut Value, kind: &str, edges: &[&str]) {
+pub(super) fn hold(scene: &mut Value, kind: &str, edges: &[&str]) {
     for (k, edge) in edges.iter().enumerate() {
         let joint = json!({"name": format!("edge{k}"), "kind": kind, "edges": ["ground", format!("p.{edge}")]});
         scene["joints"].as_array_mut().expect("joints").push(joint);

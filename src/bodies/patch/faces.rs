@@ -17,7 +17,8 @@ pub struct SectionFaces {
 /// Reader of stress at a grid of points.
 #[derive(Clone, Debug)]
 pub struct GridStress {
-    faces: [(f64, Stiffness); 2],
+    /// Heights and laws of bottom and top, at every point.
+    faces: Vec<[(f64, Stiffness); 2]>,
     lines: [Vec<RecoveryLine>; 2],
     /// Takes covariant components to those along the axes of the section, at every point.
     to_axes: Vec<[[f64; 3]; 3]>,
@@ -26,20 +27,27 @@ pub struct GridStress {
 }
 
 impl Patch {
-    /// Reader of stress at a grid of points, whose coordinates along both directions are in [0, 1].
-    pub fn grid_stress(&self, of: &SectionFaces, at: &[Vec<f64>; 2]) -> GridStress {
+    /// Reader of stress at a grid of points, whose coordinates along both directions are in [0, 1]; none where the section does not tell it.
+    pub fn grid_stress(
+        &self,
+        of: impl Fn([f64; 2]) -> Option<SectionFaces>,
+        at: &[Vec<f64>; 2],
+    ) -> Option<GridStress> {
         let line = |k: usize| at[k].iter().map(move |at| self.recovery_line(k, *at));
         let points = at[0].iter().flat_map(|a| at[1].iter().map(|b| [*a, *b]));
-        let to_axes = points.map(|at| {
+        let (mut faces, mut to_axes) = (Vec::new(), Vec::new());
+        for at in points {
+            let of = of(at)?;
             let (element, xi) = self.find(at);
-            of.section.axes_transformation(&self.tangents(element, xi))
-        });
-        GridStress {
-            faces: of.faces,
-            lines: [line(0).collect(), line(1).collect()],
-            to_axes: to_axes.collect(),
-            strains: vec![[[[[0.0; 3]; 3]; 3]; 2]; self.elements.len()],
+            faces.push(of.faces);
+            to_axes.push(of.section.axes_transformation(&self.tangents(element, xi)));
         }
+        Some(GridStress {
+            faces,
+            lines: [line(0).collect(), line(1).collect()],
+            to_axes,
+            strains: vec![[[[[0.0; 3]; 3]; 3]; 2]; self.elements.len()],
+        })
     }
 }
 
@@ -56,13 +64,16 @@ impl GridStress {
         }
         let across = self.lines[1].iter();
         let pairs = (self.lines[0].iter()).flat_map(|a| across.clone().map(move |b| [a, b]));
-        let stress = |(lines, to_axes): ([&RecoveryLine; 2], &[[f64; 3]; 3])| {
+        let stress = |((lines, faces), to_axes): (_, &[[f64; 3]; 3])| {
+            let (lines, faces): ([&RecoveryLine; 2], &[(f64, Stiffness); 2]) = (lines, faces);
             let of = patch.recovered(lines, |element| self.strains[element]);
             let of = of.map(|of| times(to_axes, of));
-            let faces = self.faces.each_ref();
-            let [bottom, top] = faces.map(|(height, law)| stress_at((*height, law), of));
+            let [bottom, top] = faces
+                .each_ref()
+                .map(|(height, law)| stress_at((*height, law), of));
             [bottom[0], bottom[1], bottom[2], top[0], top[1], top[2]]
         };
-        pairs.zip(&self.to_axes).map(stress).collect()
+        let points = pairs.zip(&self.faces).zip(&self.to_axes);
+        points.map(stress).collect()
     }
 }

@@ -55,7 +55,7 @@ fn patch() -> Patch {
             pad: [0.2, 0.3],
         },
     ];
-    Patch::new(2, lines, &nodes, |_, _| section, &points)
+    Patch::new(2, lines, &nodes, |_| section, &points)
 }
 
 /// A configuration that is not the reference, with its points.

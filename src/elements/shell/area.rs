@@ -37,8 +37,16 @@ impl Shell {
         }
     }
 
-    /// Derivatives of the position by `xi` and `eta` at a place.
-    fn tangents<N: Number>(&self, e: &ElementCorners<N>, place: usize) -> [Vector3<N>; 2] {
+    /// Value of a field at a place of quadrature from its values and derivatives at the corners.
+    pub fn at_place<N: Number>(&self, e: &ElementCorners<N>, place: usize) -> Vector3<N> {
+        let vectors = e.as_flattened().iter().enumerate();
+        vectors.fold(Vector3::zeros(), |sum, (k, vector)| {
+            sum + Vector3::from(*vector) * N::of(functions(k, place)[0] * self.scale(k))
+        })
+    }
+
+    /// Derivatives of the position by `xi` and `eta` at a place of quadrature, m.
+    pub fn tangents<N: Number>(&self, e: &ElementCorners<N>, place: usize) -> [Vector3<N>; 2] {
         let mut sums = [Vector3::zeros(); 2];
         for (k, vector) in e.as_flattened().iter().enumerate() {
             let ([_, along, across], scale) = (functions(k, place), self.scale(k));
@@ -49,7 +57,12 @@ impl Shell {
         sums
     }
 
-    /// Areas of the unstressed surface that places of quadrature stand for, m^2.
+    /// Areas of the unstressed surface that its places of quadrature stand for, m^2.
+    pub fn place_areas(&self) -> &[f64; AREA_PLACES] {
+        &self.areas
+    }
+
+    /// Areas that places of quadrature stand for on a surface, m^2.
     pub(super) fn areas(&self, unstressed: &ElementCorners) -> [f64; AREA_PLACES] {
         std::array::from_fn(|place| {
             let [first, second] = self.tangents(unstressed, place);
@@ -104,6 +117,20 @@ impl Shell {
                 out.iter_mut()
                     .zip(&part)
                     .for_each(|(out, part)| *out += *part);
+            }
+        }
+        out
+    }
+
+    /// Blocks over the vectors of all corners of a matrix per area of the unstressed surface at the places of quadrature.
+    pub fn area_matrix(&self, of: &[Matrix3<f64>; AREA_PLACES]) -> [[Matrix3<f64>; 16]; 16] {
+        let mut out = [[Matrix3::zeros(); 16]; 16];
+        for (place, matrix) in of.iter().enumerate() {
+            let values: [f64; 16] = std::array::from_fn(|k| functions(k, place)[0] * self.scale(k));
+            for (row, out) in out.iter_mut().enumerate() {
+                for (column, out) in out.iter_mut().enumerate() {
+                    *out += matrix * (self.areas[place] * values[row] * values[column]);
+                }
             }
         }
         out

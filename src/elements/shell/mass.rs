@@ -45,11 +45,12 @@ fn density(
     area_density * first.cross(&second).norm()
 }
 
-/// Mass of an element with these lengths and unit of mixed derivatives (m), coordinates of the unstressed surface and mass per area (kg/m^2).
+/// Mass of an element with these lengths and unit of mixed derivatives (m), coordinates of the unstressed surface and mass per area at
+/// `xi` and `eta` (kg/m^2).
 pub(super) fn mass(
     corners: &[Corner; 4],
     (sizes, unit): ([f64; 2], f64),
-    area_density: f64,
+    area_density: impl Fn([f64; 2]) -> f64,
 ) -> Mass {
     let lines = |inertia: Inertia| sizes.map(|size| line_mass(size, inertia));
     let tensor = |lines: [SMatrix<f64, 4, 4>; 2]| {
@@ -63,7 +64,7 @@ pub(super) fn mass(
         for second in &GAUSS_5 {
             let at = [first.at, second.at];
             let weight = first.weight * second.weight;
-            let density = density(corners, (sizes, unit), area_density, at);
+            let density = density(corners, (sizes, unit), area_density(at), at);
             let values = [0, 1].map(|of| shape::values(at[of], sizes[of]));
             let functions = nalgebra::SVector::<f64, 16>::from_fn(|k, _| {
                 let (alpha, beta) = functions(k);

@@ -19,6 +19,7 @@ use super::line::times;
 use super::shape;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
+use crate::math::quadrature::GAUSS_3;
 use crate::math::space::tangent_axes;
 pub use area::{AREA_PLACES, area_place};
 use grid::{Corners, Grid, WEIGHTS};
@@ -150,9 +151,10 @@ fn covariant(section: &ShellSection, tangents: &[Vector3<f64>; 2], weight: f64) 
 }
 
 impl Shell {
-    /// An element of these lengths (m) with the coordinates of its unstressed surface and the unit of length (m) of mixed derivatives.
+    /// An element of these lengths (m) with the coordinates of its unstressed surface and the unit of length (m) of mixed derivatives. Its
+    /// section at `xi` and `eta` in [0, 1] may vary in stiffness and mass.
     pub fn new(
-        section: &ShellSection,
+        section: impl Fn([f64; 2]) -> ShellSection,
         (sizes, unit): ([f64; 2], f64),
         corners: &ElementCorners,
     ) -> Self {
@@ -162,20 +164,22 @@ impl Shell {
         for i in 0..3 {
             for j in 0..3 {
                 let tangents = [0, 1].map(|of| grid.first[of][i + 1][j + 1].into());
-                let stiffness = covariant(section, &tangents, WEIGHTS[i] * WEIGHTS[j]);
+                let own = section([GAUSS_3[i].at, GAUSS_3[j].at]);
+                let stiffness = covariant(&own, &tangents, WEIGHTS[i] * WEIGHTS[j]);
                 for (law, at) in stiffness.into_iter().enumerate() {
                     laws[law][i][j] = at;
                 }
             }
         }
+        let middle = section([0.5; 2]);
         let kernel = Kernel {
             laws,
-            is_coupled: section.coupling != [[0.0; 3]; 3],
+            is_coupled: middle.coupling != [[0.0; 3]; 3],
             metric: metric(&grid),
             curvature: curvature(&grid).0,
-            damping_time: section.damping_time,
+            damping_time: middle.damping_time,
         };
-        let mass = mass::mass(corners, (sizes, unit), section.area_density);
+        let mass = mass::mass(corners, (sizes, unit), |at| section(at).area_density);
         let ones =
             SVector::<f64, 16>::from_fn(|k, _| f64::from(u8::from(k.is_multiple_of(VECTORS))));
         let mut element = Self {

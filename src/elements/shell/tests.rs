@@ -40,7 +40,11 @@ fn corners(by: f64, seed: &mut Noise) -> ElementCorners {
 }
 
 fn element(section: &ShellSection) -> Shell {
-    Shell::new(section, ([0.8, 0.5], 0.3), &corners(0.03, &mut Noise(5)))
+    Shell::new(
+        |_| *section,
+        ([0.8, 0.5], 0.3),
+        &corners(0.03, &mut Noise(5)),
+    )
 }
 
 fn changed(e: &ElementCorners, by: &ElementCorners, factor: f64) -> ElementCorners {
@@ -246,7 +250,7 @@ fn mass_keeps_momentum_and_rigid_kinetic_energy() {
         let (x, y) = (0.8 * (corner / 2) as f64, 0.5 * (corner % 2) as f64);
         [[x, y, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]]
     });
-    let element = Shell::new(&section, ([0.8, 0.5], 0.3), &flat);
+    let element = Shell::new(|_| section, ([0.8, 0.5], 0.3), &flat);
     let mass = section.area_density * 0.4;
     let weight = element.weight();
     let total: f64 = (0..4).map(|corner| weight[VECTORS * corner]).sum();

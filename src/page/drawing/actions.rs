@@ -111,13 +111,16 @@ impl<'a> Picture<'a> {
             let Some(fluid) = load.kind.fluid() else {
                 continue;
             };
+            let Some(line) = fluid.line() else {
+                continue;
+            };
             let mut inputs = self.resolved.inputs.iter();
             let input = inputs
                 .find(|input| matches!(input.kind, InputKind::Current(name) if name == load.name));
             let start = input.map_or(&[][..], |input| &input.start);
-            let current = in_middle(&fluid.current, &fluid.along, start);
+            let current = in_middle(&fluid.current, &fluid.varying, start);
             if input.is_some() || current.iter().any(|part| *part != 0.0) {
-                self.distributed(load.name, fluid.on, way(&current), true);
+                self.distributed(load.name, line, way(&current), true);
             }
         }
     }

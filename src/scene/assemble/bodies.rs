@@ -84,6 +84,7 @@ impl<const D: usize> Builder<'_, D> {
             axes,
             still,
             angles,
+            are_sections: sections.is_some(),
         };
         self.motions.push(of_body, motion, arm);
         if let (BodyReference::Cable(cable), Some(field)) =
@@ -92,6 +93,13 @@ impl<const D: usize> Builder<'_, D> {
             let mesh = self.resolved.nodes(cable)?;
             self.motions
                 .deform(field, &mesh, cable.body.shape.length())?;
+        }
+        if let (BodyReference::Plate(plate), Some(field)) =
+            (self.resolved.bodies[index], &motion.deformation)
+        {
+            let unit = self.patch_of(plate).unit();
+            let geometry = plate.body.geometry();
+            self.motions.deform_surface(field, &geometry, unit)?;
         }
         self.parts.bodies.ranges.push(nodes);
         Ok(())

@@ -7,6 +7,8 @@ use nalgebra::Vector3;
 use crate::bodies::{Node, add_node, no_node, rotate_inner};
 use crate::math::expression::Expression;
 use crate::math::space::{Vector, components, perpendicular, spun, vector};
+use crate::scene::description::OVER_SURFACE;
+use crate::scene::patch::PatchGeometry;
 use crate::scene::{Error, InitialMotion};
 
 /// Nodes of a body.
@@ -19,6 +21,8 @@ pub(super) struct BodyNodes {
     pub still: usize,
     /// From which node on these are angles of sections in the plane, which turn.
     pub angles: usize,
+    /// Whether axes are those of sections, which turn with a line that deforms.
+    pub are_sections: bool,
 }
 
 /// Motion of a body at the start.
@@ -85,6 +89,32 @@ impl<const D: usize> Motions<D> {
         Ok(())
     }
 
+    /// Gives the plate or shell added last a velocity of deformation. Its mixed derivatives are in units of the patch, m.
+    ///
+    /// # Errors
+    /// An expression that is not valid.
+    pub(super) fn deform_surface(
+        &mut self,
+        field: &[String],
+        geometry: &PatchGeometry<'_>,
+        unit: f64,
+    ) -> Result<(), Error> {
+        let Some(InitialVelocity { nodes, .. }) = self.bodies.last() else {
+            return Ok(());
+        };
+        let [a, b] = geometry.lengths;
+        let pairs = self.deformation[nodes.all.clone()].chunks_exact_mut(2);
+        for (at, pair) in geometry.places().zip(pairs) {
+            for (k, text) in field.iter().enumerate() {
+                let rates = Expression::of_two(text, OVER_SURFACE, at);
+                let [value, first, second, mixed] = rates.map_err(|e| Error::new("bodies", e))?;
+                (pair[0][0][k], pair[0][1][k]) = (value, first / a);
+                (pair[1][0][k], pair[1][1][k]) = (second / b, mixed * unit / (a * b));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether any body moves.
     pub fn is_none(&self) -> bool {
         let rests = |body: &InitialVelocity<D>| {
@@ -103,6 +133,7 @@ impl<const D: usize> Motions<D> {
                     axes,
                     still,
                     angles,
+                    are_sections,
                 },
             velocity,
             arm,
@@ -127,7 +158,7 @@ impl<const D: usize> Motions<D> {
             let of_body = rates[moved.clone()].iter_mut().zip(&x[moved.clone()]);
             for (node, (rate, x)) in moved.zip(of_body) {
                 if axes.contains(&node) {
-                    *rate = x.map(|axis| spun(*spin, axis.into()).into());
+                    add_node(rate, 1.0, &x.map(|axis| spun(*spin, axis.into()).into()));
                     continue;
                 }
                 let way = std::array::from_fn(|k| x[0][k] - origin[k]);
@@ -136,7 +167,7 @@ impl<const D: usize> Motions<D> {
             }
             // Sections turn with the line that deforms: they begin without a rate of shear.
             for (line, second) in (nodes.start..).zip(axes) {
-                if self.deformation[line] == no_node() {
+                if !are_sections || self.deformation[line] == no_node() {
                     continue;
                 }
                 let slope = components(&x[line][1].into()).into();

@@ -26,8 +26,8 @@ use super::resolved::{
 };
 pub use modal::ModalLine;
 
-use super::{Error, OutputKind, Scene};
-use crate::bodies::{Bodies, LumpedMass, Marker, Node, Patch, ReducedBody, SectionFaces};
+use super::{Error, OutputKind, PatchBody, Scene};
+use crate::bodies::{Bodies, LumpedMass, Marker, Node, Patch, ReducedBody};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
@@ -67,8 +67,8 @@ pub struct Assembled<const D: usize = 2> {
     gauges: Vec<Gauge>,
     /// Heights in sections of plates and shells where stress is read.
     layers: Vec<StressLayer>,
-    /// Bottom and top of the sections of plates and shells, patch by patch; none of those whose stress is not known.
-    pub faces: Vec<Option<SectionFaces>>,
+    /// Plates and shells as described, patch by patch.
+    pub plates: Vec<PatchBody>,
     /// First nodes of the interfaces of reduced bodies, by the index of the body.
     interfaces: BTreeMap<usize, Vec<usize>>,
     /// Lines that are reduced to modes, by the index of the body.
@@ -223,13 +223,17 @@ impl Resolved<'_> {
             None => self.principal(body),
         });
         let (frames, centers): (Vec<Matrix3<f64>>, Vec<_>) = principal.unzip();
+        let plates = self.bodies.iter().filter_map(|body| match body {
+            BodyReference::Plate(plate) => Some(plate.body.clone()),
+            BodyReference::Cable(_) | BodyReference::Rigid(_) | BodyReference::Reduced(_) => None,
+        });
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
             system,
             points,
             gauges,
             layers,
-            faces: self.section_faces(),
+            plates: plates.collect(),
             error: self.scene.error_wanted(),
             rates: builder.motions.rates(&nodes),
             motions: builder.motions,
@@ -244,15 +248,6 @@ impl Resolved<'_> {
             lines,
             patches: builder.patches,
         })
-    }
-
-    /// Bottom and top of the sections of plates and shells.
-    fn section_faces(&self) -> Vec<Option<SectionFaces>> {
-        let plates = self.bodies.iter().filter_map(|body| match body {
-            BodyReference::Plate(plate) => Some(plate.body.faces()),
-            BodyReference::Cable(_) | BodyReference::Rigid(_) | BodyReference::Reduced(_) => None,
-        });
-        plates.collect()
     }
 
     /// Nothing but what belongs to the scene as a whole.

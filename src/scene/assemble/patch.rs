@@ -9,12 +9,12 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn patch(&mut self, plate: Plate<'_>) -> Vec<usize> {
         let (body, geometry) = (plate.body, plate.body.geometry());
         let points = body.markers.values().map(|marker| geometry.point(marker));
-        let section = body.section();
+        let uniform = body.is_uniform().then(|| body.section([0.5; 2]));
         let patch = Patch::new(
             self.parts.bodies.reference.len(),
             geometry.lines(),
             &geometry.corners(),
-            |_, _| section,
+            |at| uniform.unwrap_or_else(|| body.section(at)),
             &points.collect::<Vec<_>>(),
         );
         let axes = patch.axes_nodes().collect();

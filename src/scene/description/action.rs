@@ -70,7 +70,7 @@ impl ActionKind {
     pub fn coordinates(self) -> &'static [&'static str] {
         match self.acts_on() {
             ActsOn::Cable | ActsOn::Sections => ALONG_LINE,
-            ActsOn::Surface => OVER_SURFACE,
+            ActsOn::Surface => &OVER_SURFACE,
             ActsOn::Marker | ActsOn::Joint => &[],
         }
     }

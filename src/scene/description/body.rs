@@ -297,8 +297,8 @@ pub struct InitialMotion {
     #[serde(default)]
     pub spin: Spin,
     /// Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,
-    /// 0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; cables only.
-    /// Sections of rods and beams turn with the line.
+    /// 0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; of plates and shells in `s1` and `s2`, e.g. `["0", "0", "s1*s2"]`.
+    /// Cables, rods, beams, plates and shells only. Sections of rods and beams turn with the line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2, max = 3))]
     pub deformation: Option<Vec<String>>,

@@ -43,7 +43,9 @@ pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, PlyStressOutput, ReactionOutput};
-pub use patch::{LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface};
+pub use patch::{
+    LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface, PatchThickness,
+};
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;
 pub use reduced::{DampingRatio, FileBody, FixedInterfaceModes, Modes, ModesUpTo};
@@ -54,7 +56,7 @@ pub use solid::Solid;
 pub use strict::Strict;
 pub use surface::Surface;
 pub use tagged::Kinds;
-pub use value::{ALONG_LINE, Interpolation, LoadValue, MotionValue, Table, Value};
+pub use value::{ALONG_LINE, Interpolation, LoadValue, MotionValue, OVER_SURFACE, Table, Value};
 pub use vector::{SceneVector, Spin};
 
 /// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.

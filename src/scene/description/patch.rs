@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::SceneVector;
 use super::body::InitialMotion;
 use super::strict::{Strict, typed};
+use super::value::Value;
 
 /// A thin plate or shell of bicubic elements: stretches and bends, does not shear through its thickness. In space.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,10 +24,9 @@ pub struct PatchBody {
     /// Isotropic material, with `thickness`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<PatchMaterial>,
-    /// Thickness, m, with `material`.
+    /// Thickness, m, with `material`: a number, or an expression in the coordinates `s1` and `s2` of the surface, each from 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub thickness: Option<f64>,
+    pub thickness: Option<PatchThickness>,
     /// Plies from the bottom to the top, along the normal of the surface; instead of `material` and `thickness`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub laminate: Vec<LaminatePly>,
@@ -50,6 +50,29 @@ pub struct PatchBody {
     /// Named points: `[s1, s2]`, or one with a pad.
     #[serde(default)]
     pub markers: BTreeMap<String, PatchMarker>,
+}
+
+/// Thickness of a plate or shell.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PatchThickness {
+    /// The same all over, m.
+    Number(#[schemars(extend("exclusiveMinimum" = 0))] f64),
+    /// Expression in `s1` and `s2`, m.
+    Expression(String),
+}
+
+impl<'de> Deserialize<'de> for PatchThickness {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Value::deserialize(deserializer)? {
+            Value::Number(number) => Ok(Self::Number(number)),
+            Value::Expression(text) => Ok(Self::Expression(text)),
+            Value::Table(_) => {
+                let wanted = "expected a number or an expression in `s1` and `s2`, found a table";
+                Err(serde::de::Error::custom(wanted))
+            }
+        }
+    }
 }
 
 /// Isotropic material of a plate or shell.

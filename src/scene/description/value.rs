@@ -12,7 +12,7 @@ use crate::math::function::Function;
 /// Coordinates of a line body in expressions: 0 at the first end, 1 at the last.
 pub const ALONG_LINE: &[&str] = &["s"];
 /// Coordinates of a plate or shell in expressions, each from 0 to 1.
-pub const OVER_SURFACE: &[&str] = &["s1", "s2"];
+pub const OVER_SURFACE: [&str; 2] = ["s1", "s2"];
 
 /// A number, an expression in the time `t` (s), or a table over time.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -110,7 +110,7 @@ impl Value {
         let Self::Expression(text) = self else {
             return None;
         };
-        let kinds = [ALONG_LINE, OVER_SURFACE].into_iter();
+        let kinds = [ALONG_LINE, &OVER_SURFACE].into_iter();
         let mut own = kinds.filter(|names| Function::varies(text, names));
         own.next().map(|names| (text.as_str(), names))
     }

@@ -341,7 +341,12 @@ impl<const D: usize> Builder<'_, D> {
     ///
     /// # Errors
     /// An expression that has no value at a place.
-    fn over_places(&self, plate: Plate<'_>, text: &str, path: &str) -> Result<Vec<Signal>, Error> {
+    pub(super) fn over_places(
+        &self,
+        plate: Plate<'_>,
+        text: &str,
+        path: &str,
+    ) -> Result<Vec<Signal>, Error> {
         let places = self.patch_of(plate).area_places();
         let signal = |at: [f64; 2]| {
             let function = Function::at(text, &[("s1", at[0]), ("s2", at[1])]);

@@ -74,7 +74,7 @@ impl SceneLoad for BushingLoad {
         })
     }
 
-    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
+    fn numbers(&mut self, _on: LoadExtent) -> Vec<LoadNumber<'_>> {
         #[rustfmt::skip] // a table
         let numbers = vec![
             LoadNumber::new("translational_stiffness", "Stiffness along", Some(NEWTON_PER_METRE), Axes(&mut self.translational_stiffness)),

@@ -9,7 +9,9 @@ use crate::math::space::vector;
 use crate::scene::assemble::unit;
 use crate::scene::description::Surface;
 use crate::scene::validate::checks;
-use crate::system::loads::{Contact, ContactPoint, ContactSurface, OneSidedSpring};
+use crate::system::loads::{
+    Contact, ContactLaw, ContactPoint, ContactSurface, OneSidedSpring, SurfaceContact,
+};
 
 /// Contact with a surface of the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,10 +20,11 @@ pub struct ContactLoad {
     /// Marker that touches the surface, `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// Name of the cable, rod or beam whose line touches the surface; the thickness of the body does not count.
+    /// Name of the cable, rod or beam whose line, or of the plate or shell whose middle surface touches the surface; the thickness of the
+    /// body does not count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// Stiffness `k` of the surface, N/m at a marker; N/m per reference length along a body.
+    /// Stiffness `k` of the surface, N/m at a marker; N/m per reference length along a line, per reference area of a plate or shell.
     #[schemars(range(min = 0.0))]
     pub stiffness: f64,
     /// Damping `a` in the normal force `k d (1 + a d')` at the depth `d` below the surface, s/m; 0 by default.
@@ -46,17 +49,17 @@ pub struct ContactLoad {
 pub struct ResolvedContact<'a> {
     /// As described.
     given: &'a ContactLoad,
-    /// Marker or line body that touches the surface.
+    /// Marker, line body, plate or shell that touches the surface.
     by: LoadPlace<'a>,
 }
 
 impl ContactLoad {
-    /// Unit of the stiffness.
-    fn unit(&self) -> Unit {
-        if self.marker.is_some() {
-            NEWTON_PER_METRE
-        } else {
-            NEWTON_PER_SQUARE_METRE
+    /// Unit of the stiffness at a place.
+    fn unit(on: LoadExtent) -> Unit {
+        match on {
+            LoadExtent::Line => NEWTON_PER_SQUARE_METRE,
+            LoadExtent::Surface => NEWTON_PER_CUBIC_METRE,
+            _ => NEWTON_PER_METRE,
         }
     }
 }
@@ -75,11 +78,12 @@ impl SceneLoad for ContactLoad {
             (Some(marker), None) => LoadPlace::Marker(scene.require_marker(&at("marker"), marker)?),
             (None, body) => {
                 let body = needed(path, "body", "a name", body.as_deref())?;
-                LoadPlace::Line(scene.require_cable(&at("body"), body)?)
+                scene.require_line_or_surface(&at("body"), body)?
             }
         };
         (self.surface).validate(&at("surface"), scene.scene.dimension)?;
-        positive(&at("stiffness"), &self.unit().text(), self.stiffness)?;
+        let unit = Self::unit(by.extent()).text();
+        positive(&at("stiffness"), &unit, self.stiffness)?;
         not_negative(&at("damping"), "s/m", self.damping.unwrap_or_default())?;
         let friction = self.friction.unwrap_or_default();
         not_negative(&at("friction"), "1", friction)?;
@@ -93,8 +97,8 @@ impl SceneLoad for ContactLoad {
         Ok(ResolvedContact { given: self, by })
     }
 
-    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
-        let units = [self.unit(), SECOND_PER_METRE];
+    fn numbers(&mut self, on: LoadExtent) -> Vec<LoadNumber<'_>> {
+        let units = [Self::unit(on), SECOND_PER_METRE];
         let mut numbers = damper(
             units,
             Needed(&mut self.stiffness),
@@ -132,7 +136,24 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         builder: &mut Builder<'_, D>,
         _path: &str,
     ) -> AssembledLoad<D> {
+        let spring = OneSidedSpring {
+            stiffness: self.given.stiffness,
+            damping: self.given.damping.unwrap_or_default(),
+        };
+        let (friction, slip_velocity) = (self.given.friction, self.given.slip_velocity);
+        let [friction, slip_velocity] = [friction, slip_velocity].map(Option::unwrap_or_default);
         let places = match self.by {
+            LoadPlace::Surface(plate) => {
+                return Ok(AppliedLoad::SurfaceContact(Box::new(SurfaceContact {
+                    patch: builder.patch_index(plate),
+                    law: ContactLaw {
+                        surface: surface(&self.given.surface),
+                        spring,
+                        friction,
+                        slip_velocity,
+                    },
+                })));
+            }
             LoadPlace::Line(cable) => builder.places(cable),
             on => { on.markers().into_iter() }
                 .map(|marker| ContactPoint {
@@ -143,19 +164,19 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         };
         Ok(AppliedLoad::Contact(Box::new(Contact {
             places,
-            surface: surface(&self.given.surface),
-            spring: OneSidedSpring {
-                stiffness: self.given.stiffness,
-                damping: self.given.damping.unwrap_or_default(),
+            law: ContactLaw {
+                surface: surface(&self.given.surface),
+                spring,
+                friction,
+                slip_velocity,
             },
-            friction: self.given.friction.unwrap_or_default(),
-            slip_velocity: self.given.slip_velocity.unwrap_or_default(),
         })))
     }
 
     fn words(&self, dimension: usize) -> LoadWords {
         let unit = match self.by {
             LoadPlace::Line(_) => "N/m per length",
+            LoadPlace::Surface(_) => "N/m per area",
             _ => "N/m",
         };
         let vector = |of: &SceneVector| words::vector(dimension, of.full());

@@ -6,39 +6,43 @@ use super::line::{component, uniform};
 use super::*;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
-use crate::scene::description::{ALONG_LINE, SectionNumbers};
-use crate::system::loads::{Fluid, FluidSegment};
+use crate::scene::assemble::each;
+use crate::scene::description::{ALONG_LINE, OVER_SURFACE, SectionNumbers};
+use crate::scene::resolved::Plate;
+use crate::system::loads::{AreaValues, Fluid, FluidSegment, SurfaceFluid};
 
-/// A fluid along a line.
+/// A fluid along a line or a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FluidLoad {
-    /// Name of the cable, rod or beam that the fluid streams past.
+    /// Name of the cable, rod, beam, plate or shell that the fluid streams past.
     pub body: String,
     /// Density of the fluid, kg/m^3.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
-    /// Velocity of the fluid in global axes, m/s; zero by default. Expressions may contain the material coordinate `s` of the body,
-    /// which is 0 at the first end and 1 at the last.
+    /// Velocity of the fluid in global axes, m/s; zero by default. Expressions may contain the material coordinate `s` of a line, which is
+    /// 0 at the first end and 1 at the last, and the coordinates `s1` and `s2` of a plate or shell, each from 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2, max = 3))]
     pub current: Option<Vec<Value>>,
-    /// Coefficient of drag across the line, for the area `diameter` times length; 0 by default.
+    /// Coefficient of drag across a line, for the area `diameter` times length, or along the normal of a plate or shell, for its area; 0 by
+    /// default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub drag: Option<f64>,
-    /// Coefficient of drag along the line, for the area `pi diameter` times length; 0 by default.
+    /// Coefficient of drag along a line, for the area `pi diameter` times length, or in the surface of a plate or shell, both sides
+    /// together, for its area; 0 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub tangential_drag: Option<f64>,
-    /// Coefficient of added mass: the mass of fluid that moves along, divided by the mass of displaced fluid; 0 by default.
+    /// Coefficient of added mass of a line: the mass of fluid that moves along, divided by the mass of displaced fluid; 0 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub added_mass: Option<f64>,
-    /// Diameter for drag, m; by default the outer diameter of a circle or tube, else that of a circle with the area of the section.
+    /// Diameter of a line for drag, m; by default the outer diameter of a circle or tube, else that of a circle with the area of the section.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub diameter: Option<f64>,
-    /// Area of the section that displaces fluid, m^2; by default the area of a circle of this `diameter`.
+    /// Area of the section of a line that displaces fluid, m^2; by default the area of a circle of this `diameter`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub area: Option<f64>,
@@ -53,18 +57,52 @@ pub struct FluidLoad {
 pub struct ResolvedFluid<'a> {
     /// As described.
     given: &'a FluidLoad,
-    /// Line body that the fluid acts on.
-    pub on: Cable<'a>,
+    /// Line or surface that the fluid acts on.
+    pub on: LoadPlace<'a>,
     /// Velocity of the fluid, m/s. Components that vary along the body are zero here.
     pub current: Vec<Signal>,
     /// Components that change along the body, and their expressions.
-    pub along: Vec<(usize, &'a str)>,
+    pub varying: Vec<(usize, &'a str)>,
 }
 
 impl FluidLoad {
     /// Components of the current as written; none where the fluid rests.
     fn components(&self) -> &[Value] {
         self.current.as_deref().unwrap_or_default()
+    }
+
+    /// Whether the weight of the displaced fluid lifts the body.
+    fn lifts(&self) -> bool {
+        self.buoyancy.unwrap_or(true)
+    }
+
+    /// Checks what a line needs.
+    fn check_line(&self, path: &str, line: Cable<'_>) -> Result<(), Error> {
+        let mut sections = line.body.all_sections();
+        if self.diameter.is_none() && sections.any(|s| s.numbers().area == 0.0) {
+            let wanted = "a diameter, as the section has no area";
+            return Err(expected(&format!("{path}.diameter"), wanted, "nothing"));
+        }
+        Ok(())
+    }
+
+    /// Refuses keys that a surface does not have.
+    fn check_surface(&self, path: &str, plate: Plate<'_>) -> Result<(), Error> {
+        for (key, value) in [
+            ("added_mass", self.added_mass),
+            ("diameter", self.diameter),
+            ("area", self.area),
+        ] {
+            if let Some(value) = value {
+                let wanted = "nothing for a plate or shell";
+                return Err(expected(&format!("{path}.{key}"), wanted, value));
+            }
+        }
+        if self.lifts() && plate.body.layers([0.5; 2]).is_empty() {
+            let wanted = "false for a section whose thickness is not given";
+            return Err(expected(&format!("{path}.buoyancy"), wanted, true));
+        }
+        Ok(())
     }
 }
 
@@ -73,7 +111,7 @@ impl SceneLoad for FluidLoad {
 
     fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let at = |key: &str| format!("{path}.{key}");
-        let on = scene.require_cable(&at("body"), &self.body)?;
+        let on = scene.require_line_or_surface(&at("body"), &self.body)?;
         for (key, unit, value) in [
             ("density", "kg/m^3", Some(self.density)),
             ("diameter", "m", self.diameter),
@@ -88,9 +126,10 @@ impl SceneLoad for FluidLoad {
         ] {
             not_negative(&at(key), "1", value.unwrap_or_default())?;
         }
-        if self.diameter.is_none() && on.body.all_sections().any(|s| s.numbers().area == 0.0) {
-            let wanted = "a diameter, as the section has no area";
-            return Err(expected(&at("diameter"), wanted, "nothing"));
+        match on {
+            LoadPlace::Surface(plate) => self.check_surface(path, plate)?,
+            LoadPlace::Line(line) => self.check_line(path, line)?,
+            _ => {}
         }
         if scene.scene.turns() {
             let wanted = "0 where a fluid acts, which does not rotate with the frame";
@@ -101,14 +140,18 @@ impl SceneLoad for FluidLoad {
         let rest = vec![Value::Number(0.0); dimension];
         let current = self.current.as_ref().unwrap_or(&rest);
         let current = components(&at("current"), dimension, current, |path, of| {
-            component(path, of, ALONG_LINE)
+            let coordinates = match on {
+                LoadPlace::Surface(_) => &OVER_SURFACE,
+                _ => ALONG_LINE,
+            };
+            component(path, of, coordinates)
         })?;
-        let along = self.components().iter().enumerate();
+        let varying = self.components().iter().enumerate();
         Ok(ResolvedFluid {
             given: self,
             on,
             current,
-            along: along
+            varying: varying
                 .filter_map(|(k, of)| Some((k, of.varying()?.0)))
                 .collect(),
         })
@@ -123,7 +166,7 @@ impl SceneLoad for FluidLoad {
         })
     }
 
-    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
+    fn numbers(&mut self, _on: LoadExtent) -> Vec<LoadNumber<'_>> {
         #[rustfmt::skip] // a table
         let numbers = vec![
             LoadNumber::new("density", "Density", Some(DENSITY), Needed(&mut self.density)),
@@ -137,12 +180,12 @@ impl SceneLoad for FluidLoad {
 
 impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
     fn place(&self) -> LoadPlace<'a> {
-        LoadPlace::Line(self.on)
+        self.on
     }
 
     /// Along a cable that a winch pays out there is no added mass.
     fn has_number(&self, key: &str, scene: &Resolved<'_>) -> bool {
-        key != "added_mass" || !scene.is_paid_out(self.on)
+        key != "added_mass" || self.line().is_some_and(|line| !scene.is_paid_out(line))
     }
 
     fn assemble<const D: usize>(
@@ -150,30 +193,11 @@ impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
         builder: &mut Builder<'_, D>,
         path: &str,
     ) -> AssembledLoad<D> {
-        let cable = self.on;
-        let mut strips = Vec::new();
-        for ends in builder.segments(cable)?.windows(2) {
-            let sections = cable.body.sections_about(0.5 * (ends[0] + ends[1]));
-            for point in GAUSS_5 {
-                let section = match cable.id.form {
-                    Form::Chain(_) => sections(ends[0] + point.at * (ends[1] - ends[0])).0,
-                    // All along it that of its middle, as its mass.
-                    Form::Rod(_) | Form::Modal => cable.body.section_at(0.5),
-                };
-                strips.push(self.strip(&section));
-            }
+        match self.on {
+            LoadPlace::Line(line) => self.along(line, builder, path),
+            LoadPlace::Surface(plate) => self.over(plate, builder, path),
+            _ => unreachable!("a fluid acts on a line or a surface"),
         }
-        let mut current = uniform(&self.current);
-        let path = format!("{path}.current");
-        builder.fill(cable, &self.along, &path, &mut current.along)?;
-        Ok(AppliedLoad::Fluid(Box::new(Fluid {
-            on: builder.line(cable),
-            strips,
-            current,
-            gravity: vector(builder.resolved.scene.gravity.full()),
-            carried: (vector([0.0; 3]), [0.0; 3]),
-            fraction: 1.0,
-        })))
     }
 
     fn words(&self, _dimension: usize) -> LoadWords {
@@ -195,21 +219,89 @@ impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
             .concat();
         let lengths =
             words::given(", diameter", of.diameter, "m") + &words::given(", area", of.area, "m²");
-        let lifts = if of.buoyancy.unwrap_or(true) {
-            ""
-        } else {
-            ", no buoyancy"
-        };
+        let lifts = if of.lifts() { "" } else { ", no buoyancy" };
         let density = number(of.density);
         LoadWords {
             kind: "fluid".into(),
-            on: words::code(&self.on.body.name),
+            on: words::code(self.on.name()),
             size: format!("{density} kg/m³, {current}{coefficients}{lengths}{lifts}"),
         }
     }
 }
 
-impl ResolvedFluid<'_> {
+impl<'a> ResolvedFluid<'a> {
+    /// Line that the fluid acts on.
+    pub fn line(&self) -> Option<Cable<'a>> {
+        match self.on {
+            LoadPlace::Line(line) => Some(line),
+            _ => None,
+        }
+    }
+
+    fn along<const D: usize>(
+        &self,
+        cable: Cable<'_>,
+        builder: &Builder<'_, D>,
+        path: &str,
+    ) -> AssembledLoad<D> {
+        let mut strips = Vec::new();
+        for ends in builder.segments(cable)?.windows(2) {
+            let sections = cable.body.sections_about(0.5 * (ends[0] + ends[1]));
+            for point in GAUSS_5 {
+                let section = match cable.id.form {
+                    Form::Chain(_) => sections(ends[0] + point.at * (ends[1] - ends[0])).0,
+                    // All along it that of its middle, as its mass.
+                    Form::Rod(_) | Form::Modal => cable.body.section_at(0.5),
+                };
+                strips.push(self.strip(&section));
+            }
+        }
+        let mut current = uniform(&self.current);
+        let path = format!("{path}.current");
+        builder.fill(cable, &self.varying, &path, &mut current.along)?;
+        Ok(AppliedLoad::Fluid(Box::new(Fluid {
+            on: builder.line(cable),
+            strips,
+            current,
+            gravity: vector(builder.resolved.scene.gravity.full()),
+            carried: (vector([0.0; 3]), [0.0; 3]),
+            fraction: 1.0,
+        })))
+    }
+
+    fn over<const D: usize>(
+        &self,
+        plate: Plate<'_>,
+        builder: &Builder<'_, D>,
+        path: &str,
+    ) -> AssembledLoad<D> {
+        let mut current = each(&self.current).map(AreaValues::uniform);
+        for (k, text) in &self.varying {
+            let path = format!("{path}.current[{k}]");
+            current[*k].places = builder.over_places(plate, text, &path)?;
+        }
+        let coefficients = [self.given.tangential_drag, self.given.drag];
+        let (density, lifts) = (self.given.density, self.given.lifts());
+        let drag = coefficients.map(|of| 0.5 * density * of.unwrap_or_default());
+        let segment = |at: [f64; 2]| {
+            let displaced = density * plate.body.whole_thickness(at);
+            FluidSegment {
+                drag,
+                buoyant: if lifts { displaced } else { 0.0 },
+                inert: displaced,
+            }
+        };
+        let places = builder.patch_of(plate).area_places();
+        Ok(AppliedLoad::SurfaceFluid(Box::new(SurfaceFluid {
+            patch: builder.patch_index(plate),
+            places: places.map(segment).collect(),
+            current,
+            gravity: builder.resolved.scene.gravity.full(),
+            carried: [[0.0; 3]; 2],
+            fraction: 1.0,
+        })))
+    }
+
     /// Coefficient of added mass.
     pub fn added_mass(&self) -> f64 {
         self.given.added_mass.unwrap_or_default()
@@ -236,7 +328,7 @@ impl ResolvedFluid<'_> {
         let [across, along] = coefficients.map(Option::unwrap_or_default);
         let faced = 0.5 * self.given.density * self.diameter(section);
         let displaced = self.displaced(section);
-        let lifts = self.given.buoyancy.unwrap_or(true);
+        let lifts = self.given.lifts();
         FluidSegment {
             drag: [faced * across, faced * PI * along],
             buoyant: if lifts { displaced } else { 0.0 },
@@ -259,7 +351,7 @@ impl Resolved<'_> {
     /// Mass of all fluids that move along with a body at a section, kg/m.
     pub(crate) fn added_mass(&self, body: usize, section: &SectionNumbers) -> f64 {
         let fluids = self.loads.iter().filter_map(|load| load.kind.fluid());
-        let fluids = fluids.filter(|fluid| fluid.on.id.body_index() == body);
+        let fluids = fluids.filter(|fluid| fluid.on.bodies() == [body]);
         fluids.map(|fluid| fluid.added(section)).sum()
     }
 

@@ -70,9 +70,9 @@ impl SceneLoad for JointLimitLoad {
         }
     }
 
-    fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
+    fn numbers(&mut self, on: LoadExtent) -> Vec<LoadNumber<'_>> {
         damper(
-            units(is_angle),
+            units(on == LoadExtent::Angle),
             Needed(&mut self.stiffness),
             Optional(&mut self.damping),
         )

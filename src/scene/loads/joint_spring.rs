@@ -53,9 +53,9 @@ impl SceneLoad for JointSpringLoad {
         })
     }
 
-    fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
+    fn numbers(&mut self, on: LoadExtent) -> Vec<LoadNumber<'_>> {
         damper(
-            spring_units(is_angle),
+            spring_units(on == LoadExtent::Angle),
             Optional(&mut self.stiffness),
             Optional(&mut self.damping),
         )

@@ -16,7 +16,7 @@ mod table_spring;
 pub use action::Action;
 pub use fluid::ResolvedFluid;
 pub use number::{LoadNumber, NumberMut};
-pub use place::{Exerts, LoadPlace};
+pub use place::{Exerts, LoadExtent, LoadPlace};
 
 // What follows is there for the files of the kinds too.
 use std::ops::Deref;
@@ -118,8 +118,8 @@ trait SceneLoad: Clone {
         None
     }
 
-    /// Returns the numbers that are parameters of the unit. `is_angle` chooses the units where the load acts on a joint coordinate.
-    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
+    /// Returns the numbers that are parameters of the unit. The place that the load acts on chooses the units.
+    fn numbers(&mut self, _on: LoadExtent) -> Vec<LoadNumber<'_>> {
         Vec::new()
     }
 }
@@ -205,10 +205,10 @@ macro_rules! loads {
                 }
             }
 
-            /// Returns the numbers that are parameters of the unit. `is_angle` chooses the units where the load acts on a joint coordinate.
-            pub fn numbers(&mut self, is_angle: bool) -> Vec<LoadNumber<'_>> {
+            /// Returns the numbers that are parameters of the unit. The place that the load acts on chooses the units.
+            pub fn numbers(&mut self, on: LoadExtent) -> Vec<LoadNumber<'_>> {
                 match self {
-                    $(Self::$kind(load) => load.numbers(is_angle),)*
+                    $(Self::$kind(load) => load.numbers(on),)*
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Numbers of loads that are parameters of the unit.
 
+use super::LoadExtent;
 use crate::scene::Scene;
 use crate::scene::unit::Unit;
 
@@ -85,7 +86,7 @@ impl Scene {
     /// Sets a number of the load at this place in the list, of several that of an axis.
     pub fn set_load_number(&mut self, load: usize, number: usize, axis: usize, value: f64) {
         // Units do not matter here.
-        let numbers = self.loads[load].kind.numbers(false);
+        let numbers = self.loads[load].kind.numbers(LoadExtent::Point);
         let of = numbers.into_iter().nth(number);
         of.expect("a number of this load").value.set(axis, value);
     }

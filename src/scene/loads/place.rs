@@ -2,7 +2,10 @@
 
 use crate::scene::Error;
 use crate::scene::joints::CoordinateKind;
-use crate::scene::resolved::{Cable, Ends, JointCoordinate, Plate, Resolved, ResolvedMarker};
+use crate::scene::resolved::{
+    BodyReference, Cable, Ends, JointCoordinate, Plate, Resolved, ResolvedMarker,
+};
+use crate::scene::validate::checks::unknown;
 
 /// Place of a load or a motion on bodies.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +22,30 @@ pub enum LoadPlace<'a> {
     Surface(Plate<'a>),
 }
 
+/// Kind of place of a load, by which units of its numbers differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoadExtent {
+    /// Points, or a displacement.
+    Point,
+    /// An angle of a joint.
+    Angle,
+    /// A line, by its length.
+    Line,
+    /// A surface, by its area.
+    Surface,
+}
+
 impl<'a> LoadPlace<'a> {
+    /// Kind of place.
+    pub fn extent(&self) -> LoadExtent {
+        match self {
+            Self::Coordinate(on) if on.is_angle() => LoadExtent::Angle,
+            Self::Marker(_) | Self::Ends(_) | Self::Coordinate(_) => LoadExtent::Point,
+            Self::Line(_) => LoadExtent::Line,
+            Self::Surface(_) => LoadExtent::Surface,
+        }
+    }
+
     /// Markers where the mesh of a body needs a node; those of joints have one.
     pub fn markers(&self) -> Vec<ResolvedMarker<'a>> {
         match self {
@@ -101,6 +127,31 @@ impl Exerts {
 }
 
 impl<'a> Resolved<'a> {
+    /// Finds a line body or a plate or shell that something acts along.
+    ///
+    /// # Errors
+    /// The body does not exist, is rigid or reduced, or is a line that is reduced to modes.
+    pub(super) fn require_line_or_surface(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<LoadPlace<'a>, Error> {
+        match self.bodies_by_name.get(name) {
+            Some(BodyReference::Plate(plate)) => return Ok(LoadPlace::Surface(*plate)),
+            Some(BodyReference::Cable(_)) => {
+                return self.require_cable(path, name).map(LoadPlace::Line);
+            }
+            _ => {}
+        }
+        let known = self.bodies.iter().filter_map(|body| match body {
+            BodyReference::Cable(cable) => Some(&*cable.body.name),
+            BodyReference::Plate(plate) => Some(&*plate.body.name),
+            _ => None,
+        });
+        let wanted = "the name of a cable, rod, beam, plate or shell of this scene";
+        Err(unknown(path, wanted, name, known))
+    }
+
     /// Finds the coordinate of a joint that a load acts on; by default the displacement where there is one.
     ///
     /// # Errors

@@ -66,7 +66,7 @@ impl SceneLoad for SpringDamper {
         })
     }
 
-    fn numbers(&mut self, _is_angle: bool) -> Vec<LoadNumber<'_>> {
+    fn numbers(&mut self, _on: LoadExtent) -> Vec<LoadNumber<'_>> {
         damper(
             spring_units(false),
             Optional(&mut self.stiffness),

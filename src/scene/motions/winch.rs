@@ -177,7 +177,8 @@ impl<'a> Resolved<'a> {
     /// Refuses fluids with added mass on a cable through whose mesh material moves.
     fn check_fluids(&self, cable: Cable<'a>) -> Result<(), Error> {
         for (index, load) in self.loads.iter().enumerate() {
-            let fluid = load.kind.fluid().filter(|fluid| fluid.on.id == cable.id);
+            let fluid = load.kind.fluid();
+            let fluid = fluid.filter(|fluid| fluid.line().is_some_and(|line| line.id == cable.id));
             let added_mass = fluid.map_or(0.0, |fluid| fluid.added_mass());
             if added_mass > 0.0 {
                 let path = format!("loads[{index}].added_mass");

@@ -42,12 +42,16 @@ impl<'a> PatchGeometry<'a> {
         [point, first / a, second / b, mixed / (a * b)].map(Into::into)
     }
 
-    /// Corners of the elements: `(n + 1) (m + 1)` of them, those along `s2` side by side.
-    pub fn corners(&self) -> Vec<Corner> {
+    /// Places `[s1, s2]` of the corners of the elements: `(n + 1) (m + 1)` of them, those along `s2` side by side.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
         let [n, m] = self.body.mesh;
         let place = |k: u32, of: u32| f64::from(k) / f64::from(of);
-        let along = |i: u32| (0..=m).map(move |j| [place(i, n), place(j, m)]);
-        (0..=n).flat_map(along).map(|at| self.corner(at)).collect()
+        (0..=n).flat_map(move |i| (0..=m).map(move |j| [place(i, n), place(j, m)]))
+    }
+
+    /// Corners of the elements.
+    pub fn corners(&self) -> Vec<Corner> {
+        self.places().map(|at| self.corner(at)).collect()
     }
 
     /// Places of the lines of the mesh along `s1` and `s2`, m from 0.

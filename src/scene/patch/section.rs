@@ -2,7 +2,8 @@
 
 use crate::bodies::SectionFaces;
 use crate::elements::shell::{Ply, ShellSection};
-use crate::scene::description::{LaminatePly, PatchBody, PatchStiffness};
+use crate::math::expression::Expression;
+use crate::scene::description::{LaminatePly, PatchBody, PatchStiffness, PatchThickness};
 
 /// A layer of a section with the heights of its bottom and top from the middle surface, m.
 #[derive(Clone, Copy, Debug)]
@@ -13,9 +14,31 @@ pub struct SectionPly {
     pub heights: [f64; 2],
 }
 
+impl PatchThickness {
+    /// Thickness at a place, `s1` and `s2` in [0, 1], m.
+    ///
+    /// # Errors
+    /// An expression that is not valid, or that depends on more than the place.
+    pub fn at(&self, [first, second]: [f64; 2]) -> Result<f64, String> {
+        match self {
+            Self::Number(number) => Ok(*number),
+            Self::Expression(text) => {
+                let read = Expression::at(text, &[("s1", first), ("s2", second)])?;
+                let constant = read.constant();
+                constant.ok_or_else(|| "expected an expression in `s1` and `s2` alone".into())
+            }
+        }
+    }
+}
+
 impl PatchBody {
-    /// Stiffness and mass of its section.
-    pub fn section(&self) -> ShellSection {
+    /// Whether its section is the same all over.
+    pub fn is_uniform(&self) -> bool {
+        !matches!(self.thickness, Some(PatchThickness::Expression(_)))
+    }
+
+    /// Stiffness and mass of its section at a place, `s1` and `s2` in [0, 1].
+    pub fn section(&self, at: [f64; 2]) -> ShellSection {
         let section = match self.stiffness {
             Some(PatchStiffness { A, B, D }) => ShellSection {
                 membrane: A,
@@ -25,7 +48,7 @@ impl PatchBody {
                 damping_time: 0.0,
                 angle: 0.0,
             },
-            None => ShellSection::laminate(&self.plies()),
+            None => ShellSection::laminate(&self.plies(at)),
         };
         let of_material = self.material.as_ref().map(|material| material.damping_time);
         ShellSection {
@@ -35,9 +58,10 @@ impl PatchBody {
         }
     }
 
-    /// Plies, or the one of a material; none of matrices.
-    fn plies(&self) -> Vec<Ply> {
-        match (&self.material, self.thickness) {
+    /// Plies at a place, or the one of a material; none of matrices.
+    fn plies(&self, at: [f64; 2]) -> Vec<Ply> {
+        let thickness = self.thickness.as_ref();
+        match (&self.material, thickness.and_then(|of| of.at(at).ok())) {
             (Some(material), Some(thickness)) => vec![Ply::isotropic(
                 material.youngs_modulus,
                 material.poisson_ratio,
@@ -48,9 +72,9 @@ impl PatchBody {
         }
     }
 
-    /// Layers of its section from the bottom to the top; none of matrices.
-    pub fn layers(&self) -> Vec<SectionPly> {
-        let plies = self.plies();
+    /// Layers of its section at a place from the bottom to the top; none of matrices.
+    pub fn layers(&self, at: [f64; 2]) -> Vec<SectionPly> {
+        let plies = self.plies(at);
         let whole: f64 = plies.iter().map(|ply| ply.thickness).sum();
         let mut bottom = -0.5 * whole;
         let layer = |ply: Ply| {
@@ -61,13 +85,18 @@ impl PatchBody {
         plies.into_iter().map(layer).collect()
     }
 
-    /// Bottom and top of its section; none of matrices.
-    pub fn faces(&self) -> Option<SectionFaces> {
-        let layers = self.layers();
+    /// Thickness of its section at a place, m; zero of matrices, which do not say it.
+    pub fn whole_thickness(&self, at: [f64; 2]) -> f64 {
+        self.plies(at).iter().map(|ply| ply.thickness).sum()
+    }
+
+    /// Bottom and top of its section at a place; none of matrices.
+    pub fn faces(&self, at: [f64; 2]) -> Option<SectionFaces> {
+        let layers = self.layers(at);
         let (bottom, top) = (layers.first()?, layers.last()?);
         let of = |layer: &SectionPly, height: f64| (height, layer.ply.stiffness());
         Some(SectionFaces {
-            section: self.section(),
+            section: self.section(at),
             faces: [of(bottom, bottom.heights[0]), of(top, top.heights[1])],
         })
     }

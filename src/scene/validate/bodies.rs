@@ -10,6 +10,7 @@ use super::checks::{
 };
 use super::{ELEMENTS, LINE_MODES};
 use crate::math::expression::Expression;
+use crate::scene::description::{ALONG_LINE, OVER_SURFACE};
 use crate::scene::resolved::{Place, Resolved, ResolvedMass};
 use crate::scene::{
     Body, Error, Inertia, InitialMotion, LineBody, Model, Orientation, RigidBody, SceneVector,
@@ -38,8 +39,12 @@ impl Body {
             Self::Plate(body) => body.validate(path, dimension, true),
             Self::Shell(body) => body.validate(path, dimension, false),
         }?;
-        self.motion()
-            .validate(&format!("{path}.motion"), dimension)?;
+        let coordinates = match self {
+            Self::Plate(_) | Self::Shell(_) => &OVER_SURFACE[..],
+            _ => ALONG_LINE,
+        };
+        let motion = format!("{path}.motion");
+        self.motion().validate(&motion, dimension, coordinates)?;
         let mut names = BTreeSet::new();
         for marker in self.marker_names() {
             name(&format!("{path}.markers.{marker}"), marker, &mut names)?;
@@ -49,7 +54,13 @@ impl Body {
 }
 
 impl InitialMotion {
-    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
+    /// Checks it for a body with these coordinates in expressions.
+    fn validate(
+        &self,
+        path: &str,
+        dimension: usize,
+        coordinates: &[&'static str],
+    ) -> Result<(), Error> {
         vector(&format!("{path}.velocity"), dimension, &self.velocity)?;
         spin(&format!("{path}.spin"), dimension, &self.spin)?;
         let place = format!("{path}.deformation");
@@ -58,6 +69,10 @@ impl InitialMotion {
         }
         for (k, text) in self.deformation.iter().flatten().enumerate() {
             let place = format!("{place}[{k}]");
+            if coordinates == OVER_SURFACE {
+                check_surface_field(&place, text)?;
+                continue;
+            }
             let field = Expression::of(text, "s").map_err(|error| Error::new(&place, error))?;
             for s in [0.0, 0.5, 1.0] {
                 let values = field.derivatives(s);
@@ -69,6 +84,22 @@ impl InitialMotion {
         }
         Ok(())
     }
+}
+
+/// Checks a component of a velocity of deformation of a plate or shell in its middle and at its edges.
+fn check_surface_field(place: &str, text: &str) -> Result<(), Error> {
+    let along = [0.0, 0.5, 1.0];
+    for at in along.iter().flat_map(|u| along.map(|v| [*u, v])) {
+        let rates = Expression::of_two(text, OVER_SURFACE, at);
+        let rates = rates.map_err(|error| Error::new(place, error))?;
+        if let Some(found) = rates.iter().find(|rate| !rate.is_finite()) {
+            let [u, v] = at;
+            let wanted =
+                format!("a finite velocity and finite derivatives at [s1, s2] = [{u}, {v}]");
+            return Err(expected(place, &wanted, found));
+        }
+    }
+    Ok(())
 }
 
 impl LineBody {

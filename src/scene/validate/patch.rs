@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::checks::{direction, expected, finite, needed, not_negative, positive, vector};
 use crate::scene::description::{
-    LaminatePly, PatchBody, PatchStiffness, PatchSurface, SceneVector,
+    LaminatePly, PatchBody, PatchStiffness, PatchSurface, PatchThickness, SceneVector,
 };
 use crate::scene::patch::SurfaceMap;
 use crate::scene::{Error, PatchMarker};
@@ -18,6 +18,8 @@ const MESH: RangeInclusive<u32> = 1..=200;
 const MOST: usize = 200;
 /// Parts along each coordinate between which a surface is looked at.
 const PARTS: u32 = 16;
+/// Parts along each coordinate between which a thickness is looked at.
+const THICKNESSES: u32 = 40;
 /// Area of a surface by coordinates, relative to the largest one, below which it collapses.
 const COLLAPSED: f64 = 1e-3;
 /// Distance from a plane, relative to the size of a surface, up to which it is flat.
@@ -53,10 +55,6 @@ impl PatchBody {
         self.surface.validate(&at("surface"))?;
         check_map(&at("surface"), &SurfaceMap::new(&self.surface), is_plate)?;
         self.validate_section(path)?;
-        if self.motion.deformation.is_some() {
-            let wanted = "none of a plate or shell";
-            return Err(expected(&at("motion.deformation"), wanted, "one"));
-        }
         for (marker, place) in &self.markers {
             place.validate(&at(&format!("markers.{marker}")))?;
         }
@@ -93,8 +91,9 @@ impl PatchBody {
         }
         finite(&at("axis_angle"), self.axis_angle)?;
         if let Some(material) = &self.material {
-            let thickness = needed(path, "thickness", "a thickness", self.thickness)?;
-            positive(&at("thickness"), "m", thickness)?;
+            let thickness = self.thickness.as_ref();
+            let thickness = needed(path, "thickness", "a thickness", thickness)?;
+            thickness.validate(&at("thickness"))?;
             positive(
                 &at("material.youngs_modulus"),
                 "Pa",
@@ -144,7 +143,7 @@ impl PatchBody {
 
     /// The whole stiffness is finite and positive definite, and so is the mass.
     fn validate_numbers(&self, path: &str) -> Result<(), Error> {
-        let section = self.section();
+        let section = self.section([0.5; 2]);
         let parts = [section.membrane, section.coupling, section.bending];
         let mut entries = parts.as_flattened().as_flattened().iter();
         if !entries.all(|entry| entry.is_finite()) || !section.area_density.is_normal() {
@@ -155,6 +154,25 @@ impl PatchBody {
             let wanted =
                 "a stiffness that is positive definite: work for every strain and curvature";
             return Err(expected(path, wanted, "one that is not"));
+        }
+        Ok(())
+    }
+}
+
+impl PatchThickness {
+    fn validate(&self, path: &str) -> Result<(), Error> {
+        if let Self::Number(number) = self {
+            return positive(path, "m", *number);
+        }
+        let line = (0..=THICKNESSES).map(|k| f64::from(k) / f64::from(THICKNESSES));
+        for place in line.clone().flat_map(|a| line.clone().map(move |b| [a, b])) {
+            let found = self.at(place).map_err(|told| Error::new(path, told))?;
+            if !found.is_normal() || found < 0.0 {
+                let [first, second] = place;
+                let wanted = "a positive thickness (m) all over the surface";
+                let found = format!("{found} at s1 = {first}, s2 = {second}");
+                return Err(expected(path, wanted, found));
+            }
         }
         Ok(())
     }

@@ -49,14 +49,15 @@ impl<'a> Resolved<'a> {
         marker.is_ok_and(|marker| matches!(marker.place, Place::Patch(..)))
     }
 
+    /// Finds a marker of a plate or shell, its body and its material coordinates.
     fn require_surface_marker(
         &self,
         path: &str,
         name: &'a str,
-    ) -> Result<(ResolvedMarker<'a>, Plate<'a>), Error> {
+    ) -> Result<(ResolvedMarker<'a>, Plate<'a>, [f64; 2]), Error> {
         let marker = self.require_marker(path, name)?;
         match marker.place {
-            Place::Patch(plate, _) => Ok((marker, plate)),
+            Place::Patch(plate, index) => Ok((marker, plate, plate.place(index))),
             Place::Along(..) | Place::Point(..) | Place::Interface(..) => {
                 let wanted = "a marker of a plate or shell";
                 Err(expected(path, wanted, quoted(name)))
@@ -66,8 +67,8 @@ impl<'a> Resolved<'a> {
 
     /// Bottom and top of the section at a marker.
     fn faces(&mut self, path: &str, name: &'a str) -> Result<OutputTarget<'a>, Error> {
-        let (marker, plate) = self.require_surface_marker(path, name)?;
-        let Some(SectionFaces { faces, .. }) = plate.body.faces() else {
+        let (marker, plate, at) = self.require_surface_marker(path, name)?;
+        let Some(SectionFaces { faces, .. }) = plate.body.faces(at) else {
             let wanted = "a marker of a plate or shell with a material or a laminate: a whole `stiffness` does not say how stress is \
                           spread through the thickness";
             return Err(expected(path, wanted, quoted(name)));
@@ -84,8 +85,8 @@ impl<'a> Resolved<'a> {
     /// Bottom and top of plies of the section at a marker.
     fn plies(&mut self, path: &str, of: &'a PlyStressOutput) -> Result<OutputTarget<'a>, Error> {
         let place = format!("{path}.marker");
-        let (marker, plate) = self.require_surface_marker(&place, &of.marker)?;
-        let layers = plate.body.layers();
+        let (marker, plate, at) = self.require_surface_marker(&place, &of.marker)?;
+        let layers = plate.body.layers(at);
         if plate.body.laminate.is_empty() {
             let wanted = "a marker of a plate or shell with a laminate";
             return Err(expected(&place, wanted, quoted(&of.marker)));

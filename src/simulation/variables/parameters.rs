@@ -2,6 +2,7 @@
 
 use super::{AXES, List, Parameter, Source, component};
 use crate::math::space::spins;
+use crate::scene::PatchThickness as Thickness;
 use crate::scene::unit::*;
 use crate::scene::{
     self, BodyReference, Cable, DampingRatio, Inertia, PatchBody, Plate, PortKind, Reduced,
@@ -167,15 +168,23 @@ fn add_plate(list: &mut List, plate: &Plate<'_>) {
     let (i, body) = (plate.id, plate.body);
     let mut rows: Vec<ParameterRow<'_>> = Vec::new();
     let damping = "Kelvin-Voigt damping time";
-    if let (Some(material), Some(thickness)) = (&body.material, body.thickness) {
+    if let Some(material) = &body.material {
         #[rustfmt::skip] // a table
         rows.extend([
             ("youngs_modulus", "Young's modulus", Some(PASCAL), PatchModulus(i), material.youngs_modulus),
             ("poisson_ratio", "Poisson's ratio", None, PatchRatio(i), material.poisson_ratio),
             ("density", "Density", Some(DENSITY), PatchDensity(i), material.density),
             ("damping_time", damping, Some(SECOND), PatchDamping(i), material.damping_time),
-            ("thickness", "Thickness", Some(METRE), PatchThickness(i), thickness),
         ]);
+        if let Some(Thickness::Number(thickness)) = &body.thickness {
+            rows.push((
+                "thickness",
+                "Thickness",
+                Some(METRE),
+                PatchThickness(i),
+                *thickness,
+            ));
+        }
     } else {
         let time = body.damping_time.unwrap_or_default();
         rows.push(("damping_time", damping, Some(SECOND), PatchDamping(i), time));
@@ -244,7 +253,7 @@ fn add_sizes(list: &mut List, rigid: &Rigid<'_>) {
 fn add_loads(list: &mut List, resolved: &Resolved<'_>) {
     for (i, load) in resolved.loads.iter().enumerate() {
         let mut given = load.given.clone();
-        let numbers = given.numbers(load.kind.place().is_angle()).into_iter();
+        let numbers = given.numbers(load.kind.place().extent()).into_iter();
         let numbers = numbers.enumerate();
         for (k, number) in numbers.filter(|(_, of)| load.kind.has_number(of.key, resolved)) {
             let of = load.name;
@@ -341,7 +350,7 @@ fn set_patch(body: &mut PatchBody, parameter: Parameter, value: f64) {
         (PatchDensity(_), Some(material)) => material.density = value,
         (PatchDamping(_), Some(material)) => material.damping_time = value,
         (PatchDamping(_), None) => body.damping_time = Some(value),
-        (PatchThickness(_), _) => body.thickness = Some(value),
+        (PatchThickness(_), _) => body.thickness = Some(Thickness::Number(value)),
         _ => body.axis_angle = value,
     }
 }

@@ -1,6 +1,8 @@
 //! Loads per area on a plate or shell: pressure along its normal, which follows the surface, and dead forces per area of the unstressed
 //! surface.
 
+use nalgebra::Matrix3;
+
 use super::{Add, ForceElement, Instant, hold};
 use crate::bodies::{Bodies, Node, Patch, block_of_parts};
 use crate::elements::shell::{AREA_PLACES, ElementCorners};
@@ -59,7 +61,8 @@ impl AreaValues {
         Self { uniform, places }
     }
 
-    fn signals(&self) -> impl Iterator<Item = &Signal> {
+    /// All its signals.
+    pub(super) fn signals(&self) -> impl Iterator<Item = &Signal> {
         std::iter::once(&self.uniform).chain(&self.places)
     }
 
@@ -69,12 +72,27 @@ impl AreaValues {
         at: Instant<'_, D, N>,
         element: usize,
     ) -> [N; AREA_PLACES] {
-        let uniform = self.uniform.value(at);
+        self.each_place(element, |signal| signal.value(at))
+    }
+
+    /// What a signal gives, its value or its rate, at the places of quadrature of an element.
+    pub(super) fn each_place<N: Number>(
+        &self,
+        element: usize,
+        of: impl Fn(&Signal) -> N,
+    ) -> [N; AREA_PLACES] {
+        let uniform = of(&self.uniform);
         let own = self.places.get(AREA_PLACES * element..);
         std::array::from_fn(|place| {
             let own = own.and_then(|own| own.get(place));
-            own.map_or(uniform, |own| uniform + own.value(at))
+            own.map_or(uniform, |own| uniform + of(own))
         })
+    }
+
+    /// Holds its values at an instant, times a fraction.
+    pub(super) fn hold<const D: usize>(&mut self, at: Instant<'_, D>, fraction: f64) {
+        self.uniform = self.uniform.held(at, fraction);
+        hold(&mut self.places, at, fraction);
     }
 }
 
@@ -122,6 +140,22 @@ impl AreaLoad {
     }
 }
 
+/// Adds a symmetric matrix over the vectors of the corners of an element.
+pub(super) fn add_element<const D: usize>(
+    nodes: &[usize; 8],
+    blocks: &[[Matrix3<f64>; 16]; 16],
+    add: Add<'_, D>,
+) {
+    for (i, a) in nodes.iter().enumerate() {
+        for (j, b) in nodes.iter().enumerate().take(i + 1) {
+            let block = block_of_parts::<D>(|p, q| {
+                blocks[2 * i + p][2 * j + q].fixed_view::<D, D>(0, 0).into()
+            });
+            add(*a, *b, &block);
+        }
+    }
+}
+
 impl<const D: usize> ForceElement<D> for AreaLoad {
     fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         for element in 0..self.of(at.bodies).elements().len() {
@@ -138,15 +172,7 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
         for (index, element) in patch.elements().iter().enumerate() {
             let pressure = pressure.at(at, index);
             let blocks = element.pressure_stiffness(&patch.element(index, at.x), &pressure);
-            let nodes = patch.element_nodes(index);
-            for (i, a) in nodes.iter().enumerate() {
-                for (j, b) in nodes.iter().enumerate().take(i + 1) {
-                    let block = block_of_parts::<D>(|p, q| {
-                        blocks[2 * i + p][2 * j + q].fixed_view::<D, D>(0, 0).into()
-                    });
-                    add(*a, *b, &block);
-                }
-            }
+            add_element(&patch.element_nodes(index), &blocks, add);
         }
     }
 
@@ -160,8 +186,7 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
 
     fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
         for values in self.action.values_mut() {
-            values.uniform = values.uniform.held(at, fraction);
-            hold(&mut values.places, at, fraction);
+            values.hold(at, fraction);
         }
     }
 

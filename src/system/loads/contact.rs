@@ -53,9 +53,16 @@ pub struct ContactPoint {
 pub struct Contact<const D: usize = 2> {
     /// A single marker, or the Gauss points of all segments of a body in turn: of the elements of a chain, of the panels of a rod.
     pub places: Vec<ContactPoint>,
+    /// What is touched, and how it pushes; along a body per reference length.
+    pub law: ContactLaw<D>,
+}
+
+/// Law of contact with a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactLaw<const D: usize = 2> {
     /// Surface that is touched.
     pub surface: ContactSurface<D>,
-    /// Spring along the normal; along a body per reference length.
+    /// Spring along the normal.
     pub spring: OneSidedSpring,
     /// Coefficient of friction.
     pub friction: f64,
@@ -64,7 +71,7 @@ pub struct Contact<const D: usize = 2> {
 }
 
 /// How a point touches.
-struct Touch<const D: usize, N> {
+pub(super) struct Touch<const D: usize, N> {
     /// Spring along the normal, compressed by how far the point is below the surface.
     compression: Compression<N>,
     /// Unit vector out of the surface.
@@ -101,7 +108,7 @@ impl<const D: usize> ContactSurface<D> {
         }
     }
 
-    /// How the unit vector out of the surface turns with the point, 1/m.
+    /// How the unit vector out of the surface rotates with the point, 1/m.
     fn curvature(&self, depth: f64, normal: &Vector<D>) -> SMatrix<f64, D, D> {
         match self {
             Self::Plane { .. } => SMatrix::zeros(),
@@ -113,6 +120,76 @@ impl<const D: usize> ContactSurface<D> {
                 across / (radius - depth)
             }
         }
+    }
+}
+
+impl<const D: usize> ContactLaw<D> {
+    /// How a point touches, by its position and its velocity; none above the surface.
+    #[inline(always)]
+    pub(super) fn touch<N: Number>(
+        &self,
+        position: &Vector<D, N>,
+        velocity: impl FnOnce() -> Vector<D, N>,
+    ) -> Option<Touch<D, N>> {
+        let (depth, normal) = self.surface.under(position)?;
+        if depth.plain() <= 0.0 {
+            return None;
+        }
+        let velocity = velocity();
+        let rate = -normal.dot(&velocity);
+        let slip = velocity + normal * rate;
+        Some(Touch {
+            compression: self.spring.compressed(depth, rate),
+            normal,
+            slip,
+            speed: (slip.norm_squared() + N::of(self.slip_velocity * self.slip_velocity)).sqrt(),
+        })
+    }
+
+    /// Force on a point that touches.
+    pub(super) fn force<N: Number>(&self, touch: &Touch<D, N>) -> Vector<D, N> {
+        let push = touch.compression.force();
+        if self.friction == 0.0 {
+            return touch.normal * push;
+        }
+        touch.normal * push - touch.slip * (N::of(self.friction) * push / touch.speed)
+    }
+
+    /// Stiffness and damping of a point that touches. A part is left out: how friction follows from the depth. It is not symmetric, and
+    /// acts one way, from the normal force to friction, so that iterations find it.
+    pub(super) fn tangents(&self, touch: &Touch<D, f64>) -> [SMatrix<f64, D, D>; 2] {
+        let (push, normal) = (touch.compression.force(), &touch.normal);
+        let [by_depth, by_rate] = touch.compression.slopes();
+        let along: SMatrix<f64, D, D> = normal * normal.transpose();
+        // A round surface pushes aside.
+        let curved = self.surface.curvature(touch.compression.depth, normal) * push;
+        let mut damped = along * by_rate;
+        if self.friction > 0.0 {
+            let way = touch.slip / touch.speed;
+            let across = SMatrix::identity() - along - way * way.transpose();
+            damped += across * (self.friction * push / touch.speed);
+        }
+        [along * by_depth - curved, damped]
+    }
+
+    /// Energy of the spring at a point that touches.
+    pub(super) fn energy<N: Number>(&self, touch: &Touch<D, N>) -> N {
+        self.spring.energy(touch.compression.depth)
+    }
+
+    /// Power that damping and friction dissipate at a point that touches.
+    pub(super) fn dissipation<N: Number>(&self, touch: &Touch<D, N>) -> N {
+        let pushed = touch.compression.dissipation();
+        if self.friction == 0.0 {
+            return pushed;
+        }
+        let rubbed = N::of(self.friction) * touch.compression.force() / touch.speed;
+        pushed + rubbed * touch.slip.norm_squared()
+    }
+
+    /// Whether it dissipates.
+    pub(super) fn is_damped(&self) -> bool {
+        self.spring.damping > 0.0 || self.friction > 0.0
     }
 }
 
@@ -134,21 +211,12 @@ impl<const D: usize> Contact<D> {
         at: Instant<'_, D, N>,
         paid_out: Option<&PaidOut<'_, D, N>>,
     ) -> Option<Touch<D, N>> {
-        let (depth, normal) = self.surface.under(&marker.position(at.x))?;
-        if depth.plain() <= 0.0 {
-            return None;
-        }
-        let mut velocity: Vector<D, N> = marker.position(at.v);
-        if let (Some(paid_out), Some(place)) = (paid_out, marker.element) {
-            velocity += paid_out.convective_velocity(place, marker.direction(at.x));
-        }
-        let rate = -normal.dot(&velocity);
-        let slip = velocity + normal * rate;
-        Some(Touch {
-            compression: self.spring.compressed(depth, rate),
-            normal,
-            slip,
-            speed: (slip.norm_squared() + N::of(self.slip_velocity * self.slip_velocity)).sqrt(),
+        self.law.touch(&marker.position(at.x), || {
+            let mut velocity: Vector<D, N> = marker.position(at.v);
+            if let (Some(paid_out), Some(place)) = (paid_out, marker.element) {
+                velocity += paid_out.convective_velocity(place, marker.direction(at.x));
+            }
+            velocity
         })
     }
 
@@ -159,14 +227,8 @@ impl<const D: usize> Contact<D> {
         at: Instant<'_, D, N>,
         paid_out: Option<&PaidOut<'_, D, N>>,
     ) -> Vector<D, N> {
-        let Some(touch) = self.touch(marker, at, paid_out) else {
-            return Vector::zeros();
-        };
-        let push = touch.compression.force();
-        if self.friction == 0.0 {
-            return touch.normal * push;
-        }
-        touch.normal * push - touch.slip * (N::of(self.friction) * push / touch.speed)
+        let touch = self.touch(marker, at, paid_out);
+        touch.map_or_else(Vector::zeros, |touch| self.law.force(&touch))
     }
 
     /// Whether it is that of a body, not of a marker.
@@ -243,14 +305,7 @@ impl<const D: usize> Contact<D> {
     }
 
     fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.sum(at, |touch| {
-            let pushed = touch.compression.dissipation();
-            if self.friction == 0.0 {
-                return pushed;
-            }
-            let rubbed = N::of(self.friction) * touch.compression.force() / touch.speed;
-            pushed + rubbed * touch.slip.norm_squared()
-        })
+        self.sum(at, |touch| self.law.dissipation(touch))
     }
 }
 
@@ -288,8 +343,6 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
         }
     }
 
-    /// Without how friction follows from the depth: that part is not symmetric, and acts one way, from the normal to
-    /// the way along, so that iterations find it.
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let paid_out = self.paid_out(at);
         let longer = length_ratio(paid_out.as_ref());
@@ -302,19 +355,8 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
                 Attachment::Ground(Vector::zeros()),
                 Attachment::Body(place.marker),
             ];
-            let (push, normal) = (touch.compression.force(), &touch.normal);
-            let [by_depth, by_rate] = touch.compression.slopes();
-            let along: SMatrix<f64, D, D> = normal * normal.transpose();
-            // What is round pushes aside.
-            let turning = self.surface.curvature(touch.compression.depth, normal) * push;
-            let stiff = along * by_depth - turning;
+            let [stiff, damped] = self.law.tangents(&touch);
             between(&ends, stiff * weight, 0, &mut *stiffness);
-            let mut damped = along * by_rate;
-            if self.friction > 0.0 {
-                let way = touch.slip / touch.speed;
-                let across = SMatrix::identity() - along - way * way.transpose();
-                damped += across * (self.friction * push / touch.speed);
-            }
             between(&ends, damped * weight, 0, &mut *damping);
         }
     }
@@ -324,17 +366,17 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
         let mut comes_in = N::of(0.0);
         if let Some(paid_out) = self.paid_out(at) {
             let end = Vector::from(at.x[paid_out.winch.end()][0]);
-            if let Some((depth, _)) = self.surface.under(&end)
+            if let Some((depth, _)) = self.law.surface.under(&end)
                 && depth.plain() > 0.0
             {
-                comes_in = self.spring.energy(depth) * paid_out.speed();
+                comes_in = self.law.spring.energy(depth) * paid_out.speed();
             }
         }
         [comes_in, self.dissipation(at)]
     }
 
     fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.sum(at, |touch| self.spring.energy(touch.compression.depth))
+        self.sum(at, |touch| self.law.energy(touch))
     }
 
     fn changing<N: Number>(
@@ -349,11 +391,11 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
 
     /// Friction is absent at rest.
     fn hold(&mut self, _at: Instant<'_, D>, _fraction: f64) {
-        self.friction = 0.0;
+        self.law.friction = 0.0;
     }
 
     fn is_conservative(&self) -> bool {
-        self.friction == 0.0
+        self.law.friction == 0.0
     }
 
     fn has_contact(&self) -> bool {
@@ -361,7 +403,7 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
     }
 
     fn is_damped(&self) -> bool {
-        self.spring.damping > 0.0 || self.friction > 0.0
+        self.law.is_damped()
     }
 
     /// Elements of a body couple their nodes already.

@@ -17,20 +17,20 @@ use super::line_load::LineLoad;
 use super::{Add, ForceElement, Instant};
 use crate::bodies::winch::{PaidOut, length_ratio};
 use crate::bodies::{Bodies, LinePoint, LoadedLine, Node, no_block};
-use crate::math::function::Function;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, spun};
 use crate::system::signal::Signal;
 
-/// Coefficients of a fluid at a point of a line, per reference length.
+/// Coefficients of a fluid at a point of a line, per reference length, or of a surface, per reference area.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FluidSegment {
-    /// Drag across the line and along it: force by the square of the velocity, N s^2/m^3.
+    /// Drag across the tangent of a line or the normal of a surface, and along it: force by the square of the velocity, N s^2/m^3 or
+    /// N s^2/m^4.
     pub drag: [f64; 2],
-    /// Mass of the fluid that is displaced and has weight, kg/m: none without buoyancy.
+    /// Mass of the fluid that is displaced and has weight, kg/m or kg/m^2: none without buoyancy.
     pub buoyant: f64,
-    /// Mass of the displaced fluid and of that which moves along, kg/m: its acceleration takes the line along.
+    /// Mass of the displaced fluid and of that which moves along, kg/m or kg/m^2: the acceleration of the fluid acts on it.
     pub inert: f64,
 }
 
@@ -52,13 +52,20 @@ pub struct Fluid<const D: usize = 2> {
     pub fraction: f64,
 }
 
-/// The velocity of the fluid past a place: along the tangent, a unit vector, and across it.
-struct Flow<const D: usize, N> {
-    tangent: Vector<D, N>,
+/// Velocity of the fluid relative to a place, m/s: its parts along an axis and across it. The axis is the tangent of a line or the normal of
+/// a surface.
+pub(super) struct Flow<const D: usize, N> {
+    /// Unit vector along the axis.
+    axis: Vector<D, N>,
     along: N,
     across: Vector<D, N>,
     /// Size of the part across.
     speed: N,
+}
+
+/// Flow past a point of a line.
+struct LineFlow<const D: usize, N> {
+    flow: Flow<D, N>,
     /// Velocity of the line, m/s.
     velocity: Vector<D, N>,
     /// How much of what is per reference length counts: the fraction, times the length now over that.
@@ -80,17 +87,35 @@ fn size<N: Number>(of: N) -> N {
 }
 
 impl<const D: usize, N: Number> Flow<D, N> {
-    /// Drag, N/m.
-    fn drag(&self, [across, along]: [f64; 2]) -> Vector<D, N> {
+    /// Parts of a relative velocity along the direction of a vector and across it.
+    pub(super) fn new(past: Vector<D, N>, direction: Vector<D, N>) -> Self {
+        let axis = direction / direction.norm();
+        let along = axis.dot(&past);
+        let across = past - axis * along;
+        Self {
+            speed: length(&across),
+            axis,
+            along,
+            across,
+        }
+    }
+
+    /// Drag by its coefficients across and along: N/m or N/m^2.
+    pub(super) fn drag(&self, [across, along]: [f64; 2]) -> Vector<D, N> {
         let pushed = self.across * (N::of(across) * self.speed);
-        pushed + self.tangent * (N::of(along) * size(self.along) * self.along)
+        pushed + self.axis * (N::of(along) * size(self.along) * self.along)
+    }
+
+    /// The whole relative velocity, m/s.
+    pub(super) fn past(&self) -> Vector<D, N> {
+        self.across + self.axis * self.along
     }
 }
 
 impl<const D: usize> Flow<D, f64> {
-    /// Derivative of the drag by the velocity, N s/m^2.
-    fn damping(&self, [across, along]: [f64; 2]) -> SMatrix<f64, D, D> {
-        let tangent = self.tangent * self.tangent.transpose();
+    /// Derivative of the drag by the relative velocity: N s/m^2 or N s/m^3.
+    pub(super) fn damping(&self, [across, along]: [f64; 2]) -> SMatrix<f64, D, D> {
+        let tangent = self.axis * self.axis.transpose();
         let mut damping = tangent * (2.0 * along * self.along.abs());
         if self.speed > 0.0 {
             let turned = self.across * self.across.transpose() / self.speed;
@@ -122,7 +147,7 @@ impl<const D: usize> Fluid<D> {
         at: Instant<'_, D, N>,
         (place, (segment, xi)): (&LinePoint, (usize, f64)),
         (current, paid_out): (Vector<D, N>, Option<&PaidOut<'_, D, N>>),
-    ) -> Flow<D, N> {
+    ) -> LineFlow<D, N> {
         let (velocity, rate) = self.carried;
         let mut carried = velocity.map(N::of);
         if rate != [0.0; 3] {
@@ -134,14 +159,8 @@ impl<const D: usize> Fluid<D> {
             velocity += paid_out.convective_velocity((segment, xi), slope);
         }
         let past = current - velocity - carried;
-        let tangent = slope / slope.norm();
-        let along = tangent.dot(&past);
-        let across = past - tangent * along;
-        Flow {
-            speed: length(&across),
-            tangent,
-            along,
-            across,
+        LineFlow {
+            flow: Flow::new(past, slope),
             velocity,
             counts: N::of(self.fraction) * length_ratio(paid_out),
         }
@@ -152,7 +171,7 @@ impl<const D: usize> Fluid<D> {
         &self,
         at: Instant<'_, D, N>,
         segment: usize,
-        mut call: impl FnMut(&LinePoint, &Flow<D, N>, &FluidSegment, Vector<D, N>),
+        mut call: impl FnMut(&LinePoint, &LineFlow<D, N>, &FluidSegment, Vector<D, N>),
     ) {
         let current = self.current(segment, |signal| signal.value(at));
         let rates = self.current(segment, |signal| signal.rate(at));
@@ -162,7 +181,7 @@ impl<const D: usize> Fluid<D> {
             let place = self.on.point(at.bodies, segment, point);
             let on = (&place, (segment, GAUSS_5[point].at));
             let flow = self.flow(at, on, (current, paid_out.as_ref()));
-            let force = flow.drag(strip.drag) + rate * N::of(strip.inert)
+            let force = flow.flow.drag(strip.drag) + rate * N::of(strip.inert)
                 - (self.gravity * strip.buoyant).map(N::of);
             call(&place, &flow, strip, force * flow.counts);
         }
@@ -184,10 +203,9 @@ impl<const D: usize> Fluid<D> {
 
     /// Whether it can do without a potential: buoyancy alone acts on what rests in a fluid at rest.
     pub(super) fn streams(&self) -> bool {
-        let rests = |signal: &Signal| matches!(signal, Signal::Function(Function::Constant(0.0)));
         let (velocity, rate) = self.carried;
         let is_carried = velocity != Vector::<D>::zeros() || rate != [0.0; 3];
-        self.is_damped() && (is_carried || !self.current.signals().all(rests))
+        self.is_damped() && (is_carried || !self.current.signals().all(Signal::is_zero))
     }
 }
 
@@ -226,7 +244,7 @@ impl<const D: usize> ForceElement<D> for Fluid<D> {
             let [mut first, mut between, mut last] = [no_block(); 3];
             let mut nodes = [0; 2];
             self.each(at, segment, |place, flow, strip, _| {
-                let matrix = flow.damping(strip.drag) * (place.weight * flow.counts);
+                let matrix = flow.flow.damping(strip.drag) * (place.weight * flow.counts);
                 nodes = place.nodes;
                 for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     for (block, [row, column]) in [
@@ -256,10 +274,9 @@ impl<const D: usize> ForceElement<D> for Fluid<D> {
         for segment in 0..self.segments() {
             self.each(at, segment, |place, flow, strip, force| {
                 let weight = N::of(place.weight);
-                let past = flow.across + flow.tangent * flow.along;
-                let drag = flow.drag(strip.drag) * flow.counts;
+                let drag = flow.flow.drag(strip.drag) * flow.counts;
                 on_line += force.dot(&flow.velocity) * weight;
-                lost += drag.dot(&past) * weight;
+                lost += drag.dot(&flow.flow.past()) * weight;
             });
         }
         [on_line + lost, lost]

@@ -16,11 +16,13 @@ mod moment;
 mod one_sided_spring;
 mod spatial_moment;
 mod spring;
+mod surface_contact;
+mod surface_fluid;
 mod table_spring;
 
 pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
-pub use contact::{Contact, ContactPoint, ContactSurface};
+pub use contact::{Contact, ContactLaw, ContactPoint, ContactSurface};
 pub use convective_inertia::ConvectiveInertia;
 pub use distributed::DistributedForce;
 pub use distributed_moment::DistributedMoment;
@@ -33,6 +35,8 @@ pub use moment::Moment;
 pub use one_sided_spring::OneSidedSpring;
 pub use spatial_moment::SpatialMoment;
 pub use spring::Spring;
+pub use surface_contact::SurfaceContact;
+pub use surface_fluid::SurfaceFluid;
 pub use table_spring::TableSpring;
 
 use super::end::{Add, Attachment};
@@ -285,6 +289,8 @@ loads! {
     DistributedMoment(Box<DistributedMoment>): DistributedMoment,
     /// A fluid that streams past a cable or a rod.
     Fluid(Box<Fluid<D>>): Fluid<D>,
+    /// A fluid that streams past a plate or shell.
+    SurfaceFluid(Box<SurfaceFluid>): SurfaceFluid,
     /// A spring with a damper between two ends.
     Spring(Spring<D>): Spring<D>,
     /// A spring with a damper between two ends, by tables.
@@ -295,6 +301,8 @@ loads! {
     JointLimit(JointLimit<D>): JointLimit<D>,
     /// Contact of a marker or a body with a surface.
     Contact(Box<Contact<D>>): Contact<D>,
+    /// Contact of a plate or shell with a surface.
+    SurfaceContact(Box<SurfaceContact>): SurfaceContact,
     /// Springs with dampers along and about three axes.
     Bushing(Box<Bushing<D>>): Bushing<D>,
     /// A cable that a winch pays out.

@@ -70,12 +70,14 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Force (N) and moment (N m), in the plane its third component, of a load on its second end, or on the one that it has; of
-    /// contact along a body the whole force, without a moment.
+    /// contact along or over a body the whole force, without a moment.
     pub fn exerted(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
         let (load, at) = (&system.loads[load], self.instant(system));
         let (mut force, mut turning) = (Vector::zeros(), Vector3::zeros());
-        if let AppliedLoad::Contact(contact) = load {
-            return (contact.whole(at), turning.into());
+        match load {
+            AppliedLoad::Contact(contact) => return (contact.whole(at), turning.into()),
+            AppliedLoad::SurfaceContact(contact) => return (contact.whole(at), turning.into()),
+            _ => {}
         }
         let Some(Attachment::Body(second)) = load.ends().last().copied() else {
             return (force, turning.into());

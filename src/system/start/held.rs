@@ -3,7 +3,7 @@
 
 use crate::bodies::{Node, add_node, no_node};
 use crate::math::function::Function;
-use crate::math::space::{Vector, frame_acceleration};
+use crate::math::space::{Vector, components, frame_acceleration};
 use crate::system::loads::{AppliedLoad, ForceElement as _};
 use crate::system::signal::Drive;
 use crate::system::{Instant, System, Workspace};
@@ -86,8 +86,10 @@ impl<const D: usize> System<D> {
     /// Takes bodies at rest through fluids, as a whole: velocity of the origin, m/s, and angular velocity, rad/s.
     pub(in crate::system) fn carry(&mut self, velocity: Vector<D>, rate: [f64; 3]) {
         for load in &mut self.loads {
-            if let AppliedLoad::Fluid(fluid) = load {
-                fluid.carried = (velocity, rate);
+            match load {
+                AppliedLoad::Fluid(fluid) => fluid.carried = (velocity, rate),
+                AppliedLoad::SurfaceFluid(fluid) => fluid.carried = [components(&velocity), rate],
+                _ => {}
             }
         }
     }

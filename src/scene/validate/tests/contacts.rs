@@ -22,7 +22,7 @@ fn markers_and_bodies_touch_surfaces_of_their_dimension() {
         r#"
         /loads/0 | {"name": "l", "kind": "contact", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected a name, found nothing
         /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "body": "rod", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected nothing beside `marker`, found a name
-        /loads/0 | {"name": "l", "kind": "contact", "body": "ball", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected the name of a cable of this scene (rod), found "ball"
+        /loads/0 | {"name": "l", "kind": "contact", "body": "ball", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected the name of a cable, rod, beam, plate or shell of this scene (rod), found "ball"
         /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"plane": {"point": [0, 0], "normal": [0, 0]}}, "stiffness": 5} | loads[0].surface.plane.normal: expected a direction that is not zero, found [0.0, 0.0]
         /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"sphere": {"center": [0, 0], "radius": 1}}, "stiffness": 5} | loads[0].surface: expected plane or circle in the plane, found sphere
         /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"circle": {"center": [0, 0], "radius": 1}}} | loads[0].stiffness: expected a stiffness, found nothing

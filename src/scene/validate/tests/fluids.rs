@@ -27,7 +27,7 @@ fn fluids_have_a_density_and_stream_past_lines() {
         /loads/0/density | 0 | loads[0].density: expected a positive number (kg/m^3), found 0
         /loads/0/diameter | 0 | loads[0].diameter: expected a positive number (m), found 0
         /loads/0/area | -1 | loads[0].area: expected a positive number (m^2), found -1
-        /loads/0/body | "ball" | loads[0].body: expected the name of a cable of this scene (rod), found "ball"
+        /loads/0/body | "ball" | loads[0].body: expected the name of a cable, rod, beam, plate or shell of this scene (rod), found "ball"
         /loads/0/current | [1] | loads[0].current: expected 2 values [x, y], found 1
         /loads/0/current | [] | loads[0].current: expected 2 values [x, y], found 0
         /loads/0/current | [1, "x"] | loads[0].current[1]:

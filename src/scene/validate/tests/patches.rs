@@ -75,6 +75,11 @@ fn sections_are_checked() {
         scene,
         r#"
         /bodies/0/thickness | 0 | bodies[0].thickness: expected a positive number (m), found 0
+        /bodies/0/thickness | "0.01*(1-0.5*s1*s2)" | accepted
+        /bodies/0/thickness | "0.01*(1-2*s1)" | bodies[0].thickness: expected a positive thickness (m) all over the surface, found 0 at s1 = 0.5, s2 = 0
+        /bodies/0/thickness | "0.01*(1+t)" | bodies[0].thickness: expected an expression in `s1` and `s2` alone
+        /bodies/0/thickness | "0.01*(1+s)" | bodies[0].thickness
+        /bodies/0/thickness | {"table": [[0, 1], [1, 2]]} | bodies[0].thickness: expected a number or an expression
         /bodies/0/thickness | null | bodies[0].thickness: expected a thickness, found nothing
         /bodies/0/material/poisson_ratio | 0.6 | bodies[0].material.poisson_ratio: expected a number above -1 and up to 0.5, found 0.6
         /bodies/0/material/poisson_ratio | -1 | bodies[0].material.poisson_ratio
@@ -92,7 +97,11 @@ fn sections_are_checked() {
         /bodies/1/laminate/1/thickness | 0 | bodies[1].laminate[1].thickness
         /bodies/1/axis_angle | 1 | accepted
         /bodies/1/damping_time | 1e-3 | accepted
-        /bodies/0/motion | {"deformation": ["s", "s", "s"]} | bodies[0].motion.deformation: expected none of a plate or shell, found one
+        /bodies/0/motion | {"deformation": ["s1*s2", "0", "sin(PI*s2)"]} | accepted
+        /bodies/0/motion | {"deformation": ["s", "0", "0"]} | bodies[0].motion.deformation[0]: expected one of the names s1, s2, PI
+        /bodies/0/motion | {"deformation": ["0", "0", "t"]} | bodies[0].motion.deformation[2]: expected one of the names s1, s2, PI
+        /bodies/0/motion | {"deformation": ["0", "s1"]} | bodies[0].motion.deformation: expected 3 values [x, y, z], found 2
+        /bodies/0/motion | {"deformation": ["0", "1/s2", "0"]} | bodies[0].motion.deformation[1]: expected a finite velocity and finite derivatives at [s1, s2] = [0, 0], found
         "#,
     );
     let given = || {
@@ -114,6 +123,8 @@ fn sections_are_checked() {
         /bodies/0/stiffness/D/2/2 | 0 | bodies[0].stiffness: expected a stiffness that is positive definite
         /bodies/0/stiffness/B | [[3, 0, 0], [0, 0, 0], [0, 0, 0]] | bodies[0].stiffness: expected a stiffness that is positive definite
         /bodies/0/stiffness/B | [[1, 0, 0], [0, 0, 0], [0, 0, 0]] | accepted
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "panel", "density": 1.2} | loads[1].buoyancy: expected false for a section whose thickness is not given, found true
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "panel", "density": 1.2, "buoyancy": false} | accepted
         "#,
     );
 }
@@ -147,6 +158,14 @@ fn markers_edges_and_loads_are_checked() {
         /joints/2/normal | [0, 0, 0] | joints[2].normal
         /joints/2/name | "hold" | joints[3].name
         /joints/3/markers | ["panel.tip", "panel.root"] | joints[3].markers
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "panel", "density": 1.2, "drag": 1.5, "current": ["s1*t", "s2", 3]} | accepted
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "panel", "density": 1.2, "current": ["s", 0, 0]} | loads[1].current[0]
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "panel", "density": 1.2, "diameter": 1} | loads[1].diameter: expected nothing for a plate or shell, found 1
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "panel", "density": 1.2, "area": 1} | loads[1].area: expected nothing for a plate or shell, found 1
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "panel", "density": 1.2, "added_mass": 1} | loads[1].added_mass: expected nothing for a plate or shell, found 1
+        /loads/1 | {"name": "air", "kind": "fluid", "body": "ball", "density": 1.2} | loads[1].body: expected the name of a cable, rod, beam, plate or shell of this scene (panel, roof), found "ball"
+        /loads/1 | {"name": "floor", "kind": "contact", "body": "panel", "stiffness": 1e6, "surface": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}} | accepted
+        /loads/1 | {"name": "floor", "kind": "contact", "body": "panel", "stiffness": -1, "surface": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}} | loads[1].stiffness: expected a positive number (N/m^3), found -1
         /loads/0/body | "ball" | loads[0].body: expected the name of a plate or shell of this scene (panel, roof), found "ball"
         /loads/0/value | [1, 2, 3] | loads[0].value: expected one value, found 3
         /loads/1/value | 3 | loads[1].value
