@@ -33,6 +33,8 @@ pub struct Bodies<const D: usize = 2> {
     pub(super) reduced: Vec<ReducedBody>,
     /// Plates and shells.
     pub(super) patches: Vec<Patch>,
+    /// Nodes of stiffeners, with the first nodes of the mesh nodes of the surface that they are at.
+    pub(super) stiffeners: Vec<(usize, usize)>,
     /// Owner of every node, `[nodes]`.
     pub(super) owners: Vec<NodeOwner>,
     /// Number of frames that a state holds: of rigid bodies of space, of reduced bodies, then of sections.

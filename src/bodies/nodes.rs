@@ -156,6 +156,27 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
+    /// Forces over the nodes on a node, with those on the frame of the section there.
+    pub fn with_section<N: Number>(
+        &self,
+        node: usize,
+        x: &[Node<D, N>],
+        f: &[Node<D, N>],
+    ) -> Node<D, N> {
+        let mut chains = self.sections.iter();
+        let frame = chains.find_map(|chain| chain.frame_at(node));
+        let Some(frame) = frame else {
+            return f[node];
+        };
+        let mut sum = f[node];
+        let on_line = frame.on_line(x, f);
+        let parts = sum.as_flattened_mut().iter_mut();
+        parts
+            .zip(on_line.as_flattened())
+            .for_each(|(sum, on)| *sum += *on);
+        sum
+    }
+
     /// Pulls forces on position and direction of a marker back to the coordinates of its body: forces and moments by node, passed to `term`.
     #[inline(always)]
     pub fn pull_marker<N: Number>(

@@ -249,6 +249,11 @@ impl RodChain {
         &self.section_frames[k]
     }
 
+    /// Returns the section frame, in space, at a node of the line.
+    pub(super) fn frame_at(&self, node: usize) -> Option<&SectionFrame> {
+        self.section_frames.get(node.checked_sub(self.line)?)
+    }
+
     /// Coordinates inside its elements, and where they stand in their nodes.
     pub fn inside(&self) -> impl Iterator<Item = (usize, (usize, usize))> + use<> {
         let places = if self.is_planar() {

@@ -117,6 +117,12 @@ impl<const D: usize> Bodies<D> {
         fixed
     }
 
+    /// Lets nodes of lines rotate between the stages of a step with the mesh nodes of a surface, whose first nodes these are: their
+    /// positions and slopes are those of the surface.
+    pub fn rotate_with_surface(&mut self, nodes: impl Iterator<Item = (usize, usize)>) {
+        self.stiffeners.extend(nodes);
+    }
+
     /// How nodes rotate between the stages of a step.
     pub fn rotating_nodes(&self) -> RotatingNodes {
         let none = vec![false; self.reference.len()];
@@ -126,11 +132,16 @@ impl<const D: usize> Bodies<D> {
             still: none,
             sections: Vec::new(),
             surfaces: Vec::new(),
+            stiffeners: self.stiffeners.clone(),
         };
         each!(self, |body| BodyPart::<D>::mark_rotating(
             body,
             &mut rotating
         ));
+        for (line, _) in &self.stiffeners {
+            rotating.elastic[*line] = false;
+            rotating.sections.retain(|(node, _)| node != line);
+        }
         rotating
     }
 

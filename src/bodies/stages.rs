@@ -46,6 +46,8 @@ pub struct RotatingNodes {
     pub sections: Vec<(usize, usize)>,
     /// First nodes of mesh nodes of plates and shells, which rotate with their tangent planes.
     pub surfaces: Vec<usize>,
+    /// Nodes of stiffeners, with the first nodes of the mesh nodes that they rotate with.
+    pub stiffeners: Vec<(usize, usize)>,
 }
 
 /// Vectors of the stages and how far the directions of nodes have turned.
@@ -115,7 +117,7 @@ impl<const D: usize> Stages<D> {
             floating: floating::<D>(elimination, grounded, &rotating.still),
             knots: knots(&elimination.assembly, &rotating.elastic),
             elastic: rotating.elastic.clone(),
-            sections: StageSections::new(&rotating.sections, &rotating.surfaces),
+            sections: StageSections::new(rotating),
             nodes: vec![no_node(); nodes],
             base: directions(),
             turned: [directions(), directions(), directions()],

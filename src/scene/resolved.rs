@@ -246,6 +246,8 @@ pub enum EdgeBase<'a> {
     Marker(ResolvedMarker<'a>),
     /// A mesh line at the same place; whether both lines run in opposite directions.
     Line(MeshLine<'a>, bool),
+    /// A cable, rod or beam along the mesh line, a stiffener; whether both run in opposite directions.
+    Stiffener(Cable<'a>, bool),
 }
 
 /// A joint that holds a mesh line of a plate or shell.

@@ -314,6 +314,37 @@ fn pressures_bend_a_strip_between_edges() {
     near(set.read_all::<3>("p.tip.position")[2], 0.0, 1e-15);
 }
 
+/// A body in place of the first edge, of `clamped` and `pinned`: a rib along the middle of the strip, alone loaded, adds its stiffness,
+/// `q L^4 / 8 (EI + D b)`.
+#[test]
+fn ribs_stiffen_a_strip() {
+    let [_, bending] = stiffness(YOUNG, RATIO, THICKNESS);
+    let (bending, load) = (bending * WIDTH, 1e-5 * bending);
+    for (kind, element, part) in [
+        ("clamped", "rod", 1.0),
+        ("pinned", "rod", 2.0),
+        ("pinned", "cable", 4.0),
+    ] {
+        let moment = part * bending / YOUNG;
+        let mut rib = json!({"name": "rib", "element": element, "elements": 6,
+            "shape": {"line": {"from": [0, 0.5 * WIDTH, 0], "to": [LENGTH, 0.5 * WIDTH, 0]}},
+            "material": {"youngs_modulus": YOUNG, "density": DENSITY}, "section": {"area": 0.01, "second_moment": moment}});
+        if element == "rod" {
+            rib["material"]["shear_modulus"] = json!(YOUNG);
+            rib["section"] = json!({"area": 0.01, "second_moments": [moment, moment], "torsion_constant": moment});
+            rib["axis"] = json!([0, 1, 0]);
+        }
+        let mut scene = strip(&json!({"mesh": [6, 2]}), [0.0; 3]);
+        scene["bodies"].as_array_mut().expect("bodies").push(rib);
+        let joints = scene["joints"].as_array_mut().expect("joints");
+        joints.push(json!({"name": "glue", "kind": kind, "edges": ["rib", "p.s2=0.5"]}));
+        scene["loads"] = json!([{"name": "q", "kind": "distributed_force", "body": "rib", "value": [0, 0, load]}]);
+        let found = Run::started(&scene).read_all::<3>("p.tip.position")[2];
+        let wanted = load * LENGTH.powi(4) / (8.0 * bending * (1.0 + part));
+        near(found, wanted, 5e-3 * wanted);
+    }
+}
+
 /// The input `area_force`, `motion`, and the directions of pressure: a free plate is accelerated as a whole.
 #[test]
 fn free_plates_are_accelerated() {

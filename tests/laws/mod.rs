@@ -43,6 +43,7 @@ mod plate_cases;
 mod plate_edges;
 mod plate_loads;
 mod plate_sections;
+mod plate_stiffeners;
 mod plates;
 mod ports;
 mod projection;

@@ -312,6 +312,7 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
             still: vec![false; x.len()],
             sections: Vec::new(),
             surfaces: Vec::new(),
+            stiffeners: Vec::new(),
         };
         let mut tangent: Tangent<2> = Tangent::new(
             elimination,

@@ -166,6 +166,7 @@ impl Case {
             still: vec![false; x.len()],
             sections: Vec::new(),
             surfaces: Vec::new(),
+            stiffeners: Vec::new(),
         };
         let mut tangent: Tangent<3> = Tangent::new(
             &self.elimination,

@@ -366,6 +366,23 @@ impl SectionFrame {
         self.add_moment::<D, N>(&axes, &moment, stretch, &mut add);
     }
 
+    /// Part of forces over the nodes of the frame that acts on position and slope of the line.
+    pub fn on_line<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        f: &[Node<D, N>],
+    ) -> Node<D, N> {
+        let (axes, stretch) = (self.axes(x), self.slope(x).norm_squared().sqrt());
+        let moment = super::RigidBodyFrame::moment(&axes, &self.axes(f));
+        let mut sum = [f[self.node][0], [N::of(0.0); D]];
+        self.add_moment::<D, N>(&axes, &moment, stretch, &mut |node, part, by| {
+            if node == self.line {
+                sum[part] = by;
+            }
+        });
+        sum
+    }
+
     /// Pulls a force on the position of a marker and a moment along the axes of its section frame back to nodal
     /// coordinates, passed to `term`.
     pub fn pull_marker<const D: usize, N: Number>(

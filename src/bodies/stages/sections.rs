@@ -5,9 +5,12 @@
 //! Sections of beams hold their nodes: the line of a beam turns with its sections, roll included. Turned by the smallest rotation of their
 //! tangents alone, lines and sections would come apart by the roll between the tangent and a stage, times the stiffness of shear. In the
 //! plane there is no roll, and a direction is all that a line turns by.
+//!
+//! Stiffeners rotate with the surface that they are on, so that nodes that are tied together rotate alike.
 
 use nalgebra::{SVector, Vector3};
 
+use super::RotatingNodes;
 use crate::bodies::connectivity::Node;
 use crate::bodies::frame::{Axes, axes_at, combined};
 use crate::math::space::{Vector, components, tangent_axes, vector};
@@ -30,15 +33,16 @@ pub(super) struct StageSections {
 }
 
 impl StageSections {
-    /// Starts with nodes of lines and their sections, and with mesh nodes of plates and shells.
-    pub fn new(lines: &[(usize, usize)], surfaces: &[usize]) -> Self {
-        let lines = lines
-            .iter()
-            .map(|(node, frame)| (*node, RotatesWith::Section(*frame)));
+    /// Starts with nodes of lines and their sections, with mesh nodes of plates and shells, and with nodes of stiffeners.
+    pub fn new(rotating: &RotatingNodes) -> Self {
+        let lines = rotating.sections.iter();
+        let lines = lines.map(|(node, frame)| (*node, RotatesWith::Section(*frame)));
+        let surfaces = rotating.surfaces.iter();
         let surfaces = surfaces
-            .iter()
             .flat_map(|node| [*node, *node + 1].map(|own| (own, RotatesWith::Surface(*node))));
-        let nodes: Vec<_> = lines.chain(surfaces).collect();
+        let stiffeners = rotating.stiffeners.iter();
+        let stiffeners = stiffeners.map(|(line, node)| (*line, RotatesWith::Surface(*node)));
+        let nodes: Vec<_> = lines.chain(surfaces).chain(stiffeners).collect();
         let axes = vec![Axes::default(); nodes.len()];
         Self {
             nodes,

@@ -1,11 +1,13 @@
 //! Joints of edges and other mesh lines of plates and shells: conditions on the vectors of their mesh nodes.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
 use super::Builder;
-use crate::bodies::{ConnectivityRow, Marker, Node, Patch, axes_at, no_node, product};
+use crate::bodies::{ConnectivityRow, Marker, Node, Patch, RodChain, axes_at, no_node, product};
 use crate::math::space::{Vector, axis, components, normals, vector};
-use crate::scene::resolved::{EdgeBase, EdgeHold, MeshLine, ResolvedEdge};
+use crate::scene::resolved::{Cable, EdgeBase, EdgeHold, MeshLine, ResolvedEdge};
 use crate::system::joints::{
     Across, ConstraintKind, Edge, Fold, JointEquations, LinearConstraint, Perpendicular, Primitive,
     Target,
@@ -152,6 +154,17 @@ impl<const D: usize> Builder<'_, D> {
             .map(|edge| self.edge(edge))
             .collect();
         self.parts.joints.extend(joints);
+        for edge in &self.resolved.edges {
+            if let EdgeBase::Stiffener(body, is_reversed) = edge.base {
+                // The line of a beam rotates with its sections, which a pin lets rotate about it.
+                let is_free = body.body.is_beam() && edge.hold == EdgeHold::Pinned;
+                let base = self.nodes_along(body, is_reversed);
+                let of = Line::new(self.patch_of(edge.line.plate), &edge.line);
+                let firsts: Vec<_> = of.nodes.iter().map(|node| node.first).collect();
+                let pairs = base.into_iter().zip(firsts).filter(|_| !is_free);
+                self.parts.bodies.rotate_with_surface(pairs);
+            }
+        }
     }
 
     fn edge(&self, edge: &ResolvedEdge<'_>) -> JointEquations<D> {
@@ -171,6 +184,19 @@ impl<const D: usize> Builder<'_, D> {
                     constraints.extend(self.on_frame(&marker, (&of, node), is_clamped));
                 }
                 Attachment::Body(marker)
+            }
+            EdgeBase::Stiffener(body, is_reversed) => {
+                let base = self.nodes_along(*body, *is_reversed);
+                for (node, second) in base.iter().zip(&of.nodes) {
+                    let along = [(*node, 1), second.along];
+                    let pairs = [([(*node, 0), second.point()], 1.0)];
+                    let pairs = pairs.into_iter().chain([(along, self.ratio(along))]);
+                    rows.extend(rows_of_pairs(pairs));
+                }
+                if edge.hold == EdgeHold::Clamped {
+                    constraints.extend(self.sections_on(*body, &base, &of));
+                }
+                Attachment::Body(self.on_line_at(*body, base[base.len() / 2]))
             }
             EdgeBase::Line(base, is_reversed) => {
                 let base = Line::new(self.patch_of(base.plate), base);
@@ -254,32 +280,68 @@ impl<const D: usize> Builder<'_, D> {
         (first, second): (&LineNode, &LineNode),
         units: Option<f64>,
     ) -> Vec<(ConnectivityRow<D>, f64)> {
-        let ratio = |[of, by]: [NodeVector; 2]| {
-            let [of, by] = [of, by].map(|of| self.vector_of(of));
-            by.dot(&of) / of.norm_squared()
-        };
         let (along, across) = ([first.along, second.along], [first.across, second.across]);
         let mixed = [first.mixed(), second.mixed()];
         let mut pairs = vec![
             ([first.point(), second.point()], 1.0),
-            (along, ratio(along)),
+            (along, self.ratio(along)),
         ];
         if let Some(units) = units {
-            let of_mixed = ratio(along) * ratio(across) * units;
-            pairs.extend([(across, ratio(across)), (mixed, of_mixed)]);
+            let of_mixed = self.ratio(along) * self.ratio(across) * units;
+            pairs.extend([(across, self.ratio(across)), (mixed, of_mixed)]);
         }
-        let row = |(pair, ratio): ([NodeVector; 2], f64), axis: usize| {
-            let terms = [(pair[0], -ratio), (pair[1], 1.0)].map(|((node, part), by)| {
-                let mut coefficients: Node<D> = no_node();
-                coefficients[part][axis] = by;
-                (node, coefficients)
-            });
-            (joined(terms), 0.0)
-        };
-        let pairs = pairs.into_iter();
-        pairs
-            .flat_map(|pair| (0..D).map(move |axis| row(pair, axis)))
-            .collect()
+        rows_of_pairs(pairs).collect()
+    }
+
+    /// Ratio of two vectors of nodes that have one direction: the second over the first.
+    fn ratio(&self, pair: [NodeVector; 2]) -> f64 {
+        let [of, by] = pair.map(|of| self.vector_of(of));
+        by.dot(&of) / of.norm_squared()
+    }
+
+    /// Nodes of the line of a body, in one of its directions.
+    fn nodes_along(&self, body: Cable<'_>, is_reversed: bool) -> Vec<usize> {
+        let chains = self.parts.bodies.lines();
+        let range = body.id.chain().map(|chain| chains[chain].range());
+        let mut nodes: Vec<usize> = range.into_iter().flatten().collect();
+        if is_reversed {
+            nodes.reverse();
+        }
+        nodes
+    }
+
+    /// Marker at a node of the line of a body.
+    fn on_line_at(&self, body: Cable<'_>, node: usize) -> Marker {
+        Marker::weighted(body.id.body, [node; 2], [0.0, 1.0, 0.0, 0.0])
+    }
+
+    /// Conditions by which the sections of a rod or beam at the nodes of a line rotate about it with the surface: its normal at the start
+    /// stays perpendicular to the slope across the line.
+    fn sections_on<'b>(
+        &'b self,
+        body: Cable<'_>,
+        base: &'b [usize],
+        of: &'b Line<'b>,
+    ) -> impl Iterator<Item = ConstraintKind<D>> {
+        let (index, chains) = (body.id.body, self.parts.bodies.lines());
+        let chain = body.id.chain().map(|chain| &chains[chain]);
+        let sections = chain.and_then(|chain| self.parts.bodies.sections(chain));
+        let frames = sections.into_iter().flat_map(RodChain::frames);
+        let frames: BTreeMap<usize, usize> = frames.map(|(frame, line)| (line, frame)).collect();
+        let x = &self.parts.bodies.reference;
+        base.iter()
+            .zip(&of.nodes)
+            .filter_map(move |(node, second)| {
+                let frame = *frames.get(node)?;
+                let normal = self.normal_at(second);
+                let normal = axes_at(frame, x).map(|axis| axis.dot(&normal));
+                let normal = Marker::framed(index, frame, [0.0; 3], normal);
+                let across = of.marker(second.across, 1.0);
+                Some(ConstraintKind::Perpendicular(Perpendicular {
+                    direction: Direction::Of(normal),
+                    across: Across::Direction(Direction::Of(across)),
+                }))
+            })
     }
 
     /// Conditions that hold a node of a line on the frame of a marker, and the normal where it `is_clamped`.
@@ -342,6 +404,22 @@ impl<const D: usize> Builder<'_, D> {
         });
         at_nodes.chain(between)
     }
+}
+
+/// Rows that make the second vector of each pair this ratio times the first.
+fn rows_of_pairs<const D: usize>(
+    pairs: impl IntoIterator<Item = ([NodeVector; 2], f64)>,
+) -> impl Iterator<Item = (ConnectivityRow<D>, f64)> {
+    let row = |(pair, ratio): ([NodeVector; 2], f64), axis: usize| {
+        let terms = [(pair[0], -ratio), (pair[1], 1.0)].map(|((node, part), by)| {
+            let mut coefficients: Node<D> = no_node();
+            coefficients[part][axis] = by;
+            (node, coefficients)
+        });
+        (joined(terms), 0.0)
+    };
+    let pairs = pairs.into_iter();
+    pairs.flat_map(move |pair| (0..D).map(move |axis| row(pair, axis)))
 }
 
 /// A row of terms on nodes.

@@ -5,7 +5,9 @@ use nalgebra::Vector3;
 use super::*;
 use crate::elements::shell::Corner;
 use crate::scene::marker::GROUND;
-use crate::scene::resolved::{BodyReference, EdgeBase, EdgeHold, MeshLine, Plate, ResolvedEdge};
+use crate::scene::resolved::{
+    BodyReference, Cable, EdgeBase, EdgeHold, MeshLine, Plate, ResolvedEdge,
+};
 use crate::scene::validate::checks::unknown;
 use crate::scene::validate::refuse_point;
 
@@ -15,8 +17,8 @@ const OFF: f64 = 1e-6;
 /// Holds an edge of a plate or shell and the normal along it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClampedEdge {
-    /// `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
-    /// `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
+    /// `ground`, a marker of a body with axes, a rod or beam along the edge (a stiffener), or an edge at the same place; then the
+    /// edge: `body.s1=0`, `body.s1=1`, `body.s2=0`, `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
     #[serde(rename = "edges")]
     pub markers: [String; 2],
 }
@@ -24,8 +26,8 @@ pub struct ClampedEdge {
 /// Holds an edge of a plate or shell, which may rotate about itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PinnedEdge {
-    /// `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
-    /// `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
+    /// `ground`, a marker of a body with axes, a cable, rod or beam along the edge, or an edge at the same place; then the edge:
+    /// `body.s1=0`, `body.s1=1`, `body.s2=0`, `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
     #[serde(rename = "edges")]
     pub markers: [String; 2],
 }
@@ -156,14 +158,36 @@ impl<'a> Resolved<'a> {
             let is_reversed = meet(path, [&other, line], hold)?;
             return Ok(EdgeBase::Line(other, is_reversed));
         }
+        if let Some(BodyReference::Cable(body)) = self.bodies_by_name.get(text) {
+            return stiffener(path, *body, line, hold);
+        }
         let marker = self.require_marker(path, text)?;
         refuse_point(path, marker)?;
         let is_on_body = !matches!(marker.place, Place::Along(..));
         if !is_on_body || !marker.place.is_framed() {
-            let wanted = "\"ground\", an edge, or a marker of a rigid body with inertia, a reduced body, a plate or a shell";
+            let wanted = "\"ground\", an edge, a cable, rod or beam along it, or a marker of a rigid body with inertia, a reduced body, a plate or a shell";
             return Err(expected(path, wanted, quoted(text)));
         }
         Ok(EdgeBase::Marker(marker))
+    }
+
+    /// Checks the nodes of stiffeners, which depend on all that acts on them.
+    ///
+    /// # Errors
+    /// A winch that pays out a stiffener; nodes or slopes that are not those of its mesh line.
+    pub(in crate::scene) fn check_stiffeners(&self) -> Result<(), Error> {
+        for edge in &self.edges {
+            let EdgeBase::Stiffener(body, is_reversed) = edge.base else {
+                continue;
+            };
+            let path = format!("{}.edges[0]", self.holders[edge.holder.index()].path);
+            if self.is_paid_out(body) {
+                let wanted = "a body that no winch pays out";
+                return Err(expected(&path, wanted, quoted(&body.body.name)));
+            }
+            lie_on(&path, (body, &self.nodes(body)?), &edge.line, is_reversed)?;
+        }
+        Ok(())
     }
 
     /// Finds a line of the mesh of a plate or shell.
@@ -255,6 +279,81 @@ fn meet(path: &str, [first, second]: [&MeshLine<'_>; 2], hold: EdgeHold) -> Foun
     Ok(is_reversed)
 }
 
+/// Checks that a body can be a stiffener of a line. Finds whether both run in opposite directions.
+fn stiffener<'a>(
+    path: &str,
+    of: Cable<'a>,
+    line: &MeshLine<'_>,
+    hold: EdgeHold,
+) -> Found<EdgeBase<'a>> {
+    let body = of.body;
+    if of.id.chain().is_none() {
+        let wanted = "a cable, rod or beam with elements, neither rigid nor reduced to modes";
+        return Err(expected(path, wanted, quoted(&body.name)));
+    }
+    if hold == EdgeHold::Clamped && !body.is_rod() {
+        let wanted = "a rod or beam, whose sections rotate with the surface (`pinned` holds an edge on a cable)";
+        let found = format!("the cable {}", body.name);
+        return Err(expected(path, wanted, found));
+    }
+    if body.elements != Some(line.elements()) {
+        let wanted = format!(
+            "a body of {} elements, as many as {} has",
+            line.elements(),
+            line.place()
+        );
+        let count = body.elements.map(|count| count.to_string());
+        let count = count.as_deref().unwrap_or("\"auto\"");
+        let found = format!("{} of {count}", body.name);
+        return Err(expected(path, &wanted, found));
+    }
+    let ends = [0.0, 1.0].map(|along| {
+        let corner: Corner = line.plate.body.geometry().corner(line.at(along));
+        (Vector3::from(corner[0]) - Vector3::from(body.shape.point(0.0))).norm()
+    });
+    Ok(EdgeBase::Stiffener(of, ends[1] < ends[0]))
+}
+
+/// Checks that the nodes of a body, at these material coordinates, and its line between them are those of a mesh line.
+fn lie_on(
+    path: &str,
+    (of, nodes): (Cable<'_>, &[f64]),
+    line: &MeshLine<'_>,
+    is_reversed: bool,
+) -> Found<()> {
+    let (shape, along) = (&of.body.shape, 1 - line.across);
+    let mut corners = line.corners();
+    if is_reversed {
+        corners.reverse();
+    }
+    let size = line.plate.body.geometry().lengths[along];
+    let gaps = corners.iter().zip(nodes);
+    let gaps = gaps.map(|(corner, s)| (corner[0] - Vector3::from(shape.point(*s))).norm());
+    let gap = gaps.fold(0.0, f64::max);
+    let name = &of.body.name;
+    if gap > OFF * size {
+        let wanted = format!("a body whose nodes are those of {}", line.place());
+        let found = format!("{name} (nodes up to {} m off)", number(gap));
+        return Err(expected(path, &wanted, found));
+    }
+    let element = size / f64::from(line.elements()) * if is_reversed { -1.0 } else { 1.0 };
+    let is_off = (0..nodes.len() - 1).any(|k| {
+        let length = (nodes[k + 1] - nodes[k]) * shape.length();
+        [k, k + 1].into_iter().any(|end| {
+            let slope = Vector3::from(shape.tangent(nodes[end])) * length;
+            (slope - corners[end][1 + along] * element).norm() > OFF * length
+        })
+    });
+    if is_off {
+        let wanted = format!(
+            "a body whose points between its nodes are those of {}",
+            line.place()
+        );
+        return Err(expected(path, &wanted, name));
+    }
+    Ok(())
+}
+
 /// Checks that an edge is in a plane that the surface crosses at a right angle.
 fn check_symmetry(path: &str, line: &MeshLine<'_>, normal: Vector3<f64>) -> Found<()> {
     let (normal, corners) = (normal.normalize(), line.corners());
@@ -344,6 +443,7 @@ impl ResolvedEdge<'_> {
             EdgeBase::Ground => GROUND.into(),
             EdgeBase::Marker(marker) => format!("{}.{}", marker.place.body().name(), marker.name),
             EdgeBase::Line(line, _) => line.place(),
+            EdgeBase::Stiffener(of, _) => of.body.name.clone(),
         }
     }
 
@@ -353,6 +453,10 @@ impl ResolvedEdge<'_> {
             (EdgeHold::Clamped, EdgeBase::Line(..)) => {
                 "the edge and the angle between both surfaces".into()
             }
+            (EdgeHold::Clamped, EdgeBase::Stiffener(..)) => {
+                "the line, and the rotation of its sections about it with the surface".into()
+            }
+            (EdgeHold::Pinned, EdgeBase::Stiffener(..)) => "the line".into(),
             (EdgeHold::Clamped, _) => "the edge and the normal along it".into(),
             (EdgeHold::Pinned, _) => "the edge".into(),
             (EdgeHold::Smooth, _) => "the edge and all derivatives of the surface along it".into(),

@@ -284,9 +284,11 @@ joints! {
     /// Holds, in space, what `free` does not name.
     Generic(generic::Generic) from 3,
     /// Holds an edge of a plate or shell, and the normal along it, on the ground, on a rigid body or on another edge. On the ground and on a
-    /// rigid body the edge may not stretch; beside it the surface may. Two edges keep the angle between both surfaces.
+    /// rigid body the edge may not stretch; beside it the surface may. Two edges keep the angle between both surfaces. A rod or beam along
+    /// the edge stiffens it: its line is that of the edge, and its sections rotate about it with the surface.
     Clamped(edge::ClampedEdge) from 3,
-    /// Holds an edge of a plate or shell on the ground, on a rigid body or on another edge. The surface may rotate about the edge.
+    /// Holds an edge of a plate or shell on the ground, on a rigid body or on another edge. The surface may rotate about the edge. The line
+    /// of a cable, rod or beam along the edge is that of the edge.
     Pinned(edge::PinnedEdge) from 3,
     /// Continues a plate or shell smoothly beyond an edge by another one, or by its own opposite edge.
     Smooth(edge::SmoothEdges) from 3,

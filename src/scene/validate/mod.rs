@@ -64,6 +64,7 @@ impl Scene {
         resolved.resolve_initial()?;
         resolved.check_releases()?;
         resolved.check_winches()?;
+        resolved.check_stiffeners()?;
         positive("experiment.stop_time", "s", self.experiment.stop_time)?;
         positive("experiment.step", "s", self.experiment.step)?;
         self.validate_accuracy()?;

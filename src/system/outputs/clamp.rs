@@ -45,6 +45,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 turning -= Vector3::from(moment(&marker.direction(&self.x), &direction));
             }
         });
+        let [position, direction] = self.edges_on(system, clamp.line.nodes[0]);
+        let slope = Vector::from(self.x[clamp.line.nodes[0]][1]);
+        force -= position;
+        turning -= Vector3::from(moment(&slope, &direction));
         (force, turning.into())
     }
 }

@@ -25,7 +25,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             if linear.joint != Some(joint) {
                 continue;
             }
-            let lambda = system.row_multiplier(row, &self.linear_constraint_forces);
+            let lambda = self.edge_multiplier(system, row);
             for (node, coefficients) in &linear.row.terms {
                 let Some(is_first) = edge.holds(*node) else {
                     continue;
@@ -63,5 +63,45 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             });
         }
         (vector::<D, N>(force.into()), turning.into())
+    }
+
+    /// Forces of rows of joints of edges on position and slope of a node.
+    pub(super) fn edges_on(&self, system: &System<D>, node: usize) -> [Vector<D, N>; 2] {
+        let mut sum = [Vector::zeros(); 2];
+        for (row, linear) in system.linear.iter().enumerate() {
+            let is_of_edge = |joint: usize| system.joints[joint].edge().is_some();
+            if !linear.joint.is_some_and(is_of_edge) {
+                continue;
+            }
+            for (_, coefficients) in linear.row.terms.iter().filter(|(of, _)| *of == node) {
+                let lambda = self.edge_multiplier(system, row);
+                for (sum, on) in sum.iter_mut().zip(coefficients) {
+                    *sum += Vector::from(*on).map(N::of) * lambda;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Multiplier of a row of a joint of an edge; zero for one that repeats others. What acts on the sections of a stiffener counts to its line.
+    fn edge_multiplier(&self, system: &System<D>, row: usize) -> N {
+        let Some((cluster, k)) = system.holds[row] else {
+            return N::of(0.0);
+        };
+        let cluster = &system.elimination.assembly.clusters()[cluster];
+        let column = cluster.multipliers.row(k);
+        let supplied = |node: &usize| {
+            system
+                .bodies
+                .with_section(*node, &self.x, &self.linear_constraint_forces)
+        };
+        let mut sum = N::of(0.0);
+        for (i, node) in cluster.nodes.iter().enumerate() {
+            let supplied = supplied(node);
+            for (part, f) in supplied.as_flattened().iter().enumerate() {
+                sum += *f * N::of(column[2 * D * i + part]);
+            }
+        }
+        sum
     }
 }

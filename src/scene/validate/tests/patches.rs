@@ -268,3 +268,53 @@ fn sections_are_read_where_they_are() {
     "#,
     );
 }
+
+/// The panel with a rib along its middle, a cable along its long edge, and what a stiffener cannot be.
+fn stiffened() -> Value {
+    let mut scene = scene();
+    let line = |name: &str, element: &str, y: f64| {
+        let mut body = json!({"name": name, "element": element, "elements": 4, "markers": {"a": 0, "b": 0.5, "c": 1},
+            "material": {"youngs_modulus": 1e9, "density": 1000},
+            "section": {"area": 1e-4, "second_moment": 1e-10}, "shape": {"line": {"from": [0, y, 0], "to": [2, y, 0]}}});
+        if element == "rod" {
+            body["material"]["shear_modulus"] = json!(4e8);
+            body["section"] =
+                json!({"area": 1e-4, "second_moments": [1e-10, 1e-10], "torsion_constant": 2e-10});
+            body["axis"] = json!([0, 0, 1]);
+        }
+        body
+    };
+    let bodies = scene["bodies"].as_array_mut().expect("bodies");
+    bodies.extend([line("rib", "rod", 0.5), line("rope", "cable", 0.0)]);
+    let joints = scene["joints"].as_array_mut().expect("joints");
+    joints.push(json!({"name": "glue", "kind": "clamped", "edges": ["rib", "panel.s2=0.5"]}));
+    joints.push(json!({"name": "hem", "kind": "pinned", "edges": ["rope", "panel.s2=0"]}));
+    scene
+}
+
+#[test]
+fn stiffeners_are_checked() {
+    check(
+        stiffened,
+        r#"
+        /name | "ribs" | accepted
+        /joints/4/kind | "pinned" | accepted
+        /joints/5/kind | "clamped" | joints[5].edges[0]: expected a rod or beam, whose sections rotate with the surface (`pinned` holds an edge on a cable), found the cable rope
+        /joints/4/kind | "smooth" | joints[4].edges[0]: expected an edge of a plate or shell of this scene, `body.s1=0`, found "rib"
+        /joints/4/edges | ["panel.s2=0.5", "rib"] | joints[4].edges[1]: expected an edge of a plate or shell of this scene
+        /joints/4/edges | ["rib", "panel.s2=0"] | joints[4].edges[0]: expected a body whose nodes are those of panel.s2=0, found rib (nodes up to 0.5 m off)
+        /joints/4/edges | ["rib", "panel.s1=0.5"] | joints[4].edges[0]: expected a body of 2 elements, as many as panel.s1=0.5 has, found rib of 4
+        /joints/4/edges | ["ball", "panel.s2=0.5"] | joints[4].edges[0]: expected a marker of this scene
+        /joints/4/edges | ["bone", "panel.s2=0.5"] | joints[4].edges[0]: expected a marker of this scene
+        /bodies/3/elements | 3 | joints[4].edges[0]: expected a body of 4 elements, as many as panel.s2=0.5 has, found rib of 3
+        /bodies/3/elements | "auto" | joints[4].edges[0]: expected a body of 4 elements, as many as panel.s2=0.5 has, found rib of "auto"
+        /bodies/3/markers/b | 0.3 | joints[4].edges[0]: expected a body whose nodes are those of panel.s2=0.5, found rib (nodes up to
+        /bodies/4/model | "rigid" | joints[5].edges[0]: expected a cable, rod or beam with elements, neither rigid nor reduced to modes, found "rope"
+        /bodies/3/shape/line | {"from": [2, 0.5, 0], "to": [0, 0.5, 0]} | accepted
+        /bodies/3/shape/line/to | [2, 0.5, 0.001] | joints[4].edges[0]: expected a body whose nodes are those of panel.s2=0.5, found rib (nodes up to 0.001 m off)
+        /bodies/4/shape | {"arc": {"from": [0, 0, 0], "to": [2, 0, 0], "length": 2.1}} | joints[5].edges[0]: expected a body whose nodes are those of panel.s2=0
+        /joints/4/release_time | 1 | joints[4].release_time: expected nothing
+        /motions | [{"name": "drum", "kind": "winch", "marker": "rope.a", "value": "0.1*t"}] | joints[5].edges[0]: expected a body that no winch pays out, found "rope"
+        "#,
+    );
+}
