@@ -60,7 +60,7 @@ fn a_hemisphere_deforms_as_published() {
 #[test]
 fn a_slit_ring_opens_as_published() {
     let scene = json!({"name": "ring", "dimension": 3, "gravity": [0, 0, 0],
-        "bodies": [{"name": "p", "element": "plate", "mesh": [4, 24], "thickness": 0.03,
+        "bodies": [{"name": "p", "element": "plate", "mesh": [2, 32], "thickness": 0.03,
             "surface": {"annulus": {"center": [0, 0, 0], "normal": [0, 0, 1], "start": [1, 0, 0], "radii": [6, 10], "angle": TAU}},
             "material": {"youngs_modulus": 21e6, "poisson_ratio": 0, "density": 1},
             "markers": {"inside": [0, 1], "outside": [1, 1], "lip": {"at": [0.5, 1], "pad": [4, 1e-6]}}}],
@@ -154,7 +154,7 @@ fn thrown(elements: u32, spin: [f64; 3]) -> Value {
 /// (generalized-alpha method at 1 ms, 16 elements a side: within 2.7e-3).
 #[test]
 fn a_thrown_plate_keeps_its_momentum() {
-    let mut run = Run::started(&thrown(5, [2.0, 1.0, 3.0]));
+    let mut run = Run::started(&thrown(4, [2.0, 1.0, 3.0]));
     let [x, y, z] = run.read_all("p.near.velocity");
     // Spin about the middle at (0.5, -0.5), and the field there: 3 - 3.
     for (found, exact) in [(x, 1.5), (y, 1.5), (z, -1.5)] {
@@ -183,7 +183,7 @@ fn a_thrown_plate_keeps_its_momentum() {
         let found: [f64; 3] = run.read_all(&format!("p.{corner}.position"));
         for (found, wanted) in found.into_iter().zip(wanted) {
             assert!(
-                (found - wanted).abs() < 5e-3,
+                (found - wanted).abs() < 1.2e-2,
                 "{corner}: {found} for {wanted}"
             );
         }
