@@ -510,7 +510,8 @@ class PointOnCable(Part):
 class Clamped(Part):
     """
     Holds an edge of a plate or shell, and the normal along it, on the ground, on a rigid body or on another edge. On the ground and on a
-    rigid body the edge may not stretch; beside it the surface may. Two edges keep the angle between both surfaces.
+    rigid body the edge may not stretch; beside it the surface may. Two edges keep the angle between both surfaces. A rod or beam along
+    the edge stiffens it: its line is that of the edge, and its sections rotate about it with the surface.
     """
 
     name: StrictStr
@@ -520,8 +521,8 @@ class Clamped(Part):
     kind: Literal["clamped"] = "clamped"
     edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
-    `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
+    `ground`, a marker of a body with axes, a rod or beam along the edge (a stiffener), or an edge at the same place; then the
+    edge: `body.s1=0`, `body.s1=1`, `body.s2=0`, `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -532,7 +533,8 @@ class Clamped(Part):
 
 class Pinned(Part):
     """
-    Holds an edge of a plate or shell on the ground, on a rigid body or on another edge. The surface may rotate about the edge.
+    Holds an edge of a plate or shell on the ground, on a rigid body or on another edge. The surface may rotate about the edge. The line
+    of a cable, rod or beam along the edge is that of the edge.
     """
 
     name: StrictStr
@@ -542,8 +544,8 @@ class Pinned(Part):
     kind: Literal["pinned"] = "pinned"
     edges: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
     """
-    `ground`, a marker of a body with axes, or an edge at the same place; then the edge: `body.s1=0`, `body.s1=1`, `body.s2=0`,
-    `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
+    `ground`, a marker of a body with axes, a cable, rod or beam along the edge, or an edge at the same place; then the edge:
+    `body.s1=0`, `body.s1=1`, `body.s2=0`, `body.s2=1`, or another line of the mesh, such as `body.s1=0.5`.
     """
     release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -1644,6 +1646,30 @@ class PatchStiffness(Part):
     """
 
 
+PatchThicknessNumber = TypeAliasType(
+    "PatchThicknessNumber",
+    Annotated[StrictFloat, Field(gt=0.0, title="PatchThicknessNumber")],
+)
+"""
+The same all over, m.
+"""
+
+
+PatchThicknessExpression = TypeAliasType(
+    "PatchThicknessExpression",
+    Annotated[StrictStr, Field(title="PatchThicknessExpression")],
+)
+"""
+Expression in `s1` and `s2`, m.
+"""
+
+
+PatchThickness = TypeAliasType("PatchThickness", PatchThicknessNumber | PatchThicknessExpression)
+"""
+Thickness of a plate or shell.
+"""
+
+
 class PlyMaterial(Part):
     """
     Orthotropic material of a ply.
@@ -2082,8 +2108,8 @@ class InitialMotion(Part):
     deformation: Annotated[list[StrictStr] | None, Field(max_length=3, min_length=2)] = None
     """
     Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,
-    0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; cables only.
-    Sections of rods and beams turn with the line.
+    0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; of plates and shells in `s1` and `s2`, e.g. `["0", "0", "s1*s2"]`.
+    Cables, rods, beams, plates and shells only. Sections of rods and beams turn with the line.
     """
     spin: Spin = 0.0
     """
@@ -2658,7 +2684,7 @@ class FluidLoad(Part):
     kind: Literal["fluid"] = "fluid"
     body: StrictStr
     """
-    Name of the cable, rod or beam that the fluid streams past.
+    Name of the cable, rod, beam, plate or shell that the fluid streams past.
     """
     density: Annotated[StrictFloat, Field(gt=0.0)]
     """
@@ -2666,11 +2692,11 @@ class FluidLoad(Part):
     """
     added_mass: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Coefficient of added mass: the mass of fluid that moves along, divided by the mass of displaced fluid; 0 by default.
+    Coefficient of added mass of a line: the mass of fluid that moves along, divided by the mass of displaced fluid; 0 by default.
     """
     area: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    Area of the section that displaces fluid, m^2; by default the area of a circle of this `diameter`.
+    Area of the section of a line that displaces fluid, m^2; by default the area of a circle of this `diameter`.
     """
     buoyancy: StrictBool | None = True
     """
@@ -2678,20 +2704,22 @@ class FluidLoad(Part):
     """
     current: Annotated[list[Value] | None, Field(max_length=3, min_length=2)] = None
     """
-    Velocity of the fluid in global axes, m/s; zero by default. Expressions may contain the material coordinate `s` of the body,
-    which is 0 at the first end and 1 at the last.
+    Velocity of the fluid in global axes, m/s; zero by default. Expressions may contain the material coordinate `s` of a line, which is
+    0 at the first end and 1 at the last, and the coordinates `s1` and `s2` of a plate or shell, each from 0 to 1.
     """
     diameter: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
-    Diameter for drag, m; by default the outer diameter of a circle or tube, else that of a circle with the area of the section.
+    Diameter of a line for drag, m; by default the outer diameter of a circle or tube, else that of a circle with the area of the section.
     """
     drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Coefficient of drag across the line, for the area `diameter` times length; 0 by default.
+    Coefficient of drag across a line, for the area `diameter` times length, or along the normal of a plate or shell, for its area; 0 by
+    default.
     """
     tangential_drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    Coefficient of drag along the line, for the area `pi diameter` times length; 0 by default.
+    Coefficient of drag along a line, for the area `pi diameter` times length, or in the surface of a plate or shell, both sides
+    together, for its area; 0 by default.
     """
 
 
@@ -3546,9 +3574,9 @@ class Plate(Part):
     """
     Stiffness of a section as matrices; instead of `material` and `thickness`.
     """
-    thickness: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    thickness: PatchThickness | None = None
     """
-    Thickness, m, with `material`.
+    Thickness, m, with `material`: a number, or an expression in the coordinates `s1` and `s2` of the surface, each from 0 to 1.
     """
 
 
@@ -3602,9 +3630,9 @@ class Shell(Part):
     """
     Stiffness of a section as matrices; instead of `material` and `thickness`.
     """
-    thickness: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    thickness: PatchThickness | None = None
     """
-    Thickness, m, with `material`.
+    Thickness, m, with `material`: a number, or an expression in the coordinates `s1` and `s2` of the surface, each from 0 to 1.
     """
 
 
@@ -3793,7 +3821,7 @@ class ContactLoad(Part):
     kind: Literal["contact"] = "contact"
     stiffness: Annotated[StrictFloat, Field(ge=0.0)]
     """
-    Stiffness `k` of the surface, N/m at a marker; N/m per reference length along a body.
+    Stiffness `k` of the surface, N/m at a marker; N/m per reference length along a line, per reference area of a plate or shell.
     """
     surface: Surface
     """
@@ -3818,7 +3846,8 @@ class ContactLoad(Part):
     """
     body: StrictStr | None = None
     """
-    Name of the cable, rod or beam whose line touches the surface; the thickness of the body does not count.
+    Name of the cable, rod or beam whose line, or of the plate or shell whose middle surface touches the surface; the thickness of the
+    body does not count.
     """
 
 
