@@ -484,7 +484,7 @@ fn what_belongs_to_lines_and_rigid_bodies_is_refused() {
         (
             "/loads/-",
             json!({"name": "a", "kind": "fluid", "body": "bracket", "density": 1}),
-            "loads[3].body: expected the name of a cable of this scene",
+            "loads[3].body: expected the name of a cable, rod, beam, plate or shell of this scene",
         ),
         (
             "/outputs/-",
