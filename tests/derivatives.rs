@@ -17,6 +17,8 @@ const NEAR: f64 = 2e-5;
 /// Every ready scene, and those of the tests with every kind of input and output.
 fn scenes() -> Vec<PathBuf> {
     let mut found = crate::ready_scenes();
+    // Minutes at this tolerance where tests are not optimized. Another ready scene has a shell.
+    found.retain(|path| !path.ends_with("cylinder_shell.json"));
     let others = [
         "docs/book/examples/bodies/reduced.json",
         "docs/book/examples/outputs/stress_tensor.json",
