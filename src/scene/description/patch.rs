@@ -56,7 +56,7 @@ pub struct PatchBody {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PatchThickness {
-    /// The same all over, m.
+    /// Thickness all over, m.
     Number(#[schemars(extend("exclusiveMinimum" = 0))] f64),
     /// Expression in `s1` and `s2`, m.
     Expression(String),

@@ -75,7 +75,7 @@ impl AreaValues {
         self.each_place(element, |signal| signal.value(at))
     }
 
-    /// What a signal gives, its value or its rate, at the places of quadrature of an element.
+    /// Values or rates, as a signal gives them, at the places of quadrature of an element.
     pub(super) fn each_place<N: Number>(
         &self,
         element: usize,

@@ -53,7 +53,7 @@ pub struct ContactPoint {
 pub struct Contact<const D: usize = 2> {
     /// A single marker, or the Gauss points of all segments of a body in turn: of the elements of a chain, of the panels of a rod.
     pub places: Vec<ContactPoint>,
-    /// What is touched, and how it pushes; along a body per reference length.
+    /// Surface that is touched and its force; along a body per reference length.
     pub law: ContactLaw<D>,
 }
 

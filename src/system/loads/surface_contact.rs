@@ -17,7 +17,7 @@ use crate::math::space::{Vector, vector};
 pub struct SurfaceContact {
     /// Index among the plates and shells.
     pub patch: usize,
-    /// What is touched, and how it pushes, per area.
+    /// Surface that is touched and its force per area.
     pub law: ContactLaw<3>,
 }
 
