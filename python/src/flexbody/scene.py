@@ -1651,7 +1651,7 @@ PatchThicknessNumber = TypeAliasType(
     Annotated[StrictFloat, Field(gt=0.0, title="PatchThicknessNumber")],
 )
 """
-The same all over, m.
+Thickness all over, m.
 """
 
 
