@@ -64,8 +64,8 @@ impl GridStress {
         }
         let across = self.lines[1].iter();
         let pairs = (self.lines[0].iter()).flat_map(|a| across.clone().map(move |b| [a, b]));
-        let stress = |((lines, faces), to_axes): (_, &[[f64; 3]; 3])| {
-            let (lines, faces): ([&RecoveryLine; 2], &[(f64, Stiffness); 2]) = (lines, faces);
+        let stress = |(lines, point): (_, usize)| {
+            let (faces, to_axes) = (&self.faces[point], &self.to_axes[point]);
             let of = patch.recovered(lines, |element| self.strains[element]);
             let of = of.map(|of| times(to_axes, of));
             let [bottom, top] = faces
@@ -73,7 +73,6 @@ impl GridStress {
                 .map(|(height, law)| stress_at((*height, law), of));
             [bottom[0], bottom[1], bottom[2], top[0], top[1], top[2]]
         };
-        let points = pairs.zip(&self.faces).zip(&self.to_axes);
-        points.map(stress).collect()
+        pairs.zip(0..).map(stress).collect()
     }
 }

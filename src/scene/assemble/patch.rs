@@ -4,6 +4,7 @@ use super::Builder;
 use crate::bodies::{Marker, Patch, PatchPoint};
 use crate::scene::description::OutputKind;
 use crate::scene::resolved::{OutputTarget, Place, Plate};
+use crate::system::loads::LoadedSurface;
 
 impl<const D: usize> Builder<'_, D> {
     /// Adds the patch of a plate or shell, and its nodes. Returns those that hold axes only.
@@ -61,6 +62,11 @@ impl<const D: usize> Builder<'_, D> {
     /// The patch of a plate or shell.
     pub(crate) fn patch_of(&self, plate: Plate<'_>) -> &Patch {
         &self.parts.bodies.patches()[self.patch_index(plate)]
+    }
+
+    /// A plate or shell as the surface that a load acts on.
+    pub(crate) fn surface(&self, plate: Plate<'_>) -> LoadedSurface {
+        LoadedSurface(self.patch_index(plate))
     }
 
     /// Index among the patches of a plate or shell.

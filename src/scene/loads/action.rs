@@ -327,7 +327,7 @@ impl<const D: usize> Builder<'_, D> {
     fn over(&self, plate: Plate<'_>, action: &Action<'_>) -> AppliedLoad<D> {
         let components = &action.components;
         AppliedLoad::AreaLoad(Box::new(AreaLoad {
-            patch: self.patch_index(plate),
+            on: self.surface(plate),
             action: match action.kind {
                 ActionKind::Pressure => {
                     AreaAction::Pressure(AreaValues::uniform(components[0].clone()))

@@ -54,6 +54,19 @@ pub struct ResolvedContact<'a> {
 }
 
 impl ContactLoad {
+    /// Law of the contact, in its number of dimensions.
+    fn law<const D: usize>(&self) -> ContactLaw<D> {
+        ContactLaw {
+            surface: surface(&self.surface),
+            spring: OneSidedSpring {
+                stiffness: self.stiffness,
+                damping: self.damping.unwrap_or_default(),
+            },
+            friction: self.friction.unwrap_or_default(),
+            slip_velocity: self.slip_velocity.unwrap_or_default(),
+        }
+    }
+
     /// Unit of the stiffness at a place.
     fn unit(on: LoadExtent) -> Unit {
         match on {
@@ -136,22 +149,11 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         builder: &mut Builder<'_, D>,
         _path: &str,
     ) -> AssembledLoad<D> {
-        let spring = OneSidedSpring {
-            stiffness: self.given.stiffness,
-            damping: self.given.damping.unwrap_or_default(),
-        };
-        let (friction, slip_velocity) = (self.given.friction, self.given.slip_velocity);
-        let [friction, slip_velocity] = [friction, slip_velocity].map(Option::unwrap_or_default);
         let places = match self.by {
             LoadPlace::Surface(plate) => {
                 return Ok(AppliedLoad::SurfaceContact(Box::new(SurfaceContact {
-                    patch: builder.patch_index(plate),
-                    law: ContactLaw {
-                        surface: surface(&self.given.surface),
-                        spring,
-                        friction,
-                        slip_velocity,
-                    },
+                    on: builder.surface(plate),
+                    law: self.given.law(),
                 })));
             }
             LoadPlace::Line(cable) => builder.places(cable),
@@ -164,12 +166,7 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         };
         Ok(AppliedLoad::Contact(Box::new(Contact {
             places,
-            law: ContactLaw {
-                surface: surface(&self.given.surface),
-                spring,
-                friction,
-                slip_velocity,
-            },
+            law: self.given.law(),
         })))
     }
 

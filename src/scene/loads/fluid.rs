@@ -293,7 +293,7 @@ impl<'a> ResolvedFluid<'a> {
         };
         let places = builder.patch_of(plate).area_places();
         Ok(AppliedLoad::SurfaceFluid(Box::new(SurfaceFluid {
-            patch: builder.patch_index(plate),
+            on: builder.surface(plate),
             places: places.map(segment).collect(),
             current,
             gravity: builder.resolved.scene.gravity.full(),

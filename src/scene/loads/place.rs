@@ -97,7 +97,7 @@ impl<'a> LoadPlace<'a> {
 
     /// Whether it is an angle of a joint.
     pub fn is_angle(&self) -> bool {
-        matches!(self, Self::Coordinate(on) if on.is_angle())
+        self.extent() == LoadExtent::Angle
     }
 }
 

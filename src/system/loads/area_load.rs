@@ -1,10 +1,8 @@
 //! Loads per area on a plate or shell: pressure along its normal, which follows the surface, and dead forces per area of the unstressed
 //! surface.
 
-use nalgebra::Matrix3;
-
-use super::{Add, ForceElement, Instant, hold};
-use crate::bodies::{Bodies, Node, Patch, block_of_parts};
+use super::{Add, ForceElement, Instant, LoadedSurface, hold};
+use crate::bodies::{Bodies, Node};
 use crate::elements::shell::{AREA_PLACES, ElementCorners};
 use crate::math::jet::Number;
 use crate::system::signal::Signal;
@@ -30,8 +28,8 @@ pub struct AreaValues {
 /// A load on a plate or shell.
 #[derive(Clone, Debug)]
 pub struct AreaLoad {
-    /// Index among the plates and shells.
-    pub patch: usize,
+    /// Surface that it acts on.
+    pub on: LoadedSurface,
     /// The action.
     pub action: AreaAction,
 }
@@ -97,17 +95,13 @@ impl AreaValues {
 }
 
 impl AreaLoad {
-    fn of<'a, const D: usize>(&self, bodies: &'a Bodies<D>) -> &'a Patch {
-        &bodies.patches()[self.patch]
-    }
-
     /// Forces on the corners of an element.
     fn force<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         element: usize,
     ) -> ElementCorners<N> {
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         let of = &patch.elements()[element];
         match &self.action {
             AreaAction::Pressure(pressure) => {
@@ -125,9 +119,9 @@ impl AreaLoad {
 
     /// Forces at an instant times a nodal field.
     fn along<const D: usize, N: Number>(&self, at: Instant<'_, D, N>, field: &[Node<D, N>]) -> N {
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         let mut sum = N::of(0.0);
-        for element in 0..patch.elements().len() {
+        for element in 0..self.on.count(at.bodies) {
             let (force, field) = (self.force(at, element), patch.element(element, field));
             let pairs = force.as_flattened().iter().zip(field.as_flattened());
             for (force, field) in pairs {
@@ -140,25 +134,9 @@ impl AreaLoad {
     }
 }
 
-/// Adds a symmetric matrix over the vectors of the corners of an element.
-pub(super) fn add_element<const D: usize>(
-    nodes: &[usize; 8],
-    blocks: &[[Matrix3<f64>; 16]; 16],
-    add: Add<'_, D>,
-) {
-    for (i, a) in nodes.iter().enumerate() {
-        for (j, b) in nodes.iter().enumerate().take(i + 1) {
-            let block = block_of_parts::<D>(|p, q| {
-                blocks[2 * i + p][2 * j + q].fixed_view::<D, D>(0, 0).into()
-            });
-            add(*a, *b, &block);
-        }
-    }
-}
-
 impl<const D: usize> ForceElement<D> for AreaLoad {
     fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        for element in 0..self.of(at.bodies).elements().len() {
+        for element in 0..self.on.count(at.bodies) {
             self.add_part(at, element, f);
         }
     }
@@ -168,11 +146,11 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
         let AreaAction::Pressure(pressure) = &self.action else {
             return;
         };
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         for (index, element) in patch.elements().iter().enumerate() {
             let pressure = pressure.at(at, index);
             let blocks = element.pressure_stiffness(&patch.element(index, at.x), &pressure);
-            add_element(&patch.element_nodes(index), &blocks, add);
+            self.on.add_matrix(at.bodies, index, (&blocks, add));
         }
     }
 
@@ -200,15 +178,11 @@ impl<const D: usize> ForceElement<D> for AreaLoad {
     }
 
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        let patch = self.of(bodies);
-        let elements = 0..patch.elements().len();
-        elements
-            .map(|element| patch.element_nodes(element).to_vec())
-            .collect()
+        self.on.parts(bodies)
     }
 
     fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
         let force = self.force(at, part);
-        self.of(at.bodies).add_to(part, &force, f);
+        self.on.add(at.bodies, part, (&force, f));
     }
 }

@@ -4,10 +4,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::area_load::add_element;
 use super::contact::{ContactLaw, Touch};
-use super::{Add, ForceElement, Instant};
-use crate::bodies::{Bodies, Node, Patch};
+use super::{Add, ForceElement, Instant, LoadedSurface};
+use crate::bodies::{Bodies, Node};
 use crate::elements::shell::AREA_PLACES;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, vector};
@@ -15,30 +14,26 @@ use crate::math::space::{Vector, vector};
 /// Contact of a plate or shell with a surface.
 #[derive(Clone, Debug)]
 pub struct SurfaceContact {
-    /// Index among the plates and shells.
-    pub patch: usize,
+    /// Surface that it acts on.
+    pub on: LoadedSurface,
     /// Surface that is touched and its force per area.
     pub law: ContactLaw<3>,
 }
 
 impl SurfaceContact {
-    fn of<'a, const D: usize>(&self, bodies: &'a Bodies<D>) -> &'a Patch {
-        &bodies.patches()[self.patch]
-    }
-
     /// How the places of quadrature of an element touch; none where none does.
     fn touches<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         element: usize,
     ) -> Option<[Option<Touch<3, N>>; AREA_PLACES]> {
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         let of = &patch.elements()[element];
-        let x = patch.element(element, at.x);
+        let (x, v) = (patch.element(element, at.x), patch.element(element, at.v));
         let mut found = false;
         let touches = std::array::from_fn(|place| {
-            let velocity = || of.at_place(&patch.element(element, at.v), place);
-            let touch = self.law.touch(&of.at_place(&x, place), velocity);
+            let position = of.at_place(&x, place);
+            let touch = self.law.touch(&position, || of.at_place(&v, place));
             found |= touch.is_some();
             touch
         });
@@ -51,7 +46,7 @@ impl SurfaceContact {
         at: Instant<'_, D, N>,
         mut add: impl FnMut(&Touch<3, N>, N),
     ) {
-        for (index, element) in self.of(at.bodies).elements().iter().enumerate() {
+        for (index, element) in self.on.patch(at.bodies).elements().iter().enumerate() {
             let Some(touches) = self.touches(at, index) else {
                 continue;
             };
@@ -76,11 +71,7 @@ impl SurfaceContact {
 
 impl<const D: usize> ForceElement<D> for SurfaceContact {
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        let patch = self.of(bodies);
-        let elements = 0..patch.elements().len();
-        elements
-            .map(|element| patch.element_nodes(element).to_vec())
-            .collect()
+        self.on.parts(bodies)
     }
 
     fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
@@ -91,19 +82,19 @@ impl<const D: usize> ForceElement<D> for SurfaceContact {
             let force = touch.map_or_else(Vector3::zeros, |touch| self.law.force(&touch));
             force.into()
         });
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         let force = patch.elements()[part].varying_area_force(&load);
-        patch.add_to(part, &force, f);
+        self.on.add(at.bodies, part, (&force, f));
     }
 
     fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        for element in 0..self.of(at.bodies).elements().len() {
+        for element in 0..self.on.count(at.bodies) {
             self.add_part(at, element, f);
         }
     }
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         for (index, element) in patch.elements().iter().enumerate() {
             let Some(touches) = self.touches(at, index) else {
                 continue;
@@ -114,10 +105,13 @@ impl<const D: usize> ForceElement<D> for SurfaceContact {
                     [stiff[place], damped[place]] = self.law.tangents(touch);
                 }
             }
-            let nodes = patch.element_nodes(index);
-            add_element(&nodes, &element.area_matrix(&stiff), &mut *stiffness);
+            let stiff = element.area_matrix(&stiff);
+            self.on
+                .add_matrix(at.bodies, index, (&stiff, &mut *stiffness));
             if self.law.is_damped() {
-                add_element(&nodes, &element.area_matrix(&damped), &mut *damping);
+                let damped = element.area_matrix(&damped);
+                self.on
+                    .add_matrix(at.bodies, index, (&damped, &mut *damping));
             }
         }
     }

@@ -11,10 +11,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::area_load::{AreaValues, add_element};
+use super::area_load::AreaValues;
 use super::fluid::{Flow, FluidSegment};
-use super::{Add, ForceElement, Instant};
-use crate::bodies::{Bodies, Node, Patch};
+use super::{Add, ForceElement, Instant, LoadedSurface};
+use crate::bodies::{Bodies, Node};
 use crate::elements::shell::{AREA_PLACES, ElementCorners};
 use crate::math::jet::Number;
 use crate::math::space::spun;
@@ -23,8 +23,8 @@ use crate::system::signal::Signal;
 /// A fluid along a plate or shell.
 #[derive(Clone, Debug)]
 pub struct SurfaceFluid {
-    /// Index among the plates and shells.
-    pub patch: usize,
+    /// Surface that it acts on.
+    pub on: LoadedSurface,
     /// Coefficients per area at the places of quadrature, element by element.
     pub places: Vec<FluidSegment>,
     /// Velocity of the fluid, m/s.
@@ -48,17 +48,13 @@ struct PlaceFlow<N> {
 }
 
 impl SurfaceFluid {
-    fn of<'a, const D: usize>(&self, bodies: &'a Bodies<D>) -> &'a Patch {
-        &bodies.patches()[self.patch]
-    }
-
     /// Flow at the places of quadrature of an element.
     fn flows<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         element: usize,
     ) -> [PlaceFlow<N>; AREA_PLACES] {
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         let of = &patch.elements()[element];
         let (x, v) = (patch.element(element, at.x), patch.element(element, at.v));
         let current = (self.current.each_ref())
@@ -95,7 +91,7 @@ impl SurfaceFluid {
         element: usize,
     ) -> ElementCorners<N> {
         let load = self.flows(at, element).map(|flow| flow.force.into());
-        self.of(at.bodies).elements()[element].varying_area_force(&load)
+        self.on.patch(at.bodies).elements()[element].varying_area_force(&load)
     }
 
     /// Whether there is drag.
@@ -113,20 +109,16 @@ impl SurfaceFluid {
 
 impl<const D: usize> ForceElement<D> for SurfaceFluid {
     fn parts(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        let patch = self.of(bodies);
-        let elements = 0..patch.elements().len();
-        elements
-            .map(|element| patch.element_nodes(element).to_vec())
-            .collect()
+        self.on.parts(bodies)
     }
 
     fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
         let force = self.force(at, part);
-        self.of(at.bodies).add_to(part, &force, f);
+        self.on.add(at.bodies, part, (&force, f));
     }
 
     fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        for element in 0..self.of(at.bodies).elements().len() {
+        for element in 0..self.on.count(at.bodies) {
             self.add_part(at, element, f);
         }
     }
@@ -137,25 +129,22 @@ impl<const D: usize> ForceElement<D> for SurfaceFluid {
         if !self.is_dragged() {
             return;
         }
-        let patch = self.of(at.bodies);
+        let patch = self.on.patch(at.bodies);
         for (index, element) in patch.elements().iter().enumerate() {
             let flows = self.flows(at, index);
             let matrices: [Matrix3<f64>; AREA_PLACES] = std::array::from_fn(|place| {
                 let drag = self.places[AREA_PLACES * index + place].drag;
                 flows[place].flow.damping(drag) * self.fraction
             });
-            add_element(
-                &patch.element_nodes(index),
-                &element.area_matrix(&matrices),
-                damping,
-            );
+            let blocks = element.area_matrix(&matrices);
+            self.on.add_matrix(at.bodies, index, (&blocks, damping));
         }
     }
 
     /// Returns the power that the fluid supplies by its motion and by buoyancy, and the power that drag dissipates, W.
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let (mut on_surface, mut lost) = (N::of(0.0), N::of(0.0));
-        for (index, element) in self.of(at.bodies).elements().iter().enumerate() {
+        for (index, element) in self.on.patch(at.bodies).elements().iter().enumerate() {
             let places = self.places[AREA_PLACES * index..].iter();
             let places = places.zip(element.place_areas());
             for (flow, (own, area)) in self.flows(at, index).iter().zip(places) {
@@ -169,7 +158,7 @@ impl<const D: usize> ForceElement<D> for SurfaceFluid {
 
     /// Returns the work from one instant to another of forces that stay as they were at the first, J.
     fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
-        let patch = self.of(before.bodies);
+        let patch = self.on.patch(before.bodies);
         let mut sum = 0.0;
         for (index, element) in patch.elements().iter().enumerate() {
             let [from, to] = [before, after].map(|at| patch.element(index, at.x));
