@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 
 use crate::math::householder::{reflect, reflector};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, frame_acceleration, moment};
+use crate::math::space::{Vector, frame_acceleration, is_isotropic_below, moment};
 use crate::math::vector::{dot, norm};
 
 /// Coordinates of a node in `D` dimensions: position, then direction (the slope of a cable, the unit vector of a
@@ -108,20 +108,10 @@ pub struct Cluster {
 }
 
 impl Cluster {
-    /// Whether each of its free vectors moves the vectors of its nodes by numbers times the identity of space with so many axes.
-    pub fn is_isotropic(&self, axes: usize) -> bool {
+    /// Whether each of its free vectors moves the vectors of its nodes by numbers times the identity of space.
+    pub fn is_isotropic<const D: usize>(&self) -> bool {
         let basis = &self.basis;
-        let mut entries = (0..basis.nrows()).flat_map(|r| (0..basis.ncols()).map(move |c| (r, c)));
-        basis.ncols().is_multiple_of(axes)
-            && entries.all(|(r, c)| {
-                let is_of_axis = r % axes == c % axes;
-                basis[(r, c)]
-                    == if is_of_axis {
-                        basis[(r - r % axes, c - c % axes)]
-                    } else {
-                        0.0
-                    }
-            })
+        is_isotropic_below::<D>(basis.shape(), |_| basis.ncols(), |r, c| basis[(r, c)])
     }
 }
 

@@ -161,7 +161,7 @@ pub(super) fn late<const D: usize>(
         .collect();
     for (cluster, vertex) in clusters.iter().zip(of_cluster) {
         if let Some(vertex) = vertex {
-            late[*vertex] = !cluster.is_isotropic(D);
+            late[*vertex] = !cluster.is_isotropic::<D>();
         }
     }
     for part in parts(&graph(sizes, edges)) {

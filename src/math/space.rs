@@ -34,6 +34,24 @@ pub fn is_nothing<const D: usize, N: Number>(v: &Vector<D, N>) -> bool {
     v.iter().all(|part| part.largest() == 0.0)
 }
 
+/// Whether a matrix of so many rows and columns is numbers times the identity of space, pair of vectors by pair of vectors. Of each row the first
+/// entries are read, as many as `read` tells.
+pub fn is_isotropic_below<const D: usize>(
+    (rows, columns): (usize, usize),
+    read: impl Fn(usize) -> usize,
+    entry: impl Fn(usize, usize) -> f64,
+) -> bool {
+    rows.is_multiple_of(D)
+        && columns.is_multiple_of(D)
+        && (0..rows).all(|r| {
+            (0..read(r)).all(|c| {
+                let is_of_axis = r % D == c % D;
+                let expected = is_of_axis.then(|| entry(r - r % D, c - c % D));
+                entry(r, c) == expected.unwrap_or(0.0)
+            })
+        })
+}
+
 /// The part in the plane, turned left by a right angle.
 pub fn perpendicular<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
     let mut turned = Vector::zeros();

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use super::pattern::{Column, Pattern, of_size};
 use crate::math::lanes::{Simd, Vectorized, vectorized};
+use crate::math::space::is_isotropic_below;
 
 /// Directions of space.
 const SPACE: usize = 3;
@@ -67,22 +68,9 @@ pub(super) enum Sweep {
 
 /// Whether a block of so many columns is numbers times the identity of space; of a diagonal block what is below the diagonal is read.
 fn is_isotropic(block: &[f64], columns: usize, is_diagonal: bool) -> bool {
-    if !columns.is_multiple_of(SPACE) || !block.len().is_multiple_of(SPACE * columns) {
-        return false;
-    }
-    let entry = |r: usize, c: usize| block[r * columns + c];
     let read = |r: usize| if is_diagonal { r } else { columns };
-    (0..block.len() / columns).all(|r| {
-        (0..read(r)).all(|c| {
-            let is_of_direction = r % SPACE == c % SPACE;
-            entry(r, c)
-                == if is_of_direction {
-                    entry(r - r % SPACE, c - c % SPACE)
-                } else {
-                    0.0
-                }
-        })
-    })
+    let sizes = (block.len() / columns, columns);
+    is_isotropic_below::<SPACE>(sizes, read, |r, c| block[r * columns + c])
 }
 
 /// Whether the diagonal block of a column is numbers times the identity of space.

@@ -85,23 +85,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Multiplier of a row of a joint of an edge; zero for one that repeats others. What acts on the sections of a stiffener counts to its line.
     fn edge_multiplier(&self, system: &System<D>, row: usize) -> N {
-        let Some((cluster, k)) = system.holds[row] else {
-            return N::of(0.0);
-        };
-        let cluster = &system.elimination.assembly.clusters()[cluster];
-        let column = cluster.multipliers.row(k);
-        let supplied = |node: &usize| {
-            system
-                .bodies
-                .with_section(*node, &self.x, &self.linear_constraint_forces)
-        };
-        let mut sum = N::of(0.0);
-        for (i, node) in cluster.nodes.iter().enumerate() {
-            let supplied = supplied(node);
-            for (part, f) in supplied.as_flattened().iter().enumerate() {
-                sum += *f * N::of(column[2 * D * i + part]);
-            }
-        }
-        sum
+        let forces = &self.linear_constraint_forces;
+        system.row_multiplier(row, |node| {
+            system.bodies.with_section(node, &self.x, forces)
+        })
     }
 }

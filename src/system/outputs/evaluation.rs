@@ -311,20 +311,23 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 }
 
 impl<const D: usize> System<D> {
-    /// Multiplier of a linear row from the forces that rows supply; zero for one that repeats others.
+    /// Multiplier of a linear row from the forces that rows supply on each node; zero for one that repeats others.
     pub(super) fn row_multiplier<N: Number>(
         &self,
         row: usize,
-        linear_constraint_forces: &[Node<D, N>],
+        supplied: impl Fn(usize) -> Node<D, N>,
     ) -> N {
         match self.holds[row] {
             Some((cluster, k)) => {
                 let cluster = &self.elimination.assembly.clusters()[cluster];
                 let column = cluster.multipliers.row(k);
-                let nodes = cluster.nodes.iter();
-                let nodes = nodes.flat_map(|node| linear_constraint_forces[*node].as_flattened());
-                let terms = column.iter().zip(nodes);
-                terms.fold(N::of(0.0), |sum, (c, f)| sum + *f * N::of(*c))
+                let mut sum = N::of(0.0);
+                for (i, node) in cluster.nodes.iter().enumerate() {
+                    for (part, f) in supplied(*node).as_flattened().iter().enumerate() {
+                        sum += *f * N::of(column[2 * D * i + part]);
+                    }
+                }
+                sum
             }
             None => N::of(0.0),
         }

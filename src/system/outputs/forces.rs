@@ -23,7 +23,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut turning = Vector3::zeros();
         for (row, linear) in system.linear.iter().enumerate() {
             if linear.joint == Some(joint) {
-                let lambda = system.row_multiplier(row, &self.linear_constraint_forces);
+                let lambda = system.row_multiplier(row, |node| self.linear_constraint_forces[node]);
                 let [position, direction] = linear.on_ends[1].map(|on| on.map(N::of) * lambda);
                 force += position;
                 turning += Vector3::from(moment(&u, &direction));

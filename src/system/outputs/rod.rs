@@ -211,7 +211,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             if !joint.ends.iter().filter_map(Attachment::marker).any(&is_on) {
                 continue;
             }
-            let lambda = system.row_multiplier(row, &self.linear_constraint_forces);
+            let lambda = system.row_multiplier(row, |node| self.linear_constraint_forces[node]);
             for (end, on) in joint.ends.iter().zip(&linear.on_ends) {
                 call(&end.lift(), on.map(|on| on.map(N::of) * lambda));
             }
