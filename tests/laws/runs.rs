@@ -41,6 +41,28 @@ impl Run {
         own.map(|name| self.read(&name)).collect()
     }
 
+    /// Runs a scene that is kicked until 0.01 s and left alone after that, by an implicit and an explicit method. It has so many momenta or more;
+    /// they stay, and so does its energy.
+    pub fn check_kept(mut free: Value, momenta_at_least: usize) {
+        free["accuracy"] = json!({"relative_tolerance": 1e-8});
+        for method in ["radau", "dopri853"] {
+            free["method"] = json!({"integrator": method});
+            let mut run = Self::started(&free);
+            run.step(0.011);
+            let (momenta, energy) = (run.momenta(), run.mechanical_energy());
+            run.step(0.03);
+            let last = run.mechanical_energy();
+            assert!(
+                energy > 1e-3 && (last / energy - 1.0).abs() < 1e-6,
+                "{method} {energy} {last}"
+            );
+            assert!(momenta.len() >= momenta_at_least, "{momenta:?}");
+            for (before, after) in momenta.iter().zip(run.momenta()) {
+                assert!((after - before).abs() < 1e-8, "{method} {before} {after}");
+            }
+        }
+    }
+
     /// Computes the initial state and starts.
     pub fn start(&mut self) {
         self.0.initialize(0.0).expect("an initial state");

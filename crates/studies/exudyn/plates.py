@@ -6,7 +6,6 @@ import sys
 # The build without range checks: its faster one.
 sys.exudynFast = True
 
-import json
 import time
 
 import exudyn as exu
@@ -20,6 +19,8 @@ from exudyn.itemInterface import (
     NodePointSlope12,
     ObjectANCFThinPlate,
 )
+
+from serve import serve
 
 LINEAR = {"dense": exu.LinearSolverType.EXUdense, "sparse": exu.LinearSolverType.EigenSparse}
 
@@ -132,15 +133,5 @@ def run(options):
     return {"good": bool(good), "cpu_time": cpu, "newton": main.it.newtonStepsCount, "path": model.places()}
 
 
-def serve():
-    exu.SetWriteToConsole(False)
-    for line in sys.stdin:
-        try:
-            answer = run(json.loads(line))
-        except Exception as failure:
-            answer = {"good": False, "failure": f"{type(failure).__name__}: {failure}"[:300]}
-        print(json.dumps(answer), flush=True)
-
-
 if __name__ == "__main__":
-    serve()
+    serve(run)

@@ -13,6 +13,7 @@ import time
 import exudyn as exu
 
 from model import Model
+from serve import serve
 from space import SpaceModel
 
 LINEAR = {"dense": exu.LinearSolverType.EXUdense, "sparse": exu.LinearSolverType.EigenSparse}
@@ -99,19 +100,9 @@ def run(options):
     }
 
 
-def serve():
-    exu.SetWriteToConsole(False)
-    for line in sys.stdin:
-        try:
-            answer = run(json.loads(line))
-        except Exception as failure:
-            answer = {"good": False, "failure": f"{type(failure).__name__}: {failure}"[:300]}
-        print(json.dumps(answer), flush=True)
-
-
 def main():
     if sys.argv[1:] == ["--serve"]:
-        return serve()
+        return serve(run)
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scene")
     parser.add_argument("--marker", default="rod.tip")
