@@ -14,7 +14,8 @@ const LEAST: u32 = 8;
 /// Distance of the points of a difference in time, s.
 const NEAR: f64 = 2e-5;
 
-/// Scenes of stiff, damped shells: second derivatives in time of stress and reactions are noise (docs/book/src/theory/limits.md).
+/// Scenes of stiff shells: their fastest membrane vibrations are too quick for differences over `NEAR`, and they rule second derivatives
+/// in time of stress and reactions (docs/book/src/theory/limits.md).
 const NOISY: [&str; 2] = ["cylinder_shell.json", "leaf_spring.json"];
 
 /// Every ready scene, and those of the tests with every kind of input and output.
