@@ -16,6 +16,7 @@ GROUPS = {
     "Body": "bodies",
     "Joint": "joints",
     "Gear": "gears",
+    "Latch": "latches",
     "Motion": "motions",
     "Load": "loads",
     "Input": "inputs",
@@ -29,7 +30,7 @@ PAGES = [
     ("scene", "The scene", ["Scene", "About", "Experiment"]),
     ("bodies", "Bodies", ["Body", "Elements", "Model", "Axial", "Strain", "InitialMotion", "Mass", "PatchMarker", "Pad", "Modes", "ModesWord", "ModesUpTo", "FixedInterfaceModes", "DampingRatio"]),
     ("shapes", "Material, sections, shapes", ["Material", "Section", "Profile", "Station", "Shape", "Solid", "Inertia", "Orientation", "PatchSurface", "PatchMaterial", "LaminatePly", "PlyMaterial", "PatchStiffness"]),
-    ("joints", "Joints and gears", ["Joint", "Freedom", "Gear"]),
+    ("joints", "Joints, gears, latches", ["Joint", "Freedom", "Gear", "Latch"]),
     ("motions", "Motions", ["Motion", "MotionValue", "MasterInput"]),
     ("loads", "Loads", ["Load", "LoadValue", "CoordinateKind"]),
     ("inputs", "Inputs", ["Input"]),
@@ -45,7 +46,7 @@ COLUMNS = ["key", "type", "meaning", "unit", "bounds", "default"]
 UNIT = re.compile(r"(?:, |\()((?:1/)?(?:kg|rad|Pa|m|s|N|J)(?:\^\d)?(?:[ /](?:kg|rad|Pa|m|s|N|J)(?:\^\d)?)*)(?=[.,;:)]|$)")
 # What tells one variant from the others, and what one is of where several have one name.
 TAGS = ("element", "kind")
-OWNERS = ("marker", "joint", "motion", "gear", "body")
+OWNERS = ("marker", "joint", "motion", "gear", "latch", "body")
 
 
 def written():

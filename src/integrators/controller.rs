@@ -92,6 +92,15 @@ impl Trial {
         }
     }
 
+    /// A step of `h` (s) that is shorter than proposed, since something happens at its end, and whether that is the end of the way.
+    pub fn cut(h: f64, is_last: bool) -> Self {
+        Self {
+            is_last,
+            is_cut: true,
+            ..Self::whole(h)
+        }
+    }
+
     /// Marks the step as cut if it is shorter than the proposal `wanted`, s. `allowed` is the proposal that a pitch
     /// allows, s.
     pub fn among(self, pitch: Pitch, wanted: f64, allowed: f64) -> Self {

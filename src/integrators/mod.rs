@@ -8,6 +8,7 @@
 mod controller;
 mod dense;
 mod dopri853;
+mod events;
 mod nystrom;
 mod radau;
 mod runge_kutta;
@@ -21,8 +22,9 @@ pub use runge_kutta::{Bounds, Coefficients, RK4, RungeKutta};
 pub use selection::Methods;
 
 use crate::math::vector::norm as size;
-use crate::system::{DenseStep, Dynamics, State, StepOutcome};
+use crate::system::{DenseStep, Dynamics, Event, State, StepOutcome};
 use controller::{Controller, Pitch, Trial};
+use events::EventSearch;
 use selection::AlternativeMethod;
 
 /// Error that a step may make, and the norm in which every method measures it (decision 38).
@@ -346,6 +348,7 @@ fn advance_smoothly(
     let mut is_settled = begin(method, dynamics, state, tolerance);
     let shortest = shortest(until, state.time);
     let mut is_fresh = true;
+    let mut search = EventSearch::new(dynamics);
     loop {
         let remaining = until - state.time;
         if remaining <= 0.0 {
@@ -360,7 +363,13 @@ fn advance_smoothly(
         if dynamics.renew(state) {
             method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
         }
-        let (trial, is_beyond) = next_trial(method, dynamics, state, goal);
+        if search.begin(dynamics, state) {
+            return events::happen(dynamics, state);
+        }
+        let (trial, is_beyond) = match search.trial(remaining) {
+            Some(trial) => (trial, false),
+            None => next_trial(method, dynamics, state, goal),
+        };
         if is_beyond && !is_fresh {
             // A step that is kept follows from nothing but its start.
             return Ok(());
@@ -379,8 +388,16 @@ fn advance_smoothly(
                 }
                 is_fresh = false;
                 take(method, state, trial, until);
+                let tried = (trial.h, tolerance.relative);
+                let event = search.end(method, dynamics, state, tried, counts);
+                if matches!(event, Event::Within(_)) {
+                    continue;
+                }
                 project(method, dynamics, state)?;
                 polish_accelerations(method, dynamics, state, goal)?;
+                if event == Event::AtEnd {
+                    return events::happen(dynamics, state);
+                }
                 let since = since(dynamics, &mut counted);
                 let alike = dynamics.steps_in(tolerance.time, trial.h);
                 // The whole of a step that is cut short would have another error.

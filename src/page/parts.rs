@@ -15,6 +15,10 @@ pub(super) fn parts(scene: &Scene) -> String {
     let joints = joints.map(|joint| joint_in_words(scene.dimension, joint));
     let joints = joints.chain(resolved.edges.iter().map(edge_in_words));
     let gears = resolved.gears.iter().map(gear_in_words);
+    let latches = resolved.latches.iter().map(|latch| {
+        let [coordinate, at, conditions] = latch.words();
+        worded(&[&code(latch.name), &coordinate, &at, &conditions])
+    });
     let motions = resolved.motions.iter().map(|motion| {
         let quantity = motion.driven.quantity();
         let what = format!("{} {}", quantity.words, code(quantity.place.name()));
@@ -45,6 +49,17 @@ pub(super) fn parts(scene: &Scene) -> String {
             "",
             &["Name", "First", "Second", "Second per first"],
             gears.collect(),
+        ),
+        table(
+            "Latches",
+            "",
+            &[
+                "Name",
+                "Holds",
+                "At",
+                "State at the start, and when it opens",
+            ],
+            latches.collect(),
         ),
         table(
             "Motions",

@@ -29,7 +29,10 @@ pub fn known_actions<'a>(resolved: &'a Resolved<'a>) -> Vec<KnownAction<'a>> {
             action,
             start: &input.start,
         }),
-        InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
+        InputKind::RestLength(_)
+        | InputKind::Release(_)
+        | InputKind::Latch(_)
+        | InputKind::Current(_) => None,
     };
     let inputs = resolved.inputs.iter();
     let inputs = inputs.filter_map(|input| of_input(input, None));

@@ -1,4 +1,4 @@
-//! Parts of a scene with a symbol: joints, springs, limits, gears, motions and ports.
+//! Parts of a scene with a symbol: joints, springs, limits, gears, latches, motions and ports.
 
 use super::palette::{FAINT, MOTION, SPRING};
 use super::stroke::Stroke;
@@ -62,6 +62,13 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
             ..plain(gear.name, "gear", between(first, second))
         }
     });
+    let latches = resolved.latches.iter().map(|latch| {
+        let marker = latch.coordinate.ends().second;
+        Mark {
+            strokes: symbols::latch(),
+            ..plain(latch.name, "latch", between(marker, marker))
+        }
+    });
     let motions = resolved.motions.iter().filter_map(|motion| {
         let quantity = motion.driven.quantity();
         let strokes = symbols::motion(&quantity, dimension);
@@ -87,7 +94,7 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
         ..plain(port.name, "port", between(port.marker, port.marker))
     });
     let ports = ports.filter(|port| !port.strokes.is_empty());
-    let bound = joints.chain(loads).chain(gears);
+    let bound = joints.chain(loads).chain(gears).chain(latches);
     let all = bound.chain(motions).chain(ports);
     all.map(|mark| Mark {
         direction: mark.direction.map(unit),

@@ -1,4 +1,4 @@
-//! Symbols of joints, springs, gears, motions, ports and loads, as textbooks draw them. Each is here and nowhere else.
+//! Symbols of joints, springs, gears, latches, motions, ports and loads, as textbooks draw them. Each is here and nowhere else.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -326,6 +326,12 @@ pub fn motion(quantity: &DrivenQuantity<'_>, dimension: usize) -> Vec<Stroke> {
         _ if has_force => drives(FramePoints::Second, dimension),
         _ => vec![rotation(FramePoints::Second, MOTION)],
     }
+}
+
+/// A latch: a hook above the second marker.
+pub fn latch() -> Vec<Stroke> {
+    let arm = [at(-1.6, 1.5), at(0.5, 1.5), at(0.5, 0.9), at(0.1, 1.2)];
+    vec![SECOND.line(arm, Style::line(JOINT, 0.2))]
 }
 
 /// A port that a motion comes into; one that a force comes into is drawn as this force. Through a coupling the motion comes in beside the

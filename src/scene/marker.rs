@@ -34,6 +34,7 @@ impl<'a> Resolved<'a> {
             joints: Vec::new(),
             edges: Vec::new(),
             gears: Vec::new(),
+            latches: Vec::new(),
             motions: Vec::new(),
             loads: Vec::new(),
             initial_loads: Vec::new(),

@@ -45,7 +45,7 @@ pub use description::{
 };
 pub use elements::Chosen;
 pub use files::{Files, beside, bounded};
-pub use joints::{JointPrimitive, ResolvedGear, ResolvedJoint, Symbol};
+pub use joints::{JointPrimitive, ResolvedGear, ResolvedJoint, ResolvedLatch, Symbol};
 pub use loads::{
     ActingLoad, Action, Exerts, LoadNumber, LoadPlace, LoadWords, NumberMut, ResolvedFluid,
     ResolvedLoad, ResolvedLoadKind, TimedKey,

@@ -6,7 +6,7 @@ mod outputs;
 use std::collections::BTreeMap;
 
 use super::description::{FileBody, LineBody, PatchBody, Port as GivenPort, RigidBody, Scene};
-use super::joints::{ResolvedGear, ResolvedJoint};
+use super::joints::{ResolvedGear, ResolvedJoint, ResolvedLatch};
 use super::loads::{Action, ResolvedLoad};
 use super::motions::{Driven, ResolvedMotion};
 pub use outputs::{Output, OutputTarget, Reaction, ResolvedGauge, SectionLayer, SectionPoint};
@@ -30,7 +30,7 @@ macro_rules! numbers {
 numbers! {
     /// A marker among those of all bodies.
     MarkerId;
-    /// Owner of constraints in the system. Joints come first, then gears, motions and the constraints of ports.
+    /// Owner of constraints in the system. Joints come first, then gears, latches, motions and the constraints of ports.
     ConstraintOwnerId;
     /// A joint of kind `along` among those of its kind.
     SlideId;
@@ -332,6 +332,8 @@ pub enum InputKind<'a> {
     RestLength(&'a str),
     /// Release of the joint of this name.
     Release(&'a str),
+    /// Arming of the latch of this name.
+    Latch(&'a str),
     /// Velocity of the fluid of this name, m/s.
     Current(&'a str),
 }
@@ -425,6 +427,8 @@ pub struct Resolved<'a> {
     pub edges: Vec<ResolvedEdge<'a>>,
     /// Gears.
     pub gears: Vec<ResolvedGear<'a>>,
+    /// Latches.
+    pub latches: Vec<ResolvedLatch<'a>>,
     /// Motions, without those of ports.
     pub motions: Vec<ResolvedMotion<'a>>,
     /// Loads.

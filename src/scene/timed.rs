@@ -74,6 +74,10 @@ impl Scene {
         let is_found = self.initial.state() == InitialState::StaticEquilibrium;
         let is_kept = self.initial.loads().is_empty()
             && self.joints.iter().all(|joint| joint.release_time.is_none())
+            && self
+                .latches
+                .iter()
+                .all(|latch| latch.release_time.is_none())
             && self.bodies.iter().all(|body| body.motion().is_none());
         let mut timed = self.timed().into_iter();
         is_found && is_kept && timed.all(|timed| timed.function.is_constant())

@@ -93,9 +93,11 @@ pub enum Quantity {
     LoadForce(LoadId, usize),
     /// Component of the moment of a load on its second end; in the plane the third.
     LoadMoment(LoadId, usize),
-    /// Force of a gear on the displacement of its second joint.
+    /// State of a latch: 1 closed, 0 open.
+    LatchState(ConstraintOwnerId),
+    /// Force of a gear on the displacement of its second joint, or of a latch on that of its joint.
     GearForce(ConstraintOwnerId),
-    /// Torque of a gear on the angle of its second joint.
+    /// Torque of a gear on the angle of its second joint, or of a latch on that of its joint.
     GearTorque(ConstraintOwnerId),
     /// Component of the force on what drives a marker: opposite to the reaction.
     MotionForce(ConstraintOwnerId, usize),
@@ -203,6 +205,7 @@ pub(super) fn value<const D: usize, N: Number>(
             sliding(quantity, values, system, joint)
         }
         GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
+        LatchState(latch) => values.latch_state(system, latch.index()),
         LoadForce(..) | LoadMoment(..) | MotionForce(..) | MotionMoment(..) | CouplingForce(..)
         | CouplingMoment(..) => exerted(quantity, values, assembled),
         KineticEnergy => values.kinetic_energy(system),
@@ -411,6 +414,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         CouplingMoment(..) | LoadMoment(..) | KineticEnergy | StrainEnergy | GravityEnergy
         | SpringEnergy => (Kinematics, |by| Some(by.force * by.size)),
         Momentum(_) | AngularMomentum(_) | Resolution | Residual(_) => (Kinematics, |_| None),
+        LatchState(_) => (Kinematics, |_| None),
         Input | Dissipated => (Nothing, |_| None),
     }
 }

@@ -114,6 +114,7 @@ impl<const D: usize> System<D> {
             initial_loads: parts.initial_loads,
             angles: parts.angles,
             releases,
+            latches: Vec::new(),
             slides: Vec::new(),
             gravity: parts.gravity,
             weight: Vec::new(),
@@ -276,6 +277,7 @@ impl<const D: usize> System<D> {
                 self.slides[along.slide] = index;
             }
         }
+        self.latches = self.find_latches();
         self.tree = Tree::of(self);
     }
 }

@@ -26,6 +26,7 @@ pub use end::{Angle, Attachment, reach};
 pub use gradient::Gradient;
 pub use instant::Instant;
 pub use motion::dynamics::{DrivenSystem, Dynamics, StepOutcome};
+pub use motion::latches::Event;
 pub use motion::multipliers::ConstraintRow;
 pub use motion::rank::{HoldingParts, Redundant};
 pub use outputs::derivatives::Derivatives;
@@ -51,6 +52,7 @@ use crate::math::space::Vector;
 
 use crate::bodies::{Bodies, Elimination, Node};
 pub use joints::Release;
+use joints::latch::LatchPlace;
 use joints::{Constraint, JointEquations, Linear};
 use loads::{AppliedLoad, ForceElement as _};
 use motion::prices::Prices;
@@ -85,8 +87,10 @@ pub struct System<const D: usize = 2> {
     /// Loads that act only where the initial state is looked for.
     initial_loads: Vec<AppliedLoad<D>>,
     angles: Vec<Angle<D>>,
-    /// Releases of joints.
+    /// Releases of joints and latches.
     releases: Vec<Release>,
+    /// Latches.
+    latches: Vec<LatchPlace>,
     /// For every slide, its constraint.
     slides: Vec<usize>,
     gravity: Vector<D>,
@@ -220,7 +224,10 @@ impl<const D: usize> System<D> {
             frames: vec![NO_ROTATION; self.bodies.frame_count()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
-            released: vec![0.0; self.releases.len()],
+            released: self
+                .starts_released()
+                .map(|is| f64::from(u8::from(is)))
+                .collect(),
             driven: vec![[0.0; 5]; self.trajectories().count()],
             work: [0.0; 2],
             dense: DenseStep::blank(n),

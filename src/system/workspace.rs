@@ -1,6 +1,7 @@
 //! Scratch of a system: nothing allocates in a step.
 
 use super::joints::Release;
+use super::joints::latch::LatchMotion;
 use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
@@ -29,8 +30,17 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) acceleration: Vec<f64>,
     /// A change of `q` that no stage keeps, `[coordinates]`.
     pub(super) change: Vec<f64>,
-    /// The state accepted last, to go back to from a step that leaves a cable.
+    /// The state accepted last, to go back to from a step that leaves a cable or passes a latch.
     pub(super) before: State,
+    /// What is known of latches, `[latches]`.
+    pub(super) latches: Vec<LatchWatch>,
+}
+
+/// A latch before and after a step, and whether it is to close or to open.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LatchWatch {
+    pub motions: [LatchMotion; 2],
+    pub is_due: bool,
 }
 
 /// Configuration and rates of a system; the first part is what they follow from. [`System::forward_kinematics`] and
@@ -217,6 +227,7 @@ impl<const D: usize> Workspace<D> {
             acceleration: vec![0.0; system.coordinates()],
             change: vec![0.0; system.coordinates()],
             before: system.blank_state(0.0),
+            latches: vec![LatchWatch::default(); system.latches.len()],
         }
     }
 
@@ -283,7 +294,7 @@ impl<const D: usize> Kinematics<D> {
             trajectories: vec![Trajectory::default(); system.trajectories().count()],
             recent: vec![Recent::default(); system.drives.len()],
             releases: system.releases.clone(),
-            released: vec![false; system.releases.len()],
+            released: system.starts_released().collect(),
             frames: vec![NO_ROTATION; system.bodies.frame_count()],
             drives: vec![[0.0; 3]; system.drives.len()],
             targets: vec![[0.0; 3]; system.driven.len()],

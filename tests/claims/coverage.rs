@@ -46,9 +46,10 @@ const TOGETHER: [&str; 7] = [
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
-/// whose element is chosen says is what the element says that it becomes (`elements.rs`). Plates and shells have theirs in `patches.rs` and `tests/laws/plate_sections.rs`. What needs a file has its claims in `reduced.rs`,
+/// whose element is chosen says is what the element says that it becomes (`elements.rs`). Plates and shells have theirs in `patches.rs` and `tests/laws/plate_sections.rs`, latches in
+/// `tests/laws/latches.rs`. What needs a file has its claims in `reduced.rs`,
 /// what reduces lines to modes in `tests/laws/modal_lines.rs` and `planar_modes.rs`.
-const OWN: [&str; 32] = [
+const OWN: [&str; 37] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
@@ -70,6 +71,11 @@ const OWN: [&str; 32] = [
     "joints{pinned}",
     "joints{symmetry}",
     "joints{smooth}",
+    "latches.",
+    "inputs{latch}",
+    "outputs{latch_force}",
+    "outputs{latch_torque}",
+    "outputs{latch_state}",
     "loads{pressure}",
     "loads{area_force}",
     "inputs{pressure}",

@@ -44,7 +44,7 @@ named! { label, LABELS, Quantity:
     BendingMoment(_, 0) => "bending moment x", BendingMoment(_, 1) => "bending moment y", BendingMoment(..) => "bending moment",
     ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(_, 1) => "connectivity force y", ConnectivityForce(..) => "connectivity force z",
     Displacement(_) => "displacement", SlidingVelocity(_) => "sliding velocity", SlidingAcceleration(_) => "sliding acceleration",
-    GearForce(_) => "gear force", GearTorque(_) => "gear torque",
+    GearForce(_) => "gear force", GearTorque(_) => "gear torque", LatchState(_) => "latch state",
     LoadForce(_, 0) => "load force x", LoadForce(_, 1) => "load force y", LoadForce(..) => "load force z",
     LoadMoment(_, 0) => "load moment x", LoadMoment(_, 1) => "load moment y", LoadMoment(..) => "load moment",
     Travel(_) => "travel", Reaction(_, 0, Along::Global) => "reaction x", Reaction(_, 1, Along::Global) => "reaction y", Reaction(_, _, Along::Global) => "reaction z",

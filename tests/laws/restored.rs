@@ -88,6 +88,29 @@ fn releases() -> Vec<Told> {
     found
 }
 
+/// A latch that catches a bar, is opened by an input, and catches it again.
+fn latched() -> Vec<Told> {
+    let scene = |dimension: usize| {
+        let mut joint =
+            json!({"name": "hold", "kind": "revolute", "markers": ["ground", "bar.end"]});
+        if dimension == 3 {
+            joint["direction"] = json!([0.0, 1.0, 0.0]);
+        }
+        let at = if dimension == 3 { 0.4 } else { -0.4 };
+        let latch = json!({"name": "catch", "joint": "hold", "at": at});
+        let input = json!({"kind": "latch", "latch": "catch"});
+        with(
+            dimension,
+            json!({"joints": [joint], "latches": [latch], "inputs": [input]}),
+        )
+    };
+    let told = |dimension: usize| Told {
+        scene: scene(dimension),
+        set: |run, k| run.set("catch.latch", f64::from(u8::from(k != 20))),
+    };
+    vec![told(2), told(3)]
+}
+
 /// A ball on a spring with a damper that is pulled slowly, under Radau, whose steps lead far beyond communication points.
 fn dense() -> Told {
     let scene = json!({"name": "dense", "dimension": 2, "gravity": [0.0, 0.0],
@@ -162,6 +185,7 @@ fn goes_on_as_it_did(told: &Told) {
 #[test]
 fn what_follows_a_restored_state_is_what_followed_it() {
     releases().iter().for_each(goes_on_as_it_did);
+    latched().iter().for_each(goes_on_as_it_did);
     goes_on_as_it_did(&driven());
 }
 

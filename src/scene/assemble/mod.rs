@@ -208,6 +208,7 @@ impl Resolved<'_> {
         builder.joints();
         builder.edges();
         builder.gears();
+        builder.latches();
         builder.motions();
         let first_load = builder.parts.loads.len();
         builder.loads()?;

@@ -27,6 +27,8 @@ kinds! {
         RestLength(RestLengthInput),
         /// Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
         Release(ReleaseInput),
+        /// Whether a latch may close: above 0 it may, else it is open. Read at the start of each communication step.
+        Latch(LatchInput),
         /// Velocity of a fluid in global axes, m/s.
         Current(CurrentInput),
     }
@@ -133,6 +135,16 @@ pub struct ReleaseInput {
     pub start: Vec<f64>,
 }
 
+/// The arming of a latch that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LatchInput {
+    /// Name of the latch that is armed and opened.
+    pub latch: String,
+    /// Value before the master sets it: one value; 1 by default, which arms the latch.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
 /// A velocity of a fluid that the master sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CurrentInput {
@@ -154,7 +166,9 @@ impl Input {
             Self::DistributedMoment(of) => (ActionKind::DistributedMoment, &of.body, of.follower),
             Self::Pressure(of) => (ActionKind::Pressure, &of.body, false),
             Self::AreaForce(of) => (ActionKind::AreaForce, &of.body, false),
-            Self::RestLength(_) | Self::Release(_) | Self::Current(_) => return None,
+            Self::RestLength(_) | Self::Release(_) | Self::Latch(_) | Self::Current(_) => {
+                return None;
+            }
         };
         Some(Acting { kind, on, follower })
     }
@@ -171,6 +185,7 @@ impl Input {
             Self::AreaForce(of) => &of.start,
             Self::RestLength(of) => &of.start,
             Self::Release(of) => &of.start,
+            Self::Latch(of) => &of.start,
             Self::Current(of) => &of.start,
         }
     }

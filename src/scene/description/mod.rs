@@ -28,7 +28,7 @@ use schemars::JsonSchema;
 use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize};
 
-use super::joints::{Gear, Joint};
+use super::joints::{Gear, Joint, Latch};
 use super::loads::Load;
 use super::motions::Motion;
 
@@ -90,6 +90,9 @@ pub struct Scene {
     /// Gears between joints.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gears: Vec<Gear>,
+    /// Latches on joints.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub latches: Vec<Latch>,
     /// Driven positions, angles and displacements.
     #[serde(default)]
     pub motions: Vec<Motion>,

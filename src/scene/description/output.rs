@@ -98,6 +98,12 @@ kinds! {
         GearForce(OfGear),
         /// Torque of a gear on the angle of its second joint, N m; on the coordinate of the first acts minus the ratio times that.
         GearTorque(OfGear),
+        /// Force of a closed latch on the displacement of its joint, N; 0 while it is open.
+        LatchForce(OfLatch),
+        /// Torque of a closed latch on the angle of its joint, N m; 0 while it is open.
+        LatchTorque(OfLatch),
+        /// State of a latch: 1 while it is closed, 0 while it is open.
+        LatchState(OfLatch),
         /// Force of a load on its second marker, N: of a `spring_damper`, a `table_spring`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
         /// `contact` on its marker or on the whole body.
         LoadForce(OfLoad),
@@ -316,6 +322,13 @@ pub struct OfGear {
     pub gear: String,
 }
 
+/// A quantity of a latch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OfLatch {
+    /// Name of the latch.
+    pub latch: String,
+}
+
 /// A force or a moment of a load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OfLoad {
@@ -405,6 +418,7 @@ impl Output {
                 return either(&of.motion, &of.joint);
             }
             Self::GearForce(of) | Self::GearTorque(of) => &of.gear,
+            Self::LatchForce(of) | Self::LatchTorque(of) | Self::LatchState(of) => &of.latch,
             Self::LoadForce(of) | Self::LoadMoment(of) => &of.load,
             Self::Energy(_)
             | Self::Work(_)

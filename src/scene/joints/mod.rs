@@ -9,6 +9,7 @@ mod edge;
 mod ends;
 mod gear;
 mod generic;
+mod latch;
 mod orientation;
 mod planar;
 mod point_on_cable;
@@ -22,6 +23,7 @@ mod universal;
 mod weld;
 
 pub use gear::{Gear, ResolvedGear};
+pub use latch::{Latch, ResolvedLatch};
 pub use primitive::JointPrimitive;
 pub use revolute::Revolute;
 
@@ -366,7 +368,7 @@ impl<'a> Resolved<'a> {
                 slide,
                 release: release_time.map(|time| Release {
                     time: Some(time),
-                    input: None,
+                    ..Release::default()
                 }),
             });
         }

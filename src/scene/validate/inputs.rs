@@ -44,6 +44,7 @@ impl<'a> Resolved<'a> {
                 resolved::InputKind::Action(action) => action.on.name(),
                 resolved::InputKind::RestLength(name)
                 | resolved::InputKind::Release(name)
+                | resolved::InputKind::Latch(name)
                 | resolved::InputKind::Current(name) => name,
             };
             let follower = input.action().is_some_and(|acting| acting.follower);
@@ -84,6 +85,10 @@ impl<'a> Resolved<'a> {
             Input::Release(of) => {
                 self.set_release(&at("joint"), &of.joint, first)?;
                 (resolved::InputKind::Release(&of.joint), vec![0.0])
+            }
+            Input::Latch(of) => {
+                self.set_latch(&at("latch"), &of.latch, first)?;
+                (resolved::InputKind::Latch(&of.latch), vec![1.0])
             }
             Input::Current(of) => {
                 let start = self.set_current(&at("load"), &of.load, first)?;

@@ -56,6 +56,7 @@ impl Scene {
         resolved.resolve_masses()?;
         resolved.resolve_joints()?;
         resolved.resolve_gears()?;
+        resolved.resolve_latches()?;
         resolved.resolve_motions()?;
         resolved.resolve_loads()?;
         resolved.resolve_inputs()?;
@@ -85,12 +86,13 @@ impl Scene {
         self.resolve().expect("a valid scene")
     }
 
-    /// Bodies, joints, gears, motions, loads and ports share their names.
+    /// Bodies, joints, gears, latches, motions, loads and ports share their names.
     fn validate_names(&self) -> Result<(), Error> {
         let mut names = BTreeSet::new();
         let bodies = self.bodies.iter().map(|body| body.name());
         let joints = self.joints.iter().map(|joint| joint.name.as_str());
         let gears = self.gears.iter().map(|gear| gear.name.as_str());
+        let latches = self.latches.iter().map(|latch| latch.name.as_str());
         let motions = self.motions.iter().map(|motion| motion.name.as_str());
         let loads = self.loads.iter().map(|load| load.name.as_str());
         let ports = self.ports.iter().map(|port| port.name.as_str());
@@ -99,6 +101,7 @@ impl Scene {
         let all = bodies.enumerate().map(named("bodies"));
         let all = all.chain(joints.enumerate().map(named("joints")));
         let all = all.chain(gears.enumerate().map(named("gears")));
+        let all = all.chain(latches.enumerate().map(named("latches")));
         let all = all.chain(motions.enumerate().map(named("motions")));
         let all = all.chain(loads.enumerate().map(named("loads")));
         let all = all.chain(initial.enumerate().map(named("initial.loads")));

@@ -210,6 +210,9 @@ impl<'a> Resolved<'a> {
             Output::ReactionMoment(of) => OutputTarget::Reaction(self.reaction(path, of, true)?),
             Output::GearForce(of) => self.gear(&at("gear"), &of.gear, false)?,
             Output::GearTorque(of) => self.gear(&at("gear"), &of.gear, true)?,
+            Output::LatchForce(of) => self.latch(&at("latch"), &of.latch, Some(false))?,
+            Output::LatchTorque(of) => self.latch(&at("latch"), &of.latch, Some(true))?,
+            Output::LatchState(of) => self.latch(&at("latch"), &of.latch, None)?,
             Output::LoadForce(of) => self.exerting(&at("load"), &of.load, false)?,
             Output::LoadMoment(of) => self.exerting(&at("load"), &of.load, true)?,
             Output::Energy(_)
@@ -295,6 +298,31 @@ impl<'a> Resolved<'a> {
             return Err(expected(path, wanted, quoted(name)));
         }
         Ok(OutputTarget::Gear(gear.name, gear.holder))
+    }
+
+    /// A latch; one on an angle, or on a displacement, where that is wanted.
+    fn latch(
+        &self,
+        path: &str,
+        name: &str,
+        is_torque: Option<bool>,
+    ) -> Result<OutputTarget<'a>, Error> {
+        let Some(latch) = self.latches.iter().find(|latch| latch.name == name) else {
+            let known = self.latches.iter().map(|latch| latch.name);
+            return Err(unknown(path, "a latch of this scene", name, known));
+        };
+        let is_angle = latch.coordinate.is_angle();
+        match is_torque {
+            Some(true) if !is_angle => {
+                let wanted = "a latch on an angle; latch_force reads displacements";
+                Err(expected(path, wanted, quoted(name)))
+            }
+            Some(false) if is_angle => {
+                let wanted = "a latch on a displacement; latch_torque reads angles";
+                Err(expected(path, wanted, quoted(name)))
+            }
+            _ => Ok(OutputTarget::Latch(latch.name, latch.holder)),
+        }
     }
 
     fn exerting(&self, path: &str, name: &str, is_moment: bool) -> Result<OutputTarget<'a>, Error> {

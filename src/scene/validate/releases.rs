@@ -1,6 +1,6 @@
 //! Checks of joints that can be released.
 
-use super::checks::{expected, quoted};
+use super::checks::{expected, quoted, unknown};
 use crate::scene::Error;
 use crate::scene::loads::LoadPlace;
 use crate::scene::resolved::{ConstraintOwnerId, InputKind, Resolved};
@@ -22,6 +22,19 @@ impl Resolved<'_> {
             return Err(self.no_joint(path, name));
         };
         joint.release.get_or_insert(Release::default()).input = Some(first);
+        Ok(())
+    }
+
+    /// Makes a latch one that an input arms and opens.
+    ///
+    /// # Errors
+    /// The latch does not exist.
+    pub(super) fn set_latch(&mut self, path: &str, name: &str, first: usize) -> Result<(), Error> {
+        let known = self.latches.iter().map(|latch| latch.name);
+        let Some(place) = self.latches.iter().position(|latch| latch.name == name) else {
+            return Err(unknown(path, "a latch of this scene", name, known));
+        };
+        self.latches[place].conditions.input = Some(first);
         Ok(())
     }
 
@@ -50,6 +63,9 @@ impl Resolved<'_> {
         let mut found = Vec::new();
         for gear in &self.gears {
             found.extend(gear.coordinates.iter().map(|on| (on.joint(), gear.name)));
+        }
+        for latch in &self.latches {
+            found.push((latch.coordinate.joint(), latch.name));
         }
         for motion in &self.motions {
             if let LoadPlace::Coordinate(on) = motion.driven.quantity().place {

@@ -232,7 +232,7 @@ fn nature(source: Source) -> Option<Nature> {
         | MotionMoment(..) => (Measure::Elastic, true, true),
         Momentum(_) | AngularMomentum(_) => (Measure::Sum, false, true),
         KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy | Input | Dissipated
-        | Resolution | Residual(_) => (Measure::Sum, false, false),
+        | Resolution | Residual(_) | LatchState(_) => (Measure::Sum, false, false),
     };
     Some(Nature {
         measure,

@@ -142,6 +142,7 @@ fn words(
             return ("rest_length", "Length at rest of", Some(METRE), &[""]);
         }
         InputKind::Release(_) => return ("release", RELEASES, None, &[""]),
+        InputKind::Latch(_) => return ("latch", "Arming (above 0) of", None, &[""]),
         InputKind::Current(_) => {
             return ("current", "Velocity of", Some(METRE_PER_SECOND), &AXES);
         }
@@ -198,7 +199,10 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     let (key, what, unit, ways) = words(input);
     let of = match &input.kind {
         InputKind::Action(action) => action.on.name(),
-        InputKind::RestLength(of) | InputKind::Release(of) | InputKind::Current(of) => of,
+        InputKind::RestLength(of)
+        | InputKind::Release(of)
+        | InputKind::Latch(of)
+        | InputKind::Current(of) => of,
     };
     let (name, before) = (
         format!("{}.{key}", port.unwrap_or(of)),

@@ -108,7 +108,8 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         Kind::Acceleration => vec![("acceleration", "Acceleration of {}", Some(METRE_PER_SECOND_2), Vector, Read::Moving(Acceleration, SlidingAcceleration))],
         Kind::Displacement => vec![("displacement", "Displacement of {}", Some(METRE), Scalar, Read::Joint(Displacement))],
         Kind::Deflection => vec![("deflection", "Deflection of {}", Some(METRE), Vector, Read::Deflected(Deflection))],
-        Kind::GearForce | Kind::GearTorque | Kind::LoadForce | Kind::LoadMoment => exerted(kind),
+        Kind::GearForce | Kind::GearTorque | Kind::LatchForce | Kind::LatchTorque | Kind::LatchState | Kind::LoadForce
+        | Kind::LoadMoment => exerted(kind),
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation))],
         Kind::Quaternion => vec![("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion))],
@@ -173,7 +174,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
     }
 }
 
-/// Lists the rows of forces and moments of gears and loads.
+/// Lists the rows of forces and moments of gears, latches and loads.
 #[rustfmt::skip] // a table
 fn exerted(kind: OutputKind) -> Vec<OutputRow> {
     use OutputKind as Kind;
@@ -182,6 +183,9 @@ fn exerted(kind: OutputKind) -> Vec<OutputRow> {
     match kind {
         Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
         Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
+        Kind::LatchForce => vec![("latch_force", "Force of {} on the displacement of its joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
+        Kind::LatchTorque => vec![("latch_torque", "Torque of {} on the angle of its joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
+        Kind::LatchState => vec![("latch_state", "State of {}: 1 closed, 0 open", None, Scalar, Read::Joint(LatchState))],
         Kind::LoadForce => vec![("force", "Force of {}", Some(NEWTON), Vector, Read::Load(LoadForce))],
         _ => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Rotational, Read::Load(LoadMoment))],
     }
@@ -338,7 +342,7 @@ fn words<'a>(of: &OutputTarget<'a>) -> (&'a str, String) {
             let what = format!("the second marker of {} along its line", slider.name);
             (slider.name, what)
         }
-        OutputTarget::Gear(gear, _) => (gear, (*gear).into()),
+        OutputTarget::Gear(of, _) | OutputTarget::Latch(of, _) => (of, (*of).into()),
         OutputTarget::Load(load, _, on) => {
             let on = on.map_or("the body that it acts along", |marker| marker.name);
             (load, format!("{load} on {on}"))
@@ -381,7 +385,9 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         (Read::Moving(_, quantity) | Read::Joint(quantity), OutputTarget::Sliding(slider)) => {
             quantity(slider.joint)
         }
-        (Read::Joint(quantity), OutputTarget::Gear(_, holder)) => quantity(*holder),
+        (Read::Joint(quantity), OutputTarget::Gear(_, holder) | OutputTarget::Latch(_, holder)) => {
+            quantity(*holder)
+        }
         (Read::Load(quantity), OutputTarget::Load(_, load, _)) => quantity(*load, k),
         (Read::Counted(quantity), OutputTarget::Angle(_, angle)) => quantity(*angle),
         (Read::Points(quantity), OutputTarget::Points(_, first, _)) => quantity(first.after(k)),

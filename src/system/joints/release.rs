@@ -2,16 +2,19 @@
 //! released, a constraint is identically zero and does not count. A release is not an impact: positions and velocities stay continuous.
 
 use super::Constraint;
+use super::latch::LatchConditions;
 use crate::math::switches::grain;
 use crate::system::{Kinematics, State};
 
-/// Time and input of the permanent release of a joint.
+/// Time and input of the permanent release of a joint or a latch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Release {
     /// At this time, s.
     pub time: Option<f64>,
     /// In the first step that begins with this input above 0.
     pub input: Option<usize>,
+    /// The latch that it belongs to: one that is open counts as released.
+    pub latch: Option<LatchConditions>,
 }
 
 impl Release {

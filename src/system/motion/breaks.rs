@@ -90,6 +90,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
     pub(in crate::system) fn enter(&mut self, from: f64, until: f64) -> f64 {
         let (first, last) = (from + grain(from), until + grain(until));
         self.work.kinematics.release_at(from, self.inputs);
+        self.open_latches();
         let found = self.system.next_break(first, last);
         self.crossing = found;
         self.work.kinematics.smooth_interval = match (self.system.has_breaks, found) {
@@ -101,10 +102,11 @@ impl<const D: usize> DrivenSystem<'_, D> {
     }
 
     /// Until when, `to` at the latest, functions of time have no kink or jump; `from` where inputs drive a motion, and where
-    /// slides are followed from one communication point to the next.
+    /// slides and latches are followed from one communication point to the next.
     pub(in crate::system) fn goes_on_until(&self, from: f64, to: f64) -> f64 {
         let system = self.system;
-        if system.trajectories().next().is_some() || !system.slides.is_empty() {
+        let is_followed = !system.slides.is_empty() || !system.latches.is_empty();
+        if is_followed || system.trajectories().next().is_some() {
             return from;
         }
         let found = system.next_break(from + grain(from), to + grain(to));

@@ -3,6 +3,7 @@
 
 use nalgebra::Complex;
 
+use super::latches::Event;
 use crate::bodies::{Derivative, Node, RENEWED};
 use crate::system::instant::Instant;
 use crate::system::loads::ForceElement as _;
@@ -81,6 +82,23 @@ pub trait Dynamics {
     /// inputs stay as they are; `from` where a step may not lead beyond the communication point.
     fn unchanged_until(&self, from: f64, _to: f64) -> f64 {
         from
+    }
+    /// Whether something may happen within a step that ends it. Nothing may where a step leads beyond a communication point.
+    fn awaits_events(&self) -> bool {
+        false
+    }
+    /// Remembers a state that a step begins at. Whether something happens there.
+    fn remember(&mut self, _state: &State) -> bool {
+        false
+    }
+    /// Finds what happens first in a step from the remembered state, which is what the state becomes again where the step is to be
+    /// shorter; of a last attempt it never is.
+    fn event(&mut self, _state: &mut State, _tolerance: f64, _is_last: bool) -> Event {
+        Event::None
+    }
+    /// Lets happen what was found at a state.
+    fn switch(&mut self, _state: &mut State) -> StepOutcome {
+        StepOutcome::AsIs
     }
     /// Whether it has done as much work as it may.
     fn is_exhausted(&self) -> bool;
@@ -541,6 +559,22 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
 
     fn unchanged_until(&self, from: f64, to: f64) -> f64 {
         self.goes_on_until(from, to)
+    }
+
+    fn awaits_events(&self) -> bool {
+        !self.system.latches.is_empty()
+    }
+
+    fn remember(&mut self, state: &State) -> bool {
+        self.remember_latches(state)
+    }
+
+    fn event(&mut self, state: &mut State, tolerance: f64, is_last: bool) -> Event {
+        self.find_event(state, tolerance, is_last)
+    }
+
+    fn switch(&mut self, state: &mut State) -> StepOutcome {
+        self.switch_latches(state)
     }
 
     fn is_exhausted(&self) -> bool {

@@ -51,11 +51,19 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         (force, turning.into())
     }
 
-    /// Force (N) or torque (N m) of a gear on the coordinate of its second joint.
+    /// Force (N) or torque (N m) of a gear on the coordinate of its second joint, or of a latch on that of its joint.
     pub fn gear(&self, system: &System<D>, gear: usize) -> N {
         let rows = system.constraints.iter().zip(&self.lambda);
         let mut own = rows.filter(|(constraint, _)| constraint.joint == Some(gear));
         own.next().map_or(N::of(0.0), |(_, lambda)| -*lambda)
+    }
+
+    /// State of a latch: 1 closed, 0 open.
+    pub fn latch_state(&self, system: &System<D>, latch: usize) -> N {
+        let mut constraints = system.constraints.iter();
+        let own = constraints.find(|constraint| constraint.joint == Some(latch));
+        let is_closed = own.is_some_and(|own| !own.is_released(&self.released));
+        N::of(f64::from(u8::from(is_closed)))
     }
 
     /// Force (N) and moment (N m), in the plane its third component, of a coupling on what it couples to.

@@ -396,6 +396,13 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /gears | [{"name": "g", "joints": ["elbow", "none"], "ratio": 0.5}] | gears[0].joints[1]: expected a joint of this scene
         /gears | [{"name": "g", "joints": ["elbow", "ball"], "ratio": 0.5}] | gears[0].joints[1]: expected a joint with an angle or along a line
         /gears | [{"name": "g", "joints": ["elbow", "elbow"], "ratio": 0.5}] | gears[0].joints: expected two joints, found "elbow" twice
+        /latches | [{"name": "l", "joint": "elbow", "at": 0.5}, {"name": "m", "joint": "rail", "most_force": 2.0}] | accepted
+        /latches | [{"name": "elbow", "joint": "elbow"}] | latches[0].name: expected a name not used yet
+        /latches | [{"name": "l", "joint": "none"}] | latches[0].joint: expected a joint of this scene
+        /latches | [{"name": "l", "joint": "ball"}] | latches[0].joint: expected a joint with an angle or along a line
+        /latches | [{"name": "l", "joint": "elbow", "coordinate": "displacement"}] | latches[0].joint: expected a joint along a line
+        /latches | [{"name": "l", "joint": "elbow", "from_time": -1}] | latches[0].from_time: expected a number that is not negative (s), found -1
+        /latches | [{"name": "l", "joint": "elbow", "least_force": 2, "most_force": 1}] | latches[0].most_force: expected more than least_force = 2, found 1
         /gears | [{"name": "g", "joints": ["elbow", "rail"], "ratio": 0}] | gears[0].ratio: expected a number that is not zero (m/rad), found 0
         /outputs/0 | {"kind": "gear_torque", "gear": "g"} | outputs[0].gear: expected a gear of this scene
         /outputs/0 | {"kind": "displacement", "joint": "elbow"} | outputs[0].joint: expected a joint along a line
