@@ -394,6 +394,22 @@ class ReleaseInput(Part):
     """
 
 
+class LatchInput(Part):
+    """
+    Whether a latch may close: above 0 it may, else it is open. Read at the start of each communication step.
+    """
+
+    kind: Literal["latch"] = "latch"
+    latch: StrictStr
+    """
+    Name of the latch that is armed and opened.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets it: one value; 1 by default, which arms the latch.
+    """
+
+
 class CurrentInput(Part):
     """
     Velocity of a fluid in global axes, m/s.
@@ -422,6 +438,7 @@ Input = TypeAliasType(
         | AreaForceInput
         | RestLengthInput
         | ReleaseInput
+        | LatchInput
         | CurrentInput,
         Field(discriminator="kind"),
     ],
@@ -572,6 +589,50 @@ class Smooth(Part):
     """
     Time at which the joint is released for good, s. No spring, load or motion may act on its coordinates. An input of kind `release`
     does the same. A release is no impact: positions and velocities stay continuous, and reactions are zero from then on.
+    """
+
+
+class Latch(Part):
+    """
+    A latch: it closes when the coordinate of a joint passes a value, and holds it there. It closes as in a plastic impact: no
+    energy is won, and momentum is kept where nothing holds the bodies.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    joint: StrictStr
+    """
+    The joint whose coordinate is held.
+    """
+    at: StrictFloat | None = None
+    """
+    Value of the coordinate that the latch holds, m or rad; by default that in the shapes and positions of the scene.
+    """
+    closed: StrictBool | None = None
+    """
+    Whether it is closed at the start. The scene is then put together with the coordinate at `at`.
+    """
+    coordinate: CoordinateKind | None = None
+    """
+    Which coordinate of the joint; by default the angle of one with an axis, else the displacement.
+    """
+    from_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Time from which on it may close, s.
+    """
+    least_force: StrictFloat | None = None
+    """
+    Least force on the coordinate (N, or N m for an angle): below it the latch opens. By default there is none.
+    """
+    most_force: StrictFloat | None = None
+    """
+    Largest force on the coordinate (N, or N m for an angle): above it the latch opens. By default there is none.
+    """
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Time at which it opens for good, s.
     """
 
 
@@ -1391,6 +1452,42 @@ class GearTorqueOutput(Part):
     """
 
 
+class LatchForceOutput(Part):
+    """
+    Force of a closed latch on the displacement of its joint, N; 0 while it is open.
+    """
+
+    kind: Literal["latch_force"] = "latch_force"
+    latch: StrictStr
+    """
+    Name of the latch.
+    """
+
+
+class LatchTorqueOutput(Part):
+    """
+    Torque of a closed latch on the angle of its joint, N m; 0 while it is open.
+    """
+
+    kind: Literal["latch_torque"] = "latch_torque"
+    latch: StrictStr
+    """
+    Name of the latch.
+    """
+
+
+class LatchStateOutput(Part):
+    """
+    State of a latch: 1 while it is closed, 0 while it is open.
+    """
+
+    kind: Literal["latch_state"] = "latch_state"
+    latch: StrictStr
+    """
+    Name of the latch.
+    """
+
+
 class LoadForceOutput(Part):
     """
     Force of a load on its second marker, N: of a `spring_damper`, a `table_spring`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
@@ -1539,6 +1636,9 @@ Output = TypeAliasType(
         | ReactionMomentOutput
         | GearForceOutput
         | GearTorqueOutput
+        | LatchForceOutput
+        | LatchTorqueOutput
+        | LatchStateOutput
         | LoadForceOutput
         | LoadMomentOutput
         | EnergyOutput
@@ -4079,6 +4179,10 @@ class Scene(Part):
     joints: Annotated[list[Joint], Field(validate_default=True)] = []
     """
     Joints to ground and between bodies.
+    """
+    latches: Annotated[list[Latch], Field(validate_default=True)] = []
+    """
+    Latches on joints.
     """
     loads: Annotated[list[Load], Field(validate_default=True)] = []
     """
