@@ -16,7 +16,7 @@ pub struct LatchConditions {
     pub is_closed: bool,
     /// From this time on it may close, s.
     pub from: f64,
-    /// It may close only in steps that begin with this input above 0, and it opens in one that does not.
+    /// Index of the input that arms it: it may close only in steps that begin with this input above 0, and opens in one that does not.
     pub input: Option<usize>,
     /// Forces on the coordinate (N, or N m for an angle) beyond which it opens: least and largest.
     pub range: [f64; 2],
@@ -44,9 +44,9 @@ impl LatchConditions {
 pub struct LatchPlace {
     /// When it closes and opens.
     pub latch: LatchConditions,
-    /// Its index among what can be released.
+    /// Index of the latch among what can be released.
     pub release: usize,
-    /// Its constraint.
+    /// Index of the constraint.
     pub constraint: usize,
 }
 
