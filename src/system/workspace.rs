@@ -32,7 +32,7 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) change: Vec<f64>,
     /// The state accepted last, to go back to from a step that leaves a cable or passes a latch.
     pub(super) before: State,
-    /// What is known of latches, `[latches]`.
+    /// Motions of latches over the last step, `[latches]`.
     pub(super) latches: Vec<LatchWatch>,
 }
 

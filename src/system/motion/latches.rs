@@ -13,7 +13,7 @@ const ROUNDOFF: f64 = 1e-13;
 /// Force beyond its range at which a latch opens, relative.
 const BEYOND: f64 = 1e-6;
 
-/// What an accepted step means for latches.
+/// Meaning of an accepted step for latches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
     /// Nothing.
@@ -25,7 +25,7 @@ pub enum Event {
 }
 
 impl<const D: usize> System<D> {
-    /// What can be released and is so before a motion begins: latches that are open.
+    /// Tells of everything that can be released whether it is so before a motion begins: latches that are open.
     pub(in crate::system) fn starts_released(&self) -> impl Iterator<Item = bool> {
         let latches = self.releases.iter().map(|release| release.latch);
         latches.map(|latch| latch.is_some_and(|latch| !latch.is_closed))
