@@ -34,7 +34,8 @@ impl EventSearch {
 
     /// Remembers where a step begins. Whether something happens there.
     pub fn begin(&self, dynamics: &mut dyn Dynamics, state: &State) -> bool {
-        self.is_on && dynamics.remember(state)
+        // A step that is cut begins where the one before it did.
+        self.is_on && self.cut.is_none() && dynamics.remember(state)
     }
 
     /// The step that was cut, if one was.

@@ -220,8 +220,8 @@ impl SplineTable {
     pub(super) fn cubic(&self, i: usize) -> (f64, [f64; 3]) {
         let step = self.times[i + 1] - self.times[i];
         let rise = self.values[i + 1] - self.values[i];
-        let (a, b) = (step * self.slopes[i], step * self.slopes[i + 1]);
-        (step, [a, 3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise])
+        let slopes = [i, i + 1].map(|i| step * self.slopes[i]);
+        (step, hermite(rise, slopes))
     }
 
     /// Third derivative of a spline.
@@ -249,6 +249,11 @@ impl SplineTable {
             (2.0 * square + 6.0 * s * cube) / (step * step),
         ]
     }
+}
+
+/// `a`, `b`, `c` of the cubic `a s + b s^2 + c s^3` that rises by so much from 0 to 1, with these slopes at both ends.
+pub fn hermite(rise: f64, [a, b]: [f64; 2]) -> [f64; 3] {
+    [a, 3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise]
 }
 
 /// Slopes of the cubic spline with these slopes at both ends: continuous second derivatives at the

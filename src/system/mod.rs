@@ -26,7 +26,6 @@ pub use end::{Angle, Attachment, reach};
 pub use gradient::Gradient;
 pub use instant::Instant;
 pub use motion::dynamics::{DrivenSystem, Dynamics, StepOutcome};
-pub use motion::latches::Event;
 pub use motion::multipliers::ConstraintRow;
 pub use motion::rank::{HoldingParts, Redundant};
 pub use outputs::derivatives::Derivatives;
@@ -52,6 +51,7 @@ use crate::math::space::Vector;
 
 use crate::bodies::{Bodies, Elimination, Node};
 pub use joints::Release;
+pub use joints::latch::Event;
 use joints::latch::LatchPlace;
 use joints::{Constraint, JointEquations, Linear};
 use loads::{AppliedLoad, ForceElement as _};

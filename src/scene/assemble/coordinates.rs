@@ -67,16 +67,38 @@ impl<const D: usize> Builder<'_, D> {
     pub(crate) fn related(&mut self, both: &[JointCoordinate<'_>; 2], ratio: f64) -> Primitive<D> {
         let [first, second] = both.each_ref().map(|of| self.coordinate(of));
         let offset = self.at_start(&second) - ratio * self.at_start(&first);
-        let size = match both[1] {
-            JointCoordinate::Displacement(_) => self.size_of(&second.ends()),
-            JointCoordinate::Angle(_) => 1.0,
-        };
+        let size = self.size_on(&second);
         Primitive::Coupler(Coupler {
             terms: vec![(-ratio, first), (1.0, second)],
             offset,
             drive: None,
             size,
         })
+    }
+
+    /// A coordinate is held at an offset (m or rad), and at a driven coordinate beside it.
+    pub(crate) fn held(
+        &self,
+        coordinate: Coordinate<D>,
+        offset: f64,
+        drive: Option<usize>,
+    ) -> Primitive<D> {
+        let size = self.size_on(&coordinate);
+        Primitive::Coupler(Coupler {
+            terms: vec![(1.0, coordinate)],
+            offset,
+            drive,
+            size,
+        })
+    }
+
+    /// Returns the reference size of residuals on a coordinate: m, or 1 for an angle.
+    fn size_on(&self, coordinate: &Coordinate<D>) -> f64 {
+        if coordinate.is_angle() {
+            1.0
+        } else {
+            self.size_of(&coordinate.ends())
+        }
     }
 
     /// The way of a screw, by its pitch.

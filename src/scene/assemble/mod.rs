@@ -32,8 +32,8 @@ use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{JointEquations, Primitive};
 use crate::system::{
-    Angle, Attachment, AxisRotation, BuildError, Gauge, Parts, State, StressLayer, StressPoint,
-    System,
+    Angle, Attachment, AxisRotation, BuildError, Gauge, Parts, Release, State, StressLayer,
+    StressPoint, System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -414,13 +414,23 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     pub(crate) fn hold(&mut self, primitive: Primitive<D>, ends: [Attachment<D>; 2]) {
+        self.hold_until(None, primitive, ends);
+    }
+
+    /// Adds a joint that can be released where there is a release.
+    pub(crate) fn hold_until(
+        &mut self,
+        release: Option<Release>,
+        primitive: Primitive<D>,
+        ends: [Attachment<D>; 2],
+    ) {
         self.parts.joints.push(JointEquations {
             holds: vec![primitive],
             ends,
             spring: None,
             turn: None,
             way: None,
-            release: None,
+            release,
         });
     }
 

@@ -1,8 +1,9 @@
 //! Latches on coordinates of joints.
 
 use super::*;
+use crate::scene::description::is_false;
 use crate::scene::resolved::JointCoordinate;
-use crate::system::joints::{Coupler, LatchConditions};
+use crate::system::joints::LatchConditions;
 
 /// A latch: it closes when the coordinate of a joint passes a value, and holds it there. It closes as in a plastic impact: no
 /// energy is won, and momentum is kept where nothing holds the bodies.
@@ -20,10 +21,10 @@ pub struct Latch {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<f64>,
     /// Whether it is closed at the start. The scene is then put together with the coordinate at `at`.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(default, skip_serializing_if = "is_false")]
     pub closed: bool,
     /// Time from which on it may close, s.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub from_time: f64,
     /// Least force on the coordinate (N, or N m for an angle): below it the latch opens. By default there is none.
@@ -36,10 +37,6 @@ pub struct Latch {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub release_time: Option<f64>,
-}
-
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// A latch with its references resolved.
@@ -62,26 +59,22 @@ pub struct ResolvedLatch<'a> {
 impl ResolvedLatch<'_> {
     /// Describes the coordinate, the value, and when the latch closes and opens.
     pub fn words(&self) -> [String; 3] {
-        let unit = if self.coordinate.is_angle() {
-            "rad"
+        let [unit, force] = if self.coordinate.is_angle() {
+            ["rad", "N m"]
         } else {
-            "m"
-        };
-        let force = if self.coordinate.is_angle() {
-            "N m"
-        } else {
-            "N"
+            ["m", "N"]
         };
         let at = match self.at {
             Some(at) => format!("{} {unit}", number(at)),
             None => "as drawn".into(),
         };
         let conditions = &self.conditions;
-        let mut found = vec![String::from(if conditions.is_closed {
+        let start = if conditions.is_closed {
             "closed"
         } else {
             "open"
-        })];
+        };
+        let mut found = vec![start.to_owned()];
         if conditions.from > 0.0 {
             found.push(format!("may close from {} s on", number(conditions.from)));
         }
@@ -106,7 +99,7 @@ impl<'a> Resolved<'a> {
     /// Resolves the latches.
     ///
     /// # Errors
-    /// A joint that does not exist, has no such coordinate or another latch on it; a value out of range.
+    /// A joint that does not exist or has no such coordinate, or a value out of range.
     pub(in crate::scene) fn resolve_latches(&mut self) -> Result<(), Error> {
         for (index, latch) in self.scene.latches.iter().enumerate() {
             let path = format!("latches[{index}]");
@@ -159,27 +152,13 @@ impl<const D: usize> Builder<'_, D> {
             let coordinate = self.coordinate(&latch.coordinate);
             let offset = latch.at.unwrap_or_else(|| self.at_start(&coordinate));
             let ends = coordinate.ends();
-            let size = match latch.coordinate {
-                JointCoordinate::Displacement(_) => self.size_of(&ends),
-                JointCoordinate::Angle(_) => 1.0,
+            let release = Release {
+                time: latch.release_time,
+                input: None,
+                latch: Some(latch.conditions),
             };
-            self.parts.joints.push(JointEquations {
-                holds: vec![Primitive::Coupler(Coupler {
-                    terms: vec![(1.0, coordinate)],
-                    offset,
-                    drive: None,
-                    size,
-                })],
-                ends,
-                spring: None,
-                turn: None,
-                way: None,
-                release: Some(Release {
-                    time: latch.release_time,
-                    input: None,
-                    latch: Some(latch.conditions),
-                }),
-            });
+            let held = self.held(coordinate, offset, None);
+            self.hold_until(Some(release), held, ends);
         }
     }
 }

@@ -36,11 +36,7 @@ impl SceneMotion for DisplacementMotion {
         if of.ends.is_grounded() {
             return Primitive::DrivenDistance(unit(of.direction), drives[0]);
         }
-        Primitive::Coupler(Coupler {
-            terms: vec![(1.0, Coordinate::Translation(builder.way(of)))],
-            offset: 0.0,
-            drive: Some(drives[0]),
-            size: builder.size_of(&builder.ends(of.ends)),
-        })
+        let coordinate = Coordinate::Translation(builder.way(of));
+        builder.held(coordinate, 0.0, Some(drives[0]))
     }
 }

@@ -26,7 +26,7 @@ use super::resolved::{
 use super::unit::*;
 use super::validate::checks::{components, expected, quoted, shape, value};
 use super::{Error, Found};
-use crate::system::joints::{Coupler, DrivenRotation, Primitive};
+use crate::system::joints::{DrivenRotation, Primitive};
 use crate::system::{Attitude, Coordinate, Drive};
 
 /// Key, meaning and unit of an input that drives a quantity, or of one that drives its first or second derivative.

@@ -53,10 +53,8 @@ pub enum OutputTarget<'a> {
     Reaction(Reaction<'a>),
     /// A joint along a line.
     Sliding(Slider<'a>),
-    /// A gear of this name.
-    Gear(&'a str, ConstraintOwnerId),
-    /// A latch, and which holder it is.
-    Latch(&'a str, ConstraintOwnerId),
+    /// A gear or a latch of this name, and which owner of constraints it is.
+    Relation(&'a str, ConstraintOwnerId),
     /// A load of this name, and the marker that it acts on; none of a contact of a body.
     Load(&'a str, LoadId, Option<ResolvedMarker<'a>>),
     /// The scene.

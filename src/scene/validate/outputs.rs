@@ -298,15 +298,12 @@ impl<'a> Resolved<'a> {
             };
             return Err(expected(path, wanted, quoted(name)));
         }
-        Ok(OutputTarget::Gear(gear.name, gear.holder))
+        Ok(OutputTarget::Relation(gear.name, gear.holder))
     }
 
     /// A latch; one on an angle for its torque, one on a displacement for its force.
     fn latch(&self, path: &str, name: &str, output: &Output) -> Result<OutputTarget<'a>, Error> {
-        let Some(latch) = self.latches.iter().find(|latch| latch.name == name) else {
-            let known = self.latches.iter().map(|latch| latch.name);
-            return Err(unknown(path, "a latch of this scene", name, known));
-        };
+        let latch = &self.latches[self.latch_place(path, name)?];
         let is_angle = latch.coordinate.is_angle();
         match output {
             Output::LatchTorque(_) if !is_angle => {
@@ -317,7 +314,7 @@ impl<'a> Resolved<'a> {
                 let wanted = "a latch on a displacement; latch_torque reads angles";
                 Err(expected(path, wanted, quoted(name)))
             }
-            _ => Ok(OutputTarget::Latch(latch.name, latch.holder)),
+            _ => Ok(OutputTarget::Relation(latch.name, latch.holder)),
         }
     }
 

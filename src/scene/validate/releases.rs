@@ -30,12 +30,20 @@ impl Resolved<'_> {
     /// # Errors
     /// The latch does not exist.
     pub(super) fn set_latch(&mut self, path: &str, name: &str, first: usize) -> Result<(), Error> {
-        let known = self.latches.iter().map(|latch| latch.name);
-        let Some(place) = self.latches.iter().position(|latch| latch.name == name) else {
-            return Err(unknown(path, "a latch of this scene", name, known));
-        };
+        let place = self.latch_place(path, name)?;
         self.latches[place].conditions.input = Some(first);
         Ok(())
+    }
+
+    /// Finds a latch by its name: its place in the list.
+    ///
+    /// # Errors
+    /// The latch does not exist.
+    pub(super) fn latch_place(&self, path: &str, name: &str) -> Result<usize, Error> {
+        let mut latches = self.latches.iter();
+        let known = self.latches.iter().map(|latch| latch.name);
+        let place = latches.position(|latch| latch.name == name);
+        place.ok_or_else(|| unknown(path, "a latch of this scene", name, known))
     }
 
     /// Checks that joints with a release have no spring, and that nothing acts on or drives their coordinates.

@@ -342,7 +342,7 @@ fn words<'a>(of: &OutputTarget<'a>) -> (&'a str, String) {
             let what = format!("the second marker of {} along its line", slider.name);
             (slider.name, what)
         }
-        OutputTarget::Gear(of, _) | OutputTarget::Latch(of, _) => (of, (*of).into()),
+        OutputTarget::Relation(of, _) => (of, (*of).into()),
         OutputTarget::Load(load, _, on) => {
             let on = on.map_or("the body that it acts along", |marker| marker.name);
             (load, format!("{load} on {on}"))
@@ -385,9 +385,7 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         (Read::Moving(_, quantity) | Read::Joint(quantity), OutputTarget::Sliding(slider)) => {
             quantity(slider.joint)
         }
-        (Read::Joint(quantity), OutputTarget::Gear(_, holder) | OutputTarget::Latch(_, holder)) => {
-            quantity(*holder)
-        }
+        (Read::Joint(quantity), OutputTarget::Relation(_, holder)) => quantity(*holder),
         (Read::Load(quantity), OutputTarget::Load(_, load, _)) => quantity(*load, k),
         (Read::Counted(quantity), OutputTarget::Angle(_, angle)) => quantity(*angle),
         (Read::Points(quantity), OutputTarget::Points(_, first, _)) => quantity(first.after(k)),

@@ -8,6 +8,7 @@
 //! Unilateral Contacts (1996), chapter 6.
 
 use super::{Constraint, Equation as _, View};
+use crate::math::function::hermite;
 
 /// When a latch may close, and what opens it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,14 +79,14 @@ impl LatchMotion {
     }
 }
 
-/// Where within a step something happens.
+/// Where within a step something happens that ends it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::system) enum Happening {
-    /// Nowhere in it.
-    Never,
-    /// After this part of it.
+pub enum Event {
+    /// Nowhere.
+    None,
+    /// After this part of the step.
     Within(f64),
-    /// At its end.
+    /// At the end of the step.
     AtEnd,
 }
 
@@ -95,22 +96,22 @@ pub(in crate::system) fn closing(
     [before, after]: [LatchMotion; 2],
     h: f64,
     tolerance: f64,
-) -> Happening {
+) -> Event {
     let start = before.distance;
     if start.abs() <= tolerance {
-        return Happening::Never;
+        return Event::None;
     }
     let is_over = after.distance * start <= 0.0;
     let is_near = after.distance.abs() <= tolerance;
     if is_near && (is_over || after.distance * after.rate < 0.0) {
-        return Happening::AtEnd;
+        return Event::AtEnd;
     }
     let cubic = Cubic::new(
         [before.distance, after.distance],
         [h * before.rate, h * after.rate],
     );
     let Some(part) = cubic.first_crossing() else {
-        return Happening::Never;
+        return Event::None;
     };
     // A little beyond, so that what is found again lies behind it.
     let speed = cubic.rate(part).abs();
@@ -119,7 +120,7 @@ pub(in crate::system) fn closing(
     } else {
         0.0
     };
-    Happening::Within((part + beyond).min(1.0))
+    Event::Within((part + beyond).min(1.0))
 }
 
 /// Part of a step after which a force leaves its range: that of the straight line between both forces. A force that is beyond by
@@ -128,7 +129,7 @@ pub(in crate::system) fn opening(
     [before, after]: [LatchMotion; 2],
     range: [f64; 2],
     share: f64,
-) -> Happening {
+) -> Event {
     let size = before.force.abs().max(after.force.abs());
     let [least, most] = range;
     let limit = if after.force < least {
@@ -136,16 +137,16 @@ pub(in crate::system) fn opening(
     } else if after.force > most {
         most
     } else {
-        return Happening::Never;
+        return Event::None;
     };
     let beyond = (after.force - limit).abs();
     if beyond <= share * size {
-        return Happening::AtEnd;
+        return Event::AtEnd;
     }
     let part = (limit - before.force) / (after.force - before.force);
     // A little beyond the limit.
     let part = part + 0.5 * share * size / (after.force - before.force).abs();
-    Happening::Within(if part.is_finite() {
+    Event::Within(if part.is_finite() {
         part.clamp(0.01, 1.0)
     } else {
         0.5
@@ -156,9 +157,9 @@ pub(in crate::system) fn opening(
 struct Cubic([f64; 4]);
 
 impl Cubic {
-    fn new([y0, y1]: [f64; 2], [d0, d1]: [f64; 2]) -> Self {
-        let rise = y1 - y0;
-        Self([y0, d0, 3.0 * rise - 2.0 * d0 - d1, d0 + d1 - 2.0 * rise])
+    fn new([start, end]: [f64; 2], slopes: [f64; 2]) -> Self {
+        let [a, b, c] = hermite(end - start, slopes);
+        Self([start, a, b, c])
     }
 
     fn value(&self, t: f64) -> f64 {
@@ -233,12 +234,12 @@ mod tests {
     fn a_throw_that_comes_back_within_a_step_passes_the_value() {
         // y = -1 + 3 t - 2 t^2 has zeros at 1/2 and 1; over a step of 0.9 it ends above and passes at 5/9 of it.
         let y = |t: f64| at(-1.0 + 3.0 * t - 2.0 * t * t, 3.0 - 4.0 * t);
-        let Happening::Within(part) = closing([y(0.0), y(0.9)], 0.9, 1e-9) else {
+        let Event::Within(part) = closing([y(0.0), y(0.9)], 0.9, 1e-9) else {
             panic!("not found");
         };
         assert!((part - 5.0 / 9.0).abs() < 1e-8, "{part}");
         // Over 1.2 it ends below again.
-        let Happening::Within(part) = closing([y(0.0), y(1.2)], 1.2, 1e-9) else {
+        let Event::Within(part) = closing([y(0.0), y(1.2)], 1.2, 1e-9) else {
             panic!("not found");
         };
         assert!((part - 0.5 / 1.2).abs() < 1e-8, "{part}");
@@ -248,47 +249,44 @@ mod tests {
     fn a_step_that_ends_near_the_value_closes_there() {
         assert_eq!(
             closing([at(1.0, -1.0), at(1e-10, -1.0)], 1.0, 1e-9),
-            Happening::AtEnd
+            Event::AtEnd
         );
         assert_eq!(
             closing([at(1.0, -1.0), at(-1e-10, -1.0)], 1.0, 1e-9),
-            Happening::AtEnd
+            Event::AtEnd
         );
         // What leads away has passed before.
         let passed = closing([at(1.0, -1.0), at(1e-10, 1.0)], 0.1, 1e-9);
         assert!(
-            matches!(passed, Happening::Within(part) if part < 1.0),
+            matches!(passed, Event::Within(part) if part < 1.0),
             "{passed:?}"
         );
         assert_eq!(
             closing([at(1.0, 0.1), at(2.0, 0.1)], 1.0, 1e-9),
-            Happening::Never
+            Event::None
         );
         // What stands at the value has not passed it.
         assert_eq!(
             closing([at(1e-10, -1.0), at(-1.0, -1.0)], 1.0, 1e-9),
-            Happening::Never
+            Event::None
         );
     }
 
     #[test]
     fn a_force_leaves_its_range_where_the_line_between_both_does() {
         let range = [-1.0, 3.0];
-        let Happening::Within(part) = opening([under(1.0), under(5.0)], range, 1e-6) else {
+        let Event::Within(part) = opening([under(1.0), under(5.0)], range, 1e-6) else {
             panic!("not found");
         };
         assert!((part - 0.5).abs() < 1e-5, "{part}");
-        let Happening::Within(part) = opening([under(1.0), under(-3.0)], range, 1e-6) else {
+        let Event::Within(part) = opening([under(1.0), under(-3.0)], range, 1e-6) else {
             panic!("not found");
         };
         assert!((part - 0.5).abs() < 1e-5, "{part}");
-        assert_eq!(
-            opening([under(1.0), under(2.9)], range, 1e-6),
-            Happening::Never
-        );
+        assert_eq!(opening([under(1.0), under(2.9)], range, 1e-6), Event::None);
         assert_eq!(
             opening([under(2.9), under(3.000_001)], range, 1e-6),
-            Happening::AtEnd
+            Event::AtEnd
         );
     }
 }

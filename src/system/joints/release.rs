@@ -19,7 +19,7 @@ pub struct Release {
 
 impl Release {
     /// Whether its time has come at a time, s.
-    fn is_due(&self, time: f64) -> bool {
+    pub(in crate::system) fn is_due(&self, time: f64) -> bool {
         self.time.is_some_and(|due| due <= time + grain(time))
     }
 }

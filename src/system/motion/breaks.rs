@@ -149,10 +149,8 @@ impl<const D: usize> DrivenSystem<'_, D> {
     /// Velocities after an impulse of what is driven, whose velocity jumps from one time to another.
     fn strike(&mut self, state: &mut State, [before, after]: [f64; 2]) -> StepOutcome {
         let (system, time) = (self.system, state.time);
-        let rates = Some(&state.rates[..]);
         self.work.kinematics.smooth_interval = Some([before, before]);
-        system.forward_kinematics(time, &state.coordinates, rates, self.work);
-        let energy = system.bodies.kinetic(self.work.kinematics.motion());
+        let energy = self.kinetic(state);
         // Material keeps its velocity, not the mesh that it passes through.
         let Workspace {
             kinematics,
@@ -179,10 +177,10 @@ impl<const D: usize> DrivenSystem<'_, D> {
         }
         system.rates_of(self.work, &mut state.rates);
         let kept = self.project(state);
-        system.forward_kinematics(time, &state.coordinates, Some(&state.rates), self.work);
+        let after_it = self.kinetic(state);
         if system.tracks_work {
             // Drives alone do work: the other impulses act where velocities have no part before or after.
-            state.work[0] += system.bodies.kinetic(self.work.kinematics.motion()) - energy;
+            state.work[0] += after_it - energy;
         }
         self.work.kinematics.smooth_interval = None;
         if kept {

@@ -3,9 +3,9 @@
 
 use nalgebra::Complex;
 
-use super::latches::Event;
 use crate::bodies::{Derivative, Node, RENEWED};
 use crate::system::instant::Instant;
+use crate::system::joints::latch::Event;
 use crate::system::loads::ForceElement as _;
 use crate::system::signal::{Trajectory, moved};
 use crate::system::{State, System, Workspace};
@@ -277,6 +277,18 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         }
         let v = self.system.reads_rates().then_some(v);
         self.system.forward_kinematics(time, q, v, self.work);
+    }
+
+    /// Computes configuration and rates at a state, as they are told.
+    pub(super) fn place_state(&mut self, state: &State) {
+        let rates = Some(&state.rates[..]);
+        (self.system).forward_kinematics(state.time, &state.coordinates, rates, self.work);
+    }
+
+    /// Kinetic energy at a state, J. Configuration and rates there are left behind.
+    pub(super) fn kinetic(&mut self, state: &State) -> f64 {
+        self.place_state(state);
+        self.system.bodies.kinetic(self.work.kinematics.motion())
     }
 
     /// Potential at `to` less that at `from` (strain energy, gravity, springs, loads as they are), J, and

@@ -3,7 +3,7 @@
 use super::dynamics::{DrivenSystem, Dynamics as _, StepOutcome};
 use crate::math::switches::grain;
 use crate::system::joints::Equation as _;
-use crate::system::joints::latch::{Happening, LatchMotion, LatchPlace, closing, opening};
+use crate::system::joints::latch::{Event, LatchMotion, LatchPlace, closing, opening};
 use crate::system::{State, System};
 
 /// Distance of a coordinate from the value that a latch holds at which it closes, in parts of the relative tolerance and the size.
@@ -12,17 +12,6 @@ const NEAR: f64 = 1e-3;
 const ROUNDOFF: f64 = 1e-13;
 /// Force beyond its range at which a latch opens, relative.
 const BEYOND: f64 = 1e-6;
-
-/// Meaning of an accepted step for latches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Event {
-    /// Nothing.
-    None,
-    /// A latch closes or opens after this part of the step: the state is that before it.
-    Within(f64),
-    /// Latches close or open at the end of the step.
-    AtEnd,
-}
 
 impl<const D: usize> System<D> {
     /// Tells of everything that can be released whether it is so before a motion begins: latches that are open.
@@ -63,12 +52,14 @@ impl<const D: usize> DrivenSystem<'_, D> {
         let system = self.system;
         let mut is_due = false;
         for (i, place) in system.latches.iter().enumerate() {
-            let [least, most] = place.latch.range;
-            let force = self.work.latches[i].motions[0].force;
+            let now = self.work.latches[i].motions[0];
             let is_closed = !self.work.kinematics.released[place.release];
-            let is_beyond = force < least * (1.0 - least.signum() * BEYOND)
-                || force > most * (1.0 + most.signum() * BEYOND);
-            let opens = is_closed && place.latch.is_bounded() && is_beyond;
+            // What is hardly beyond has its moment in the step.
+            let is_beyond = matches!(
+                opening([now; 2], place.latch.range, BEYOND),
+                Event::Within(_)
+            );
+            let opens = is_closed && is_beyond;
             self.work.latches[i].is_due = opens;
             is_due |= opens;
         }
@@ -81,10 +72,10 @@ impl<const D: usize> DrivenSystem<'_, D> {
         let (mut cut, mut is_due) = (None, false);
         for (i, place) in self.system.latches.iter().enumerate() {
             let happens = self.happening(place, self.work.latches[i].motions, state, relative);
-            let ends = happens == Happening::AtEnd || is_last && happens != Happening::Never;
+            let ends = happens == Event::AtEnd || is_last && happens != Event::None;
             self.work.latches[i].is_due = ends;
             is_due |= ends;
-            if let (Happening::Within(part), false) = (happens, is_last) {
+            if let (Event::Within(part), false) = (happens, is_last) {
                 cut = Some(cut.map_or(part, |first: f64| first.min(part)));
             }
         }
@@ -105,15 +96,15 @@ impl<const D: usize> DrivenSystem<'_, D> {
         motions: [LatchMotion; 2],
         state: &State,
         relative: f64,
-    ) -> Happening {
+    ) -> Event {
         let (system, latch, time) = (self.system, &place.latch, state.time);
         let is_open = self.work.kinematics.released[place.release];
         if !is_open && latch.is_bounded() {
             return opening(motions, latch.range, BEYOND);
         }
-        let is_over = (system.releases[place.release].time).is_some_and(|due| due <= time);
+        let is_over = system.releases[place.release].is_due(time);
         if !is_open || is_over || !latch.is_armed(time + grain(time), self.inputs) {
-            return Happening::Never;
+            return Event::None;
         }
         let size = system.constraints[place.constraint]
             .kind
@@ -131,8 +122,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
         if is_forced {
             self.accelerate(state.time, &state.coordinates, &state.rates);
         } else {
-            let rates = Some(&state.rates[..]);
-            system.forward_kinematics(state.time, &state.coordinates, rates, self.work);
+            self.place_state(state);
         }
         let view = system.view(&self.work.kinematics);
         for (place, watch) in system.latches.iter().zip(&mut self.work.latches) {
@@ -150,12 +140,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
     /// Closes and opens the latches that are due at a state. Velocities after it are those of a plastic impact.
     pub(super) fn switch_latches(&mut self, state: &mut State) -> StepOutcome {
         let system = self.system;
-        let energy = |of: &mut Self, state: &State| {
-            let rates = Some(&state.rates[..]);
-            system.forward_kinematics(state.time, &state.coordinates, rates, of.work);
-            system.bodies.kinetic(of.work.kinematics.motion())
-        };
-        let before = energy(self, state);
+        let before = self.kinetic(state);
         let mut closes = false;
         for (place, watch) in system.latches.iter().zip(&mut self.work.latches) {
             if std::mem::replace(&mut watch.is_due, false) {
@@ -166,8 +151,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
         }
         let outcome = self.accepted(state);
         if closes && system.tracks_work && outcome == StepOutcome::Moved {
-            let after = energy(self, state);
-            state.work[1] += before - after;
+            state.work[1] += before - self.kinetic(state);
         }
         outcome
     }

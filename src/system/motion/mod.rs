@@ -4,7 +4,7 @@ pub(in crate::system) mod breaks;
 pub(in crate::system) mod dynamics;
 mod followed;
 pub(in crate::system) mod forces;
-pub mod latches;
+mod latches;
 pub(in crate::system) mod multipliers;
 pub(in crate::system) mod prices;
 pub(in crate::system) mod rank;
