@@ -618,7 +618,7 @@ class Latch(Part):
     """
     Which coordinate of the joint; by default the angle of one with an axis, else the displacement.
     """
-    from_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    from_time: Annotated[StrictFloat, Field(ge=0.0)] = 0.0
     """
     Time from which on it may close, s.
     """
