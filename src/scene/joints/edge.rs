@@ -4,6 +4,8 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::elements::shell::Corner;
+use crate::scene::description::PatchMesh;
+use crate::scene::divisions::MOST_DIVISIONS;
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
     BodyReference, Cable, EdgeBase, EdgeHold, MeshLine, Plate, ResolvedEdge,
@@ -185,6 +187,10 @@ impl<'a> Resolved<'a> {
                 let wanted = "a body that no winch pays out";
                 return Err(expected(&path, wanted, quoted(&body.body.name)));
             }
+            // A number that is left to the planner becomes that of the line.
+            if body.body.elements.is_none() {
+                continue;
+            }
             lie_on(&path, (body, &self.nodes(body)?), &edge.line, is_reversed)?;
         }
         Ok(())
@@ -206,9 +212,16 @@ impl<'a> Resolved<'a> {
         found
             .filter(|line| line.is_edge() || !needs_edge)
             .ok_or_else(|| {
-                let [n, m] = plate.body.mesh;
+                let PatchMesh {
+                    counts: [n, m],
+                    is_open,
+                } = plate.body.mesh;
                 let wanted = if needs_edge {
                     "an edge (s1=0, s1=1, s2=0, s2=1)".to_owned()
+                } else if is_open.contains(&true) {
+                    format!(
+                        "an edge (s1=0, s1=1, s2=0, s2=1) or a line that up to {MOST_DIVISIONS} elements of equal parts of the coordinate may have"
+                    )
                 } else {
                     format!(
                         "an edge (s1=0, s1=1, s2=0, s2=1) or another line of the mesh of {n} x {m} elements"
@@ -296,15 +309,13 @@ fn stiffener<'a>(
         let found = format!("the cable {}", body.name);
         return Err(expected(path, wanted, found));
     }
-    if body.elements != Some(line.elements()) {
+    if body.elements.is_some_and(|count| count != line.elements()) {
         let wanted = format!(
             "a body of {} elements, as many as {} has",
             line.elements(),
             line.place()
         );
-        let count = body.elements.map(|count| count.to_string());
-        let count = count.as_deref().unwrap_or("\"auto\"");
-        let found = format!("{} of {count}", body.name);
+        let found = format!("{} of {}", body.name, body.elements.unwrap_or_default());
         return Err(expected(path, &wanted, found));
     }
     let ends = [0.0, 1.0].map(|along| {
@@ -384,7 +395,7 @@ impl<'a> MeshLine<'a> {
         let (coordinate, value) = place.split_once('=')?;
         let across = ["s1", "s2"].iter().position(|name| *name == coordinate)?;
         let value: f64 = value.parse().ok()?;
-        let count = f64::from(plate.body.mesh[across]);
+        let count = f64::from(plate.body.mesh.counts[across]);
         let line = (value * count).round();
         let is_on = (0.0..=1.0).contains(&value) && (line - value * count).abs() <= OFF;
         is_on.then_some(Self {
@@ -396,17 +407,17 @@ impl<'a> MeshLine<'a> {
 
     /// Whether the line is an edge.
     fn is_edge(&self) -> bool {
-        self.line == 0 || self.line == self.plate.body.mesh[self.across]
+        self.line == 0 || self.line == self.plate.body.mesh.counts[self.across]
     }
 
     /// Number of elements along the line.
     pub fn elements(&self) -> u32 {
-        self.plate.body.mesh[1 - self.across]
+        self.plate.body.mesh.counts[1 - self.across]
     }
 
     /// Coordinates `[s1, s2]` of a place along the line in [0, 1].
     pub fn at(&self, along: f64) -> [f64; 2] {
-        let held = f64::from(self.line) / f64::from(self.plate.body.mesh[self.across]);
+        let held = f64::from(self.line) / f64::from(self.plate.body.mesh.counts[self.across]);
         match self.across {
             0 => [held, along],
             _ => [along, held],

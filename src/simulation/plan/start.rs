@@ -1,5 +1,6 @@
 //! The start of a scene, tried with coarse meshes before anything is planned: what no mesh mends is told at once.
 
+use super::divisions::open_divisions;
 use super::given::TrialConditions;
 use super::search::{cables, fewest, open_reduced, with_counts};
 use crate::scene::{Accuracy, Error, Scene};
@@ -22,6 +23,7 @@ pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), 
     let is_free: Vec<bool> = cables(scene)
         .map(|(_, cable)| cable.elements.is_none() && cable.model.has_elements())
         .chain(open_reduced(scene).map(|_| false))
+        .chain(open_divisions(scene).map(|_| true))
         .collect();
     let most = ELEMENTS.max(FINER * coarsest.iter().sum::<u32>());
     let moved = given.moved(scene)?;

@@ -1,0 +1,1 @@
+pub const MOST_DIVISIONS: u32 = 200;
