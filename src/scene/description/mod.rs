@@ -44,7 +44,8 @@ pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
 pub use output::{Along, DeflectionOutput, Output, OutputKind, PlyStressOutput, ReactionOutput};
 pub use patch::{
-    LaminatePly, Pad, PatchBody, PatchMarker, PatchMesh, PatchStiffness, PatchSurface, PatchThickness,
+    LaminatePly, Pad, PatchBody, PatchMarker, PatchMesh, PatchStiffness, PatchSurface,
+    PatchThickness,
 };
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;

@@ -5,16 +5,13 @@ use nalgebra::Vector3;
 use super::*;
 use crate::elements::shell::Corner;
 use crate::scene::description::PatchMesh;
-use crate::scene::divisions::MOST_DIVISIONS;
+use crate::scene::divisions::{MOST_DIVISIONS, OFF, coordinate, line_at, multiples};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
     BodyReference, Cable, EdgeBase, EdgeHold, MeshLine, Plate, ResolvedEdge,
 };
 use crate::scene::validate::checks::unknown;
 use crate::scene::validate::refuse_point;
-
-/// Part of a line, relative to its size, by which it may be off a plane of symmetry or another line.
-const OFF: f64 = 1e-6;
 
 /// Holds an edge of a plate or shell and the normal along it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -178,6 +175,7 @@ impl<'a> Resolved<'a> {
     /// # Errors
     /// A winch that pays out a stiffener; nodes or slopes that are not those of its mesh line.
     pub(in crate::scene) fn check_stiffeners(&self) -> Result<(), Error> {
+        let divisions = self.scene.divisions();
         for edge in &self.edges {
             let EdgeBase::Stiffener(body, is_reversed) = edge.base else {
                 continue;
@@ -188,12 +186,31 @@ impl<'a> Resolved<'a> {
                 return Err(expected(&path, wanted, quoted(&body.body.name)));
             }
             // A number that is left to the planner becomes that of the line.
-            if body.body.elements.is_none() {
-                continue;
-            }
-            lie_on(&path, (body, &self.nodes(body)?), &edge.line, is_reversed)?;
+            let count = match body.body.elements {
+                Some(count) => count,
+                None => {
+                    let line = &edge.line;
+                    let direction = (line.plate.id.index(), 1 - line.across);
+                    let mut divisions = divisions.iter().filter(|of| of.is_open);
+                    let is_open = divisions.any(|of| of.directions.contains(&direction));
+                    self.evenly(&[body], line.elements(), is_open)
+                }
+            };
+            let nodes = self.nodes_of(body, count)?;
+            lie_on(&path, (body, &nodes), &edge.line, is_reversed)?;
         }
         Ok(())
+    }
+
+    /// Number of elements of equal lengths with nodes where these bodies need them: the first multiple of that of the mesh where it is left
+    /// to the planner, or that number where none is.
+    pub fn evenly(&self, bodies: &[Cable<'_>], count: u32, is_open: bool) -> u32 {
+        let places: Vec<f64> = { bodies.iter() }
+            .flat_map(|body| self.loaded_coordinates(*body))
+            .collect();
+        let has_nodes = |count: &u32| places.iter().all(|at| line_at(*at, *count).is_some());
+        let mut finer = multiples(count).filter(|_| is_open);
+        finer.find(has_nodes).unwrap_or(count)
     }
 
     /// Finds a line of the mesh of a plate or shell.
@@ -218,7 +235,7 @@ impl<'a> Resolved<'a> {
                 } = plate.body.mesh;
                 let wanted = if needs_edge {
                     "an edge (s1=0, s1=1, s2=0, s2=1)".to_owned()
-                } else if is_open.contains(&true) {
+                } else if is_open.contains(&true) && may_have(place, is_open).is_none() {
                     format!(
                         "an edge (s1=0, s1=1, s2=0, s2=1) or a line that up to {MOST_DIVISIONS} elements of equal parts of the coordinate may have"
                     )
@@ -230,6 +247,13 @@ impl<'a> Resolved<'a> {
                 expected(path, &wanted, quoted(place))
             })
     }
+}
+
+/// A number of elements of which a mesh line is at a place such as `s1=0.5`, along a coordinate of which the number is open.
+fn may_have(place: &str, is_open: [bool; 2]) -> Option<u32> {
+    let (across, value) = coordinate(place)?;
+    let mut counts = (1..=MOST_DIVISIONS).filter(|_| is_open[across]);
+    counts.find(|count| line_at(value, *count).is_some())
 }
 
 /// Checks that two lines are at the same place with the same places of their nodes, and for a smooth continuation that derivatives across
@@ -333,7 +357,8 @@ fn lie_on(
     is_reversed: bool,
 ) -> Found<()> {
     let (shape, along) = (&of.body.shape, 1 - line.across);
-    let mut corners = line.corners();
+    let count = nodes.len() as u32 - 1;
+    let mut corners = line.corners_of(count);
     if is_reversed {
         corners.reverse();
     }
@@ -347,7 +372,7 @@ fn lie_on(
         let found = format!("{name} (nodes up to {} m off)", number(gap));
         return Err(expected(path, &wanted, found));
     }
-    let element = size / f64::from(line.elements()) * if is_reversed { -1.0 } else { 1.0 };
+    let element = size / f64::from(count) * if is_reversed { -1.0 } else { 1.0 };
     let is_off = (0..nodes.len() - 1).any(|k| {
         let length = (nodes[k + 1] - nodes[k]) * shape.length();
         [k, k + 1].into_iter().any(|end| {
@@ -392,16 +417,12 @@ fn check_symmetry(path: &str, line: &MeshLine<'_>, normal: Vector3<f64>) -> Foun
 impl<'a> MeshLine<'a> {
     /// The line of a mesh at a place such as `s1=0.5`, if there is one.
     fn of(plate: Plate<'a>, place: &str) -> Option<Self> {
-        let (coordinate, value) = place.split_once('=')?;
-        let across = ["s1", "s2"].iter().position(|name| *name == coordinate)?;
-        let value: f64 = value.parse().ok()?;
-        let count = f64::from(plate.body.mesh.counts[across]);
-        let line = (value * count).round();
-        let is_on = (0.0..=1.0).contains(&value) && (line - value * count).abs() <= OFF;
-        is_on.then_some(Self {
+        let (across, value) = coordinate(place)?;
+        let line = line_at(value, plate.body.mesh.counts[across])?;
+        Some(Self {
             plate,
             across,
-            line: line as u32,
+            line,
         })
     }
 
@@ -426,8 +447,12 @@ impl<'a> MeshLine<'a> {
 
     /// Vectors of the described surface at the nodes of the line, as [`Corner`] has them.
     fn corners(&self) -> Vec<[Vector3<f64>; 4]> {
+        self.corners_of(self.elements())
+    }
+
+    /// Vectors of the described surface at the nodes of so many elements along the line.
+    fn corners_of(&self, count: u32) -> Vec<[Vector3<f64>; 4]> {
         let geometry = self.plate.body.geometry();
-        let count = self.elements();
         let places = (0..=count).map(|k| self.at(f64::from(k) / f64::from(count)));
         let corners = places.map(|at| geometry.corner(at));
         corners

@@ -191,12 +191,7 @@ impl Search<'_, '_> {
     }
 
     /// The account of a plate or shell, by its place among the bodies.
-    fn planned_patch(
-        &self,
-        index: usize,
-        mesh: [u32; 2],
-        changes: Option<&str>,
-    ) -> PlannedBody {
+    fn planned_patch(&self, index: usize, mesh: [u32; 2], changes: Option<&str>) -> PlannedBody {
         let body = &self.scene.bodies[index];
         let is_open = body.patch().map(|patch| patch.mesh.is_open);
         let is_free = self.divisions.iter().any(|division| {

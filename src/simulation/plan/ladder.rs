@@ -69,7 +69,8 @@ impl Ladder {
     /// Whether a choice with a finer mesh is what the one of the last rung was to it: directions of plates and shells are not always all
     /// doubled.
     pub fn goes_on(&self, choice: &Choice, finer: &Choice) -> bool {
-        self.steps.last() == Some(&self.ratios(choice, finer))
+        let ratios = self.ratios(choice, finer);
+        self.steps.last().is_none_or(|step| *step == ratios)
     }
 
     /// Numbers of elements of plates and shells of a finer choice over those of another one.

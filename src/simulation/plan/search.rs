@@ -11,8 +11,8 @@ use super::response::Responses;
 use super::shear::{Beam, Sheared};
 use super::{Budget, Progress};
 use crate::scene::{
-    Accuracy, Axial, Body, BodyReference, Division, Error, FileBody, FixedInterfaceModes, LineBody, Model,
-    Modes, Scene, MOST_DIVISIONS,
+    Accuracy, Axial, Body, BodyReference, Division, Error, FileBody, FixedInterfaceModes, LineBody,
+    Model, Modes, Scene,
 };
 use crate::simulation::{check, variables};
 
@@ -135,17 +135,15 @@ pub(super) fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
         })
     });
     let mut counts: Vec<u32> = counts.collect::<Result<_, _>>()?;
-    let lines: Vec<usize> = cables(scene).map(|(body, _)| body).collect();
     counts.extend(open_reduced(scene).map(|_| 1));
     for division in open_divisions(scene) {
-        let own = lines.iter().zip(&counts);
-        let own = own.filter(|(body, _)| division.stiffeners.contains(body));
-        let least = own.map(|(_, count)| *count).fold(1, u32::max);
-        let mut count = division.count;
-        while count < least && 2 * count <= MOST_DIVISIONS {
-            count *= 2;
-        }
-        counts.push(count);
+        let stiffeners = resolved.bodies.iter().enumerate();
+        let stiffeners = stiffeners.filter_map(|(body, of)| match of {
+            BodyReference::Cable(cable) if division.stiffeners.contains(&body) => Some(*cable),
+            _ => None,
+        });
+        let stiffeners: Vec<_> = stiffeners.collect();
+        counts.push(resolved.evenly(&stiffeners, division.count, true));
     }
     Ok(counts)
 }

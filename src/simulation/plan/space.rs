@@ -27,7 +27,9 @@ impl Search<'_, '_> {
         };
         loop {
             // Which directions are doubled follows from its run.
-            let _ = self.run(&tried);
+            if !self.divisions.is_empty() {
+                let _ = self.run(&tried);
+            }
             let mut next = tried.clone();
             if !self.refine(&mut next) {
                 break;

@@ -191,9 +191,8 @@ impl<const D: usize> Evaluation<D> {
         let part = 1.0 / nodes().count() as f64;
         let mean = |x: &[Node<D>]| nodes().map(|node| at(x, node) * part).sum::<Vector3<f64>>();
         let (before, now) = (mean(drawn), mean(&self.x));
-        let moments = nodes().map(|node| {
-            (at(&self.x, node) - now) * (at(drawn, node) - before).transpose()
-        });
+        let moments =
+            nodes().map(|node| (at(&self.x, node) - now) * (at(drawn, node) - before).transpose());
         let fit = RigidFit::new(before, now, orthogonal(&moments.sum::<Matrix3<f64>>()));
         let away = nodes().map(|node| fit.displacement(&at(drawn, node), &at(&self.x, node)));
         away.map(|away| away.norm()).fold(0.0, f64::max)

@@ -119,8 +119,12 @@ fn bent_too_far<const D: usize, N: Number>(
     x: &[Node<D, N>],
     drawn: &[Node<D>],
 ) -> Vector3<N> {
-    let tangents = chain.tangents(j, x).map(|tangent| Vector3::from(components(&tangent)));
-    let before = chain.tangents(j, drawn).map(|tangent| Vector3::from(components(&tangent)));
+    let tangents = chain
+        .tangents(j, x)
+        .map(|tangent| Vector3::from(components(&tangent)));
+    let before = chain
+        .tangents(j, drawn)
+        .map(|tangent| Vector3::from(components(&tangent)));
     too_far::<D, N>(bend(tangents), bend(before))
 }
 
