@@ -166,8 +166,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 let length = patch.spacing(along, k - 1).max(patch.spacing(along, k));
                 take(jump * N::of(0.5), length);
             }
+            // At a corner a moment along the other direction has one along this.
+            let is_bare = |k: usize| is_free(k) && !system.takes_moments[line.now.node(k) + 1 - along];
             for k in [0, count] {
-                if count > FEW || !is_free(k) {
+                if count > FEW || !is_bare(k) {
                     continue;
                 }
                 let element = k.min(count - 1);
