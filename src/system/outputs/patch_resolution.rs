@@ -167,7 +167,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 take(jump * N::of(0.5), length);
             }
             // At a corner a moment along the other direction has one along this.
-            let is_bare = |k: usize| is_free(k) && !system.takes_moments[line.now.node(k) + 1 - along];
+            let is_bare =
+                |k: usize| is_free(k) && !system.takes_moments[line.now.node(k) + 1 - along];
             for k in [0, count] {
                 if count > FEW || !is_bare(k) {
                     continue;
