@@ -297,7 +297,7 @@ fn the_bound_is_named_with_the_body_and_the_direction() {
 /// A strip without lateral contraction is a cable of the plane: its mesh is as good or bad.
 #[test]
 fn resolution_of_a_strip_is_that_of_a_cable() {
-    let (width, thickness) = (0.1, 0.01);
+    let (width, thickness) = (0.1_f64, 0.01_f64);
     let told = |scene: &Value| {
         let mut simulation = Simulation::new(read(scene));
         simulation.initialize(0.0).expect("a start");

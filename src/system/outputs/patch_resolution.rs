@@ -22,7 +22,7 @@ const FEW: usize = 2;
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// A line of the mesh, at this configuration of its nodes.
-struct Line<'a, const D: usize, N> {
+struct SurfaceLine<'a, const D: usize, N> {
     patch: &'a Patch,
     x: &'a [Node<D, N>],
     /// Direction along which it runs, and its number across.
@@ -30,7 +30,7 @@ struct Line<'a, const D: usize, N> {
     number: usize,
 }
 
-impl<const D: usize, N: Number> Line<'_, D, N> {
+impl<const D: usize, N: Number> SurfaceLine<'_, D, N> {
     /// First node of its mesh node.
     fn node(&self, k: usize) -> usize {
         match self.along {
@@ -93,25 +93,25 @@ impl<const D: usize, N: Number> Line<'_, D, N> {
 }
 
 /// A mesh line now and as drawn.
-struct Bent<'a, const D: usize, N> {
-    now: Line<'a, D, N>,
-    drawn: Line<'a, D, f64>,
+struct BentLine<'a, const D: usize, N> {
+    now: SurfaceLine<'a, D, N>,
+    drawn: SurfaceLine<'a, D, f64>,
 }
 
-impl<'a, const D: usize, N: Number> Bent<'a, D, N> {
+impl<'a, const D: usize, N: Number> BentLine<'a, D, N> {
     fn new(
         patch: &'a Patch,
         (x, drawn): (&'a [Node<D, N>], &'a [Node<D>]),
         (along, number): (usize, usize),
     ) -> Self {
         Self {
-            now: Line {
+            now: SurfaceLine {
                 patch,
                 x,
                 along,
                 number,
             },
-            drawn: Line {
+            drawn: SurfaceLine {
                 patch,
                 x: drawn,
                 along,
@@ -159,7 +159,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             }
         };
         for number in 0..=divisions[1 - along] {
-            let line = Bent::new(patch, (x, drawn), (along, number));
+            let line = BentLine::new(patch, (x, drawn), (along, number));
             let is_free = |k: usize| !system.takes_moments[line.now.node(k) + along];
             for k in (1..count).filter(|k| is_free(*k)) {
                 let jump = line.change(k, 0) - line.change(k - 1, 1);
@@ -175,7 +175,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 }
                 let element = k.min(count - 1);
                 let own = line.change(element, k - element);
-                let across = Bent::new(patch, (x, drawn), (1 - along, k));
+                let across = BentLine::new(patch, (x, drawn), (1 - along, k));
                 let moment = own + across.mean_change(number) * N::of(patch.contraction()[along]);
                 take(moment, patch.spacing(along, element));
             }
@@ -190,7 +190,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut largest = N::of(0.0);
         for along in 0..2 {
             for number in 0..=divisions[1 - along] {
-                let line = Bent::new(patch, (&self.x[..], drawn), (along, number));
+                let line = BentLine::new(patch, (&self.x[..], drawn), (along, number));
                 let off = line.bent_away();
                 if off > largest {
                     largest = off;
@@ -201,7 +201,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 }
 
-impl<const D: usize, N: Number> Bent<'_, D, N> {
+impl<const D: usize, N: Number> BentLine<'_, D, N> {
     /// Mean of the changes of curvature on both sides of a node, 1/m; at an end that of its element.
     fn mean_change(&self, k: usize) -> N {
         let count = self.now.patch.divisions()[self.now.along];
