@@ -85,6 +85,15 @@ impl Forest {
     }
 }
 
+/// Directions that joints connect, and what else joints say of them.
+struct Connections {
+    forest: Forest,
+    /// Lines that are held: directions along which they set nodes, with their coordinates.
+    held: Vec<(usize, f64)>,
+    /// Directions of the lines of stiffeners, with places of these among the bodies.
+    stiffened: Vec<(usize, usize)>,
+}
+
 impl Scene {
     /// Gives directions of plates and shells whose numbers of elements are not said those of what they are joined with, or the fewest that
     /// joints allow. They stay open to the planner.
@@ -133,12 +142,19 @@ impl Scene {
         if !has_patch || !(self.bodies.iter().any(open) || self.bodies.iter().any(is_line_open)) {
             return Vec::new();
         }
-        let mut forest = Forest((0..2 * self.bodies.len()).collect());
-        // Lines that are held, by directions along which they set nodes, and stiffeners by directions of their lines.
-        let (mut held, mut stiffened) = (Vec::new(), Vec::new());
+        let mut connections = Connections {
+            forest: Forest((0..2 * self.bodies.len()).collect()),
+            held: Vec::new(),
+            stiffened: Vec::new(),
+        };
         for joint in &self.joints {
-            self.connect(joint, &mut forest, (&mut held, &mut stiffened));
+            self.connect(joint, &mut connections);
         }
+        let Connections {
+            forest,
+            held,
+            stiffened,
+        } = connections;
         let mut trees: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for (body, of) in self.bodies.iter().enumerate() {
             for along in (0..2).filter(|_| of.patch().is_some()) {
@@ -166,27 +182,22 @@ impl Scene {
     }
 
     /// Joins the directions of the lines of a joint.
-    fn connect(
-        &self,
-        joint: &Joint,
-        forest: &mut Forest,
-        (held, stiffened): (&mut Vec<(usize, f64)>, &mut Vec<(usize, usize)>),
-    ) {
+    fn connect(&self, joint: &Joint, to: &mut Connections) {
         if joint.kind.edge().is_none() {
             return;
         }
         let names = joint.kind.markers();
         let lines = [0, 1].map(|end| self.named_line(&names[end]));
         for line in lines.iter().flatten() {
-            held.push((2 * line.body + line.across, line.value));
+            to.held.push((2 * line.body + line.across, line.value));
         }
         let along = |line: &NamedLine| 2 * line.body + 1 - line.across;
         match &lines {
-            [Some(first), Some(second)] => forest.join(along(first), along(second)),
+            [Some(first), Some(second)] => to.forest.join(along(first), along(second)),
             [None, Some(line)] => {
                 let is_stiffener = |body: &Body| body.cable().is_some_and(|of| of.name == names[0]);
                 if let Some(body) = self.bodies.iter().position(is_stiffener) {
-                    stiffened.push((along(line), body));
+                    to.stiffened.push((along(line), body));
                 }
             }
             _ => {}
