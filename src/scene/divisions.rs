@@ -354,6 +354,25 @@ mod tests {
         assert_eq!(error.path, "joints[0].edges[0]");
     }
 
+    /// Markers of rods are nodes: a third asks for three elements or multiples, and no number up to 200 has a node at 0.1234.
+    #[test]
+    fn nodes_of_stiffeners_are_those_of_some_mesh() {
+        let with = |at: f64, mesh: Json| {
+            let bodies = vec![plate("a", 0.0, mesh), rib(json!(AUTO), json!({"m": at}))];
+            scene(bodies, &[("clamped", ["rib", "a.s1=1"])])
+        };
+        assert!(with(1.0 / 3.0, json!(AUTO)).is_ok());
+        assert!(with(1.0 / 3.0, json!([1, 6])).is_ok());
+        for (at, mesh, wanted) in [
+            (0.1234, json!(AUTO), "nodes of up to 200 elements of equal lengths"),
+            (1.0 / 3.0, json!([1, 4]), "nodes are those of a.s1=1"),
+        ] {
+            let error = with(at, mesh).expect_err("no such nodes");
+            assert_eq!(error.path, "joints[0].edges[0]");
+            assert!(error.message.contains(wanted), "{error}");
+        }
+    }
+
     /// Least common multiples: lines at halves and thirds need six elements, and three quarters twelve.
     #[test]
     fn lines_that_are_held_set_the_fewest_elements() {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::*;
 use crate::elements::shell::Corner;
 use crate::scene::description::PatchMesh;
-use crate::scene::divisions::{MOST_DIVISIONS, OFF, coordinate, line_at, multiples};
+use crate::scene::divisions::{Division, MOST_DIVISIONS, OFF, coordinate, line_at, multiples};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
     BodyReference, Cable, EdgeBase, EdgeHold, MeshLine, Plate, ResolvedEdge,
@@ -185,32 +185,43 @@ impl<'a> Resolved<'a> {
                 let wanted = "a body that no winch pays out";
                 return Err(expected(&path, wanted, quoted(&body.body.name)));
             }
-            // A number that is left to the planner becomes that of the line.
-            let count = match body.body.elements {
-                Some(count) => count,
-                None => {
-                    let line = &edge.line;
-                    let direction = (line.plate.id.index(), 1 - line.across);
-                    let mut divisions = divisions.iter().filter(|of| of.is_open);
-                    let is_open = divisions.any(|of| of.directions.contains(&direction));
-                    self.evenly(&[body], line.elements(), is_open)
-                }
-            };
+            let count = self.stiffener_elements(&path, body, (&edge.line, &divisions))?;
             let nodes = self.nodes_of(body, count)?;
             lie_on(&path, (body, &nodes), &edge.line, is_reversed)?;
         }
         Ok(())
     }
 
-    /// Number of elements of equal lengths with nodes where these bodies need them: the first multiple of that of the mesh where it is left
-    /// to the planner, or that number where none is.
-    pub fn evenly(&self, bodies: &[Cable<'_>], count: u32, is_open: bool) -> u32 {
+    /// Elements of a stiffener: a number that is left to the planner becomes that of the line.
+    fn stiffener_elements(
+        &self,
+        path: &str,
+        body: Cable<'_>,
+        (line, divisions): (&MeshLine<'_>, &[Division]),
+    ) -> Found<u32> {
+        if let Some(count) = body.body.elements {
+            return Ok(count);
+        }
+        let direction = (line.plate.id.index(), 1 - line.across);
+        let mut open = divisions.iter().filter(|of| of.is_open);
+        if !open.any(|of| of.directions.contains(&direction)) {
+            return Ok(line.elements());
+        }
+        self.evenly(&[body], line.elements()).ok_or_else(|| {
+            let wanted = format!(
+                "a body whose markers and loads are at nodes of up to {MOST_DIVISIONS} elements of equal lengths"
+            );
+            expected(path, &wanted, quoted(&body.body.name))
+        })
+    }
+
+    /// First multiple of a number of elements of which those of equal lengths have nodes where these bodies need them.
+    pub fn evenly(&self, bodies: &[Cable<'_>], count: u32) -> Option<u32> {
         let places: Vec<f64> = { bodies.iter() }
             .flat_map(|body| self.loaded_coordinates(*body))
             .collect();
         let has_nodes = |count: &u32| places.iter().all(|at| line_at(*at, *count).is_some());
-        let mut finer = multiples(count).filter(|_| is_open);
-        finer.find(has_nodes).unwrap_or(count)
+        multiples(count).find(has_nodes)
     }
 
     /// Finds a line of the mesh of a plate or shell.

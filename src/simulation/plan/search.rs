@@ -143,7 +143,8 @@ pub(super) fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
             _ => None,
         });
         let stiffeners: Vec<_> = stiffeners.collect();
-        counts.push(resolved.evenly(&stiffeners, division.count, true));
+        let even = resolved.evenly(&stiffeners, division.count);
+        counts.push(even.unwrap_or(division.count));
     }
     Ok(counts)
 }

@@ -41,8 +41,8 @@ fn surfaces_and_meshes_are_checked() {
         /bodies/0/mesh | [0, 2] | bodies[0].mesh[0]: expected an integer from 1 to 200 (factors of finer meshes take gigabytes), found 0
         /bodies/0/mesh | [4, 201] | bodies[0].mesh[1]
         /bodies/0/mesh | [4] | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found 1
-        /bodies/0/mesh | "many" | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found string "many"
-        /bodies/0/mesh | [4, "many"] | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found string "many"
+        /bodies/0/mesh | "many" | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found "many"
+        /bodies/0/mesh | [4, "many"] | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found "many"
         /bodies/0/mesh | [4, 1.5] | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found 1.5
         /bodies/0/mesh | [4, -1] | bodies[0].mesh: expected two numbers of elements
         /bodies/0/mesh | 4 | bodies[0].mesh: expected two numbers of elements
