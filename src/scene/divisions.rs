@@ -271,7 +271,7 @@ mod tests {
     fn scene(
         bodies: Vec<Json>,
         joints: &[(&str, [&str; 2])],
-    ) -> Result<Scene, super::super::Error> {
+    ) -> Result<Scene, crate::scene::Error> {
         let joints = joints.iter().enumerate().map(
             |(k, (kind, edges))| json!({"name": format!("j{k}"), "kind": kind, "edges": edges}),
         );
@@ -364,7 +364,11 @@ mod tests {
         assert!(with(1.0 / 3.0, json!(AUTO)).is_ok());
         assert!(with(1.0 / 3.0, json!([1, 6])).is_ok());
         for (at, mesh, wanted) in [
-            (0.1234, json!(AUTO), "nodes of up to 200 elements of equal lengths"),
+            (
+                0.1234,
+                json!(AUTO),
+                "nodes of up to 200 elements of equal lengths",
+            ),
             (1.0 / 3.0, json!([1, 4]), "nodes are those of a.s1=1"),
         ] {
             let error = with(at, mesh).expect_err("no such nodes");
@@ -430,7 +434,7 @@ mod tests {
         }
     }
 
-    /// What is left open stays open when a scene is written and read.
+    /// Numbers that are left open stay open when a scene is written and read.
     #[test]
     fn scenes_are_read_as_they_are_written() {
         for mesh in [

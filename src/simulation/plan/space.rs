@@ -75,7 +75,7 @@ impl Search<'_, '_> {
         Ok(self.economize(choice, found))
     }
 
-    /// What the next rung would change, where that need not be run: all that is doubled, and what is not as a run says.
+    /// Changes that the next rung would make, where that need not be run: of all that is doubled, and of what is not as a run says.
     fn foreseen(
         &mut self,
         ladder: &Ladder,
