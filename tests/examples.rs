@@ -9,8 +9,8 @@ use flexbody::simulation::{RedundantNames, Simulation};
 /// Communication steps of one example at most: examples are short.
 const STEPS: u32 = 400;
 /// Parts of the names in the book's table that stand for a name of a scene.
-const NAMES: [&str; 8] = [
-    "body", "marker", "gauge", "joint", "gear", "motion", "load", "port",
+const NAMES: [&str; 9] = [
+    "body", "marker", "gauge", "joint", "gear", "latch", "motion", "load", "port",
 ];
 
 /// A file or folder of the book.

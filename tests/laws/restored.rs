@@ -106,7 +106,7 @@ fn latched() -> Vec<Told> {
     };
     let told = |dimension: usize| Told {
         scene: scene(dimension),
-        set: |run, k| run.set("catch.latch", f64::from(u8::from(k != 20))),
+        set: |run, k| run.set("catch.armed", f64::from(u8::from(k != 20))),
     };
     vec![told(2), told(3)]
 }

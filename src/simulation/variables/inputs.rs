@@ -142,7 +142,7 @@ fn words(
             return ("rest_length", "Length at rest of", Some(METRE), &[""]);
         }
         InputKind::Release(_) => return ("release", RELEASES, None, &[""]),
-        InputKind::Latch(_) => return ("latch", "Arming (above 0) of", None, &[""]),
+        InputKind::Latch(_) => return ("armed", "Arming (above 0) of", None, &[""]),
         InputKind::Current(_) => {
             return ("current", "Velocity of", Some(METRE_PER_SECOND), &AXES);
         }
