@@ -28,7 +28,7 @@ QUOTE = re.compile(r"(<!-- example: (\S+) -->\n+)(?:```json\n.*?^```\n)?", re.DO
 # Pages in order: file, title, definitions. What is on none of them goes on the last.
 PAGES = [
     ("scene", "The scene", ["Scene", "About", "Experiment"]),
-    ("bodies", "Bodies", ["Body", "Elements", "Model", "Axial", "Strain", "InitialMotion", "Mass", "PatchMarker", "Pad", "Modes", "ModesWord", "ModesUpTo", "FixedInterfaceModes", "DampingRatio"]),
+    ("bodies", "Bodies", ["Body", "Elements", "Mesh", "Model", "Axial", "Strain", "InitialMotion", "Mass", "PatchMarker", "Pad", "Modes", "ModesWord", "ModesUpTo", "FixedInterfaceModes", "DampingRatio"]),
     ("shapes", "Material, sections, shapes", ["Material", "Section", "Profile", "Station", "Shape", "Solid", "Inertia", "Orientation", "PatchSurface", "PatchMaterial", "LaminatePly", "PlyMaterial", "PatchStiffness"]),
     ("joints", "Joints, gears, latches", ["Joint", "Freedom", "Gear", "Latch"]),
     ("motions", "Motions", ["Motion", "MotionValue", "MasterInput"]),

@@ -56,6 +56,8 @@ pub struct Patch {
     /// What section forces at each point are read by, where they are.
     sections: Vec<Option<PatchSection>>,
     is_damped: bool,
+    /// Curvature along each direction per one along the other where no moment acts, with the opposite sign: in the middle.
+    contraction: [f64; 2],
 }
 
 impl Patch {
@@ -80,6 +82,7 @@ impl Patch {
             points: Vec::new(),
             sections: Vec::new(),
             is_damped: false,
+            contraction: [0.0; 2],
         };
         let unit = patch.unit();
         let scaled = |corner: &Corner| {
@@ -95,6 +98,9 @@ impl Patch {
             let element = Shell::new(section, (sizes, unit), &corners);
             patch.elements.push(element);
         }
+        let middle = section([0.5; 2]);
+        let (element, xi) = patch.find([0.5; 2]);
+        patch.contraction = middle.contraction(&patch.tangents(element, xi));
         patch.is_damped = patch.elements.iter().any(Shell::is_damped);
         patch.packs = packs(&patch.elements, |_| true, Shell::goes_with, Shell::pack);
         patch.points = points.iter().map(|point| patch.frame(point)).collect();
@@ -132,6 +138,11 @@ impl Patch {
         [0, 1].map(|k| self.lines[k][self.lines[k].len() - 1])
     }
 
+    /// Curvature along each direction, with the opposite sign, that goes with one along the other where no moment acts along the first.
+    pub fn contraction(&self) -> [f64; 2] {
+        self.contraction
+    }
+
     /// Elements, those along the second direction one after the other.
     pub fn elements(&self) -> &[Shell] {
         &self.elements
@@ -157,7 +168,7 @@ impl Patch {
     }
 
     /// Number of points.
-    pub(super) fn point_count(&self) -> usize {
+    pub fn point_count(&self) -> usize {
         self.points.len()
     }
 
@@ -177,7 +188,7 @@ impl Patch {
     }
 
     /// Nodes of the mesh, which have coordinates.
-    pub(super) fn mesh(&self) -> std::ops::Range<usize> {
+    pub fn mesh(&self) -> std::ops::Range<usize> {
         self.first..self.point_node(0)
     }
 
@@ -199,7 +210,7 @@ impl Patch {
     }
 
     /// Nodes whose coordinates forces on a point act on.
-    pub(super) fn acted(&self, point: usize) -> impl Iterator<Item = usize> {
+    pub fn acted(&self, point: usize) -> impl Iterator<Item = usize> {
         self.points[point]
             .followed()
             .flat_map(|node| [node, node + 1])

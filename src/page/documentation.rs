@@ -178,7 +178,7 @@ fn body_in_words(body: &Body) -> String {
             } else {
                 "shell"
             };
-            let [n, m] = patch.mesh;
+            let [n, m] = patch.mesh.counts;
             let lengths = patch.geometry().lengths.map(rounded);
             format!(
                 "the {kind} <em>{name}</em>, {} m by {} m, of {n} by {m} elements",

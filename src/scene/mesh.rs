@@ -39,7 +39,18 @@ impl<'a> Resolved<'a> {
             let message = "expected a number of elements, found \"auto\": `flexbody plan` finds it";
             return Err(Error::new(format!("{path}.elements"), message));
         };
-        nodes(&path, elements as usize, &held, stations.count())
+        self.nodes_of(cable, elements)
+    }
+
+    /// Material coordinates in [0, 1] of the nodes of a cable with so many elements.
+    ///
+    /// # Errors
+    /// As [`Self::nodes`].
+    pub(super) fn nodes_of(&self, cable: Cable<'_>, elements: u32) -> Result<Vec<f64>, Error> {
+        let path = format!("bodies[{}]", cable.id.body);
+        let held = self.loaded_coordinates(cable);
+        let stations = cable.body.stations.len();
+        nodes(&path, elements as usize, &held, stations)
     }
 
     /// Fewest elements of a cable: what acts inside it acts at nodes.

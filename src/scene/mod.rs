@@ -9,6 +9,7 @@ mod alike;
 mod assemble;
 mod container;
 mod description;
+mod divisions;
 mod elements;
 mod files;
 mod joints;
@@ -39,10 +40,11 @@ pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, Course, DampingRatio, Experiment, FileBody,
     FixedInterfaceModes, Inertia, Initial, InitialMotion, InitialState, InputCourse, Integrator,
     Interpolation, LaminatePly, LineBody, LineModel, Material, Method, Model, Modes, Orientation,
-    OutputKind, Pad, PatchBody, PatchMarker, PatchSurface, PatchThickness, Profile, RigidBody,
-    Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain, Surface,
-    Table, Value,
+    OutputKind, Pad, PatchBody, PatchMarker, PatchMesh, PatchSurface, PatchThickness, Profile,
+    RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain,
+    Surface, Table, Value,
 };
+pub use divisions::{Division, MOST_DIVISIONS};
 pub use elements::Chosen;
 pub use files::{Files, beside, bounded};
 pub use joints::{JointPrimitive, ResolvedGear, ResolvedJoint, ResolvedLatch, Symbol};

@@ -68,6 +68,7 @@ handed_on! {
     fn drawn([&] self, quantity: Quantity) -> f64;
     fn contact([&mut] self, load: LoadId, at: &[f64], state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn elastic_displacements([&mut] self, state: &State, inputs: &Inputs) -> Vec<f64>;
+    fn missed_by_patches([&mut] self, state: &State, inputs: &Inputs) -> Vec<(usize, [f64; 2])>;
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
     fn drawn_poses([&] self) -> Vec<Pose>;
     fn section_forces([&mut] self, state: &State, inputs: &Inputs) -> Vec<Vec<[f64; 3]>>;

@@ -1,11 +1,11 @@
-//! Meshes that do not carry the shapes that cables have: what is read of it, and told once.
+//! Meshes that do not carry the shapes that bodies have: what is read of it, and told once.
 
 use super::Quantity;
 use super::engine::Engine;
 use super::inputs::Inputs;
 use super::once::Once;
 use super::watch::is_sampled;
-use crate::bodies::LineChain;
+use crate::bodies::{LineChain, Patch};
 use crate::math::jet::Number;
 use crate::scene::Assembled;
 use crate::system::{Evaluation, State};
@@ -27,7 +27,31 @@ pub(super) fn resolution<const D: usize, N: Number>(
             largest = off;
         }
     }
+    for patch in system.bodies().patches() {
+        let off = off_surface(values, assembled, patch);
+        if off > largest {
+            largest = off;
+        }
+    }
     largest * N::of(1.0 / (system.size() * assembled.error))
+}
+
+/// Error in position that the mesh of a plate or shell makes in its present shape, m.
+fn off_surface<const D: usize, N: Number>(
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    patch: &Patch,
+) -> N {
+    let Assembled { system, nodes, .. } = assembled;
+    let mut largest = values.surface_bent_away(patch, nodes);
+    for along in 0..2 {
+        let missed = values.missed_along(system, (patch, nodes), along);
+        let jumps = missed.map_or(N::of(0.0), |missed| missed * N::of(OFF));
+        if jumps > largest {
+            largest = jumps;
+        }
+    }
+    largest
 }
 
 /// Error in position that the mesh of a chain makes in its present shape, m.
@@ -78,6 +102,27 @@ impl std::fmt::Display for Unresolved<'_> {
 }
 
 impl<const D: usize> Engine<D> {
+    /// Error in position (m) that the mesh of every plate and shell makes along `s1` and `s2`, by jumps of curvature: infinite where no
+    /// node tells. In the order of the bodies, by their places.
+    pub(super) fn missed_by_patches(
+        &mut self,
+        state: &State,
+        inputs: &Inputs,
+    ) -> Vec<(usize, [f64; 2])> {
+        let bodies = self.assembled.system.bodies().ranges.len();
+        let (assembled, values) = self.placed(state, inputs);
+        let Assembled { system, nodes, .. } = assembled;
+        let of = |body: usize| {
+            let patch = assembled.patch(body)?;
+            let missed = [0, 1].map(|along| {
+                let missed = values.missed_along(system, (patch, nodes), along);
+                missed.map_or(f64::INFINITY, |missed| OFF * missed)
+            });
+            Some((body, missed))
+        };
+        (0..bodies).filter_map(of).collect()
+    }
+
     /// Looks at the meshes at communication points that are sampled until they are first too coarse.
     pub(super) fn watch_mesh(&mut self, state: &State, inputs: &Inputs) {
         self.mesh.points += 1;
@@ -90,10 +135,14 @@ impl<const D: usize> Engine<D> {
         }
         let (assembled, values) = self.placed(state, inputs);
         let system = &assembled.system;
-        let missed = (system.bodies().lines().iter()).map(|chain| off(values, assembled, chain));
-        let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        let first = worst.map(|(chain, _)| system.bodies().lines()[chain].first_node());
-        let body = first.and_then(|first| system.bodies().body_from(first));
+        let bodies = system.bodies();
+        let lines = bodies.lines().iter();
+        let lines = lines.map(|chain| (chain.first_node(), off(values, assembled, chain)));
+        let patches = bodies.patches().iter();
+        let patches =
+            patches.map(|patch| (patch.mesh_node(0, 0), off_surface(values, assembled, patch)));
+        let worst = lines.chain(patches).max_by(|a, b| a.1.total_cmp(&b.1));
+        let body = worst.and_then(|(first, _)| bodies.body_from(first));
         self.mesh.found.find(body.map(|body| (body, resolution)));
     }
 

@@ -161,7 +161,7 @@ impl Simulation {
     }
 
     /// Largest distance of the nodes of every flexible body from the best rigid fit of its drawn shape, m, in the order of the bodies:
-    /// cables, rods and beams; 0 of one that is rigid.
+    /// cables, rods, beams, plates and shells; 0 of one that is rigid.
     ///
     /// # Errors
     /// The initial state cannot be computed.
@@ -169,6 +169,19 @@ impl Simulation {
         self.refresh()?;
         let engine = self.engine.as_mut().expect(ENGINE);
         Ok(engine.elastic_displacements(&self.state, &self.inputs))
+    }
+
+    /// Error in position (m) that the mesh of every plate and shell makes now along `s1` and `s2`, by jumps of curvature, with the place of the
+    /// body: infinite where no node tells.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub(in crate::simulation) fn missed_by_patches(
+        &mut self,
+    ) -> Result<Vec<(usize, [f64; 2])>, Error> {
+        self.refresh()?;
+        let engine = self.engine.as_mut().expect(ENGINE);
+        Ok(engine.missed_by_patches(&self.state, &self.inputs))
     }
 
     /// The force per reference length (N/m) of a contact along a body now at these material coordinates, in global components.
@@ -218,7 +231,7 @@ impl<const D: usize> Engine<D> {
         drawn(quantity, &self.assembled)
     }
 
-    /// Largest elastic displacement of every body along a line.
+    /// Largest elastic displacement of every body along a line, plate and shell.
     pub(super) fn elastic_displacements(&mut self, state: &State, inputs: &Inputs) -> Vec<f64> {
         let (assembled, values) = self.placed(state, inputs);
         let Assembled { system, nodes, .. } = assembled;
@@ -229,7 +242,9 @@ impl<const D: usize> Engine<D> {
             let modal = assembled
                 .modal_line(body)
                 .map(|(line, body)| line.deflection(body, &values.x));
-            (bends.or(modal)).or(bodies.is_along_line(body).then_some(0.0))
+            let patch = assembled.patch(body);
+            let patch = patch.map(|patch| values.surface_elastic_displacement(patch, nodes));
+            (bends.or(modal).or(patch)).or(bodies.is_along_line(body).then_some(0.0))
         };
         (0..bodies.ranges.len()).filter_map(of).collect()
     }

@@ -329,6 +329,21 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
     for lump in masses.filter(|lump| lump.inertia > 0.0) {
         take(&Attachment::Body(lump.marker));
     }
+    for joint in &parts.joints {
+        for hold in &joint.holds {
+            if let Primitive::Edge(edge) = hold {
+                edge.moments.iter().for_each(|node| takes[*node] = true);
+            }
+        }
+    }
+    for patch in parts.bodies.patches() {
+        for point in 0..patch.point_count() {
+            let first = patch.point_node(point);
+            if takes[first] || takes[first + 1] {
+                patch.acted(point).for_each(|node| takes[node] = true);
+            }
+        }
+    }
     takes
 }
 

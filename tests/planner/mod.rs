@@ -1,6 +1,7 @@
 //! The planner: what it promises against closed forms, that it is told what it cannot promise, that it is the same every time.
 
 mod inputs;
+mod patches;
 
 use std::f64::consts::PI;
 

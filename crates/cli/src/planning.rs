@@ -63,7 +63,7 @@ pub struct Planning {
     /// Writes the scene with these numbers to a file.
     #[arg(long)]
     output: Option<PathBuf>,
-    /// JSON file for the plan: elements and fewest elements of bodies, tolerance, errors of outputs, runs.
+    /// JSON file for the plan: elements and fewest elements of bodies, meshes of plates and shells, tolerance, errors of outputs, runs.
     #[arg(long)]
     report: Option<PathBuf>,
     /// CSV file for what inputs do by `accuracy.input_profiles`, which `simulate --input` reads; not written where none moves.
@@ -201,8 +201,9 @@ fn json(plan: &Plan, frequencies: &Result<FirstFrequencies, String>) -> String {
     let number = |value: Option<u32>| value.map_or("null".into(), |n| n.to_string());
     let bodies = plan.bodies.iter().map(|body| {
         let counts = [body.elements, body.fewest].map(number);
+        let mesh = body.mesh.map_or("null".into(), |mesh| format!("{mesh:?}"));
         format!(
-            "{{\"name\": \"{}\", \"elements\": {}, \"fewest\": {}}}",
+            "{{\"name\": \"{}\", \"elements\": {}, \"fewest\": {}, \"mesh\": {mesh}}}",
             body.name, counts[0], counts[1]
         )
     });
@@ -346,6 +347,9 @@ fn in_words(plan: &Plan) -> String {
     });
     text += &table(&["output", "error", ""], rows.collect());
     for sentence in plan.measured_otherwise() {
+        text += &format!("  {sentence}\n");
+    }
+    for sentence in plan.bounds() {
         text += &format!("  {sentence}\n");
     }
     if let Some(cut) = plan.cut() {

@@ -177,6 +177,14 @@ impl ShellSection {
         )))
     }
 
+    /// Curvature along each of the lines of a surface, with the opposite sign, that goes with one along the other where no moment acts along
+    /// the first, of the derivatives of the position of the unstressed surface.
+    pub fn contraction(&self, tangents: &[Vector3<f64>; 2]) -> [f64; 2] {
+        let by = strain_transformation(axis_components(tangents, self.angle));
+        let bending = rotated(&self.bending, &by);
+        [0, 1].map(|k| bending[k][1 - k] / bending[k][k])
+    }
+
     /// Whether every strain and curvature stores energy.
     pub fn is_positive(&self) -> bool {
         let whole = Matrix6::from_fn(|r, c| {

@@ -170,6 +170,12 @@ impl<const D: usize> Builder<'_, D> {
     fn edge(&self, edge: &ResolvedEdge<'_>) -> JointEquations<D> {
         let of = Line::new(self.patch_of(edge.line.plate), &edge.line);
         let (mut rows, mut constraints) = (Vec::new(), Vec::new());
+        let transmits = edge.hold != EdgeHold::Pinned;
+        let moments = |line: &Line<'_>| {
+            let nodes = line.nodes.iter().filter(|_| transmits);
+            nodes.map(|node| node.across.0).collect::<Vec<_>>()
+        };
+        let mut held_moments = moments(&of);
         let first = match &edge.base {
             EdgeBase::Ground => {
                 for node in &of.nodes {
@@ -209,6 +215,7 @@ impl<const D: usize> Builder<'_, D> {
                 if edge.hold == EdgeHold::Clamped {
                     constraints.extend(self.folds(&base, &of));
                 }
+                held_moments.extend(moments(&base));
                 base.end()
             }
         };
@@ -216,6 +223,7 @@ impl<const D: usize> Builder<'_, D> {
             patch: self.patch_index(edge.line.plate),
             nodes: of.nodes.iter().map(|node| node.first).collect(),
             middle: of.middle_place(edge.line.line as usize),
+            moments: held_moments,
             rows,
             constraints,
         };

@@ -46,7 +46,8 @@ pub use output::{
     Along, DeflectionOutput, OfGear, Output, OutputKind, PlyStressOutput, ReactionOutput,
 };
 pub use patch::{
-    LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface, PatchThickness,
+    LaminatePly, Pad, PatchBody, PatchMarker, PatchMesh, PatchStiffness, PatchSurface,
+    PatchThickness,
 };
 pub use port::{ForcePort, MotionPort, Port, PortKind};
 pub use reader::Reader;
@@ -159,6 +160,7 @@ impl Scene {
                 *vector = SceneVector::zero(self.dimension.clamp(2, 3));
             }
         }
+        self.divide_open_meshes();
         let vertical = self.gravity.full().map(|component| -component);
         for line in self.bodies.iter_mut().filter_map(Body::cable_mut) {
             line.vertical = vertical;
@@ -180,7 +182,9 @@ impl Scene {
         } = &self.accuracy;
         let is_error_alone = error.is_some() && relative_tolerance.is_none();
         let mut reduced = self.bodies.iter().filter_map(Body::reduced);
+        let mut patches = self.bodies.iter().filter_map(Body::patch);
         is_error_alone
+            || patches.any(|patch| patch.mesh.is_open.contains(&true))
             || cables.any(|cable| cable.elements.is_none())
             || reduced.any(FileBody::is_open)
     }

@@ -117,10 +117,10 @@ kinds! {
         Momentum(OfScene),
         /// Centre of mass of the scene, m.
         CenterOfMass(OfScene),
-        /// How well meshes carry the shapes that cables have: the error in position that they make now, estimated from jumps of
+        /// How well meshes carry the shapes that cables, rods, beams, plates and shells have: the error in position that they make now, estimated from jumps of
         /// curvature at nodes and from the angles that elements bend by, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
         /// needed, which is said once in the log of every run. Within a factor of five on most scenes; what a mesh did before, errors of time,
-        /// and a cable of one element that is clamped at both ends do not count.
+        /// a cable of one element that is clamped at both ends, and stretching of surfaces do not count.
         Resolution(OfScene),
         /// Largest residual of the constraints, relative: of positions and of velocities.
         Residual(OfScene),

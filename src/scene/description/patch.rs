@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::de::Deserializer;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::SceneVector;
+use super::accuracy::elements;
 use super::body::InitialMotion;
+use super::reader::found;
 use super::strict::{Strict, typed};
 use super::value::Value;
 
@@ -19,8 +21,11 @@ pub struct PatchBody {
     pub name: String,
     /// Middle surface without stress, also the configuration at the start. Coordinates `s1` and `s2` run over it from 0 to 1.
     pub surface: PatchSurface,
-    /// Numbers of elements along `s1` and `s2`.
-    pub mesh: [u32; 2],
+    /// Numbers of elements along `s1` and `s2`, each from 1 to 200; `"auto"` for one of them or for both, or nothing said, is as many as the
+    /// accuracy asks for, found while packaging. Edges that are joined have one number of elements.
+    #[serde(default)]
+    #[schemars(with = "MeshInJson")]
+    pub mesh: PatchMesh,
     /// Isotropic material, with `thickness`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<PatchMaterial>,
@@ -50,6 +55,93 @@ pub struct PatchBody {
     /// Named points: `[s1, s2]`, or one with a pad.
     #[serde(default)]
     pub markers: BTreeMap<String, PatchMarker>,
+}
+
+/// Numbers of elements of a plate or shell along `s1` and `s2`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PatchMesh {
+    /// Numbers of elements; of those that are left to the planner the fewest that joints allow.
+    pub counts: [u32; 2],
+    /// Whether numbers are left to the planner.
+    pub is_open: [bool; 2],
+}
+
+impl Default for PatchMesh {
+    /// Left to the planner.
+    fn default() -> Self {
+        Self {
+            counts: [1; 2],
+            is_open: [true; 2],
+        }
+    }
+}
+
+impl From<[u32; 2]> for PatchMesh {
+    fn from(counts: [u32; 2]) -> Self {
+        Self {
+            counts,
+            is_open: [false; 2],
+        }
+    }
+}
+
+/// Numbers of elements in JSON: two, each an integer or `"auto"`, or that word for both.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Mesh")]
+#[serde(untagged)]
+enum MeshInJson {
+    /// As many as the accuracy asks for along both coordinates: found while packaging.
+    Auto(elements::Word),
+    /// Numbers of elements along `s1` and `s2`.
+    Counts([elements::InJson; 2]),
+}
+
+impl Serialize for PatchMesh {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let of = |k: usize| {
+            if self.is_open[k] {
+                elements::InJson::Auto(elements::Word::Auto)
+            } else {
+                elements::InJson::Count(self.counts[k])
+            }
+        };
+        let value = if self.is_open == [true; 2] {
+            MeshInJson::Auto(elements::Word::Auto)
+        } else {
+            MeshInJson::Counts([of(0), of(1)])
+        };
+        value.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for PatchMesh {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        const WANTED: &str = "two numbers of elements, each a positive integer or \"auto\"";
+        let is_auto = |value: &serde_json::Value| value.as_str() == Some("auto");
+        let value = Strict::deserialize(deserializer)?.0;
+        let refused =
+            |found: String| serde::de::Error::custom(format!("expected {WANTED}, found {found}"));
+        if is_auto(&value) {
+            return Ok(Self::default());
+        }
+        let Some([first, second]) = value.as_array().map(Vec::as_slice) else {
+            return Err(refused(match value.as_array() {
+                Some(values) => values.len().to_string(),
+                None => found(&value),
+            }));
+        };
+        let mut mesh = Self::default();
+        for (k, of) in [first, second].into_iter().enumerate() {
+            if !is_auto(of) {
+                mesh.is_open[k] = false;
+                mesh.counts[k] = match of.as_u64().map(u32::try_from) {
+                    Some(Ok(count)) => count,
+                    _ => return Err(refused(found(of))),
+                };
+            }
+        }
+        Ok(mesh)
+    }
 }
 
 /// Thickness of a plate or shell.

@@ -4,15 +4,14 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::elements::shell::Corner;
+use crate::scene::description::PatchMesh;
+use crate::scene::divisions::{Division, MOST_DIVISIONS, OFF, coordinate, line_at, multiples};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
     BodyReference, Cable, EdgeBase, EdgeHold, MeshLine, Plate, ResolvedEdge,
 };
 use crate::scene::validate::checks::unknown;
 use crate::scene::validate::refuse_point;
-
-/// Part of a line, relative to its size, by which it may be off a plane of symmetry or another line.
-const OFF: f64 = 1e-6;
 
 /// Holds an edge of a plate or shell and the normal along it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -176,6 +175,7 @@ impl<'a> Resolved<'a> {
     /// # Errors
     /// A winch that pays out a stiffener; nodes or slopes that are not those of its mesh line.
     pub(in crate::scene) fn check_stiffeners(&self) -> Result<(), Error> {
+        let divisions = self.scene.divisions();
         for edge in &self.edges {
             let EdgeBase::Stiffener(body, is_reversed) = edge.base else {
                 continue;
@@ -185,9 +185,43 @@ impl<'a> Resolved<'a> {
                 let wanted = "a body that no winch pays out";
                 return Err(expected(&path, wanted, quoted(&body.body.name)));
             }
-            lie_on(&path, (body, &self.nodes(body)?), &edge.line, is_reversed)?;
+            let count = self.stiffener_elements(&path, body, (&edge.line, &divisions))?;
+            let nodes = self.nodes_of(body, count)?;
+            lie_on(&path, (body, &nodes), &edge.line, is_reversed)?;
         }
         Ok(())
+    }
+
+    /// Elements of a stiffener: a number that is left to the planner becomes that of the line.
+    fn stiffener_elements(
+        &self,
+        path: &str,
+        body: Cable<'_>,
+        (line, divisions): (&MeshLine<'_>, &[Division]),
+    ) -> Found<u32> {
+        if let Some(count) = body.body.elements {
+            return Ok(count);
+        }
+        let direction = (line.plate.id.index(), 1 - line.across);
+        let mut open = divisions.iter().filter(|of| of.is_open);
+        if !open.any(|of| of.directions.contains(&direction)) {
+            return Ok(line.elements());
+        }
+        self.evenly(&[body], line.elements()).ok_or_else(|| {
+            let wanted = format!(
+                "a body whose markers and loads are at nodes of up to {MOST_DIVISIONS} elements of equal lengths"
+            );
+            expected(path, &wanted, quoted(&body.body.name))
+        })
+    }
+
+    /// First multiple of a number of elements of which those of equal lengths have nodes where these bodies need them.
+    pub fn evenly(&self, bodies: &[Cable<'_>], count: u32) -> Option<u32> {
+        let places: Vec<f64> = { bodies.iter() }
+            .flat_map(|body| self.loaded_coordinates(*body))
+            .collect();
+        let has_nodes = |count: &u32| places.iter().all(|at| line_at(*at, *count).is_some());
+        multiples(count).find(has_nodes)
     }
 
     /// Finds a line of the mesh of a plate or shell.
@@ -206,9 +240,16 @@ impl<'a> Resolved<'a> {
         found
             .filter(|line| line.is_edge() || !needs_edge)
             .ok_or_else(|| {
-                let [n, m] = plate.body.mesh;
+                let PatchMesh {
+                    counts: [n, m],
+                    is_open,
+                } = plate.body.mesh;
                 let wanted = if needs_edge {
                     "an edge (s1=0, s1=1, s2=0, s2=1)".to_owned()
+                } else if is_open.contains(&true) && may_have(place, is_open).is_none() {
+                    format!(
+                        "an edge (s1=0, s1=1, s2=0, s2=1) or a line that up to {MOST_DIVISIONS} elements of equal parts of the coordinate may have"
+                    )
                 } else {
                     format!(
                         "an edge (s1=0, s1=1, s2=0, s2=1) or another line of the mesh of {n} x {m} elements"
@@ -217,6 +258,13 @@ impl<'a> Resolved<'a> {
                 expected(path, &wanted, quoted(place))
             })
     }
+}
+
+/// A number of elements of which a mesh line is at a place such as `s1=0.5`, along a coordinate of which the number is open.
+fn may_have(place: &str, is_open: [bool; 2]) -> Option<u32> {
+    let (across, value) = coordinate(place)?;
+    let mut counts = (1..=MOST_DIVISIONS).filter(|_| is_open[across]);
+    counts.find(|count| line_at(value, *count).is_some())
 }
 
 /// Checks that two lines are at the same place with the same places of their nodes, and for a smooth continuation that derivatives across
@@ -296,15 +344,13 @@ fn stiffener<'a>(
         let found = format!("the cable {}", body.name);
         return Err(expected(path, wanted, found));
     }
-    if body.elements != Some(line.elements()) {
+    if body.elements.is_some_and(|count| count != line.elements()) {
         let wanted = format!(
             "a body of {} elements, as many as {} has",
             line.elements(),
             line.place()
         );
-        let count = body.elements.map(|count| count.to_string());
-        let count = count.as_deref().unwrap_or("\"auto\"");
-        let found = format!("{} of {count}", body.name);
+        let found = format!("{} of {}", body.name, body.elements.unwrap_or_default());
         return Err(expected(path, &wanted, found));
     }
     let ends = [0.0, 1.0].map(|along| {
@@ -322,7 +368,8 @@ fn lie_on(
     is_reversed: bool,
 ) -> Found<()> {
     let (shape, along) = (&of.body.shape, 1 - line.across);
-    let mut corners = line.corners();
+    let count = nodes.len() as u32 - 1;
+    let mut corners = line.corners_of(count);
     if is_reversed {
         corners.reverse();
     }
@@ -336,7 +383,7 @@ fn lie_on(
         let found = format!("{name} (nodes up to {} m off)", number(gap));
         return Err(expected(path, &wanted, found));
     }
-    let element = size / f64::from(line.elements()) * if is_reversed { -1.0 } else { 1.0 };
+    let element = size / f64::from(count) * if is_reversed { -1.0 } else { 1.0 };
     let is_off = (0..nodes.len() - 1).any(|k| {
         let length = (nodes[k + 1] - nodes[k]) * shape.length();
         [k, k + 1].into_iter().any(|end| {
@@ -381,32 +428,28 @@ fn check_symmetry(path: &str, line: &MeshLine<'_>, normal: Vector3<f64>) -> Foun
 impl<'a> MeshLine<'a> {
     /// The line of a mesh at a place such as `s1=0.5`, if there is one.
     fn of(plate: Plate<'a>, place: &str) -> Option<Self> {
-        let (coordinate, value) = place.split_once('=')?;
-        let across = ["s1", "s2"].iter().position(|name| *name == coordinate)?;
-        let value: f64 = value.parse().ok()?;
-        let count = f64::from(plate.body.mesh[across]);
-        let line = (value * count).round();
-        let is_on = (0.0..=1.0).contains(&value) && (line - value * count).abs() <= OFF;
-        is_on.then_some(Self {
+        let (across, value) = coordinate(place)?;
+        let line = line_at(value, plate.body.mesh.counts[across])?;
+        Some(Self {
             plate,
             across,
-            line: line as u32,
+            line,
         })
     }
 
     /// Whether the line is an edge.
     fn is_edge(&self) -> bool {
-        self.line == 0 || self.line == self.plate.body.mesh[self.across]
+        self.line == 0 || self.line == self.plate.body.mesh.counts[self.across]
     }
 
     /// Number of elements along the line.
     pub fn elements(&self) -> u32 {
-        self.plate.body.mesh[1 - self.across]
+        self.plate.body.mesh.counts[1 - self.across]
     }
 
     /// Coordinates `[s1, s2]` of a place along the line in [0, 1].
     pub fn at(&self, along: f64) -> [f64; 2] {
-        let held = f64::from(self.line) / f64::from(self.plate.body.mesh[self.across]);
+        let held = f64::from(self.line) / f64::from(self.plate.body.mesh.counts[self.across]);
         match self.across {
             0 => [held, along],
             _ => [along, held],
@@ -415,8 +458,12 @@ impl<'a> MeshLine<'a> {
 
     /// Vectors of the described surface at the nodes of the line, as [`Corner`] has them.
     fn corners(&self) -> Vec<[Vector3<f64>; 4]> {
+        self.corners_of(self.elements())
+    }
+
+    /// Vectors of the described surface at the nodes of so many elements along the line.
+    fn corners_of(&self, count: u32) -> Vec<[Vector3<f64>; 4]> {
         let geometry = self.plate.body.geometry();
-        let count = self.elements();
         let places = (0..=count).map(|k| self.at(f64::from(k) / f64::from(count)));
         let corners = places.map(|at| geometry.corner(at));
         corners

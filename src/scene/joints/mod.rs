@@ -237,7 +237,7 @@ macro_rules! joints {
             const DIMENSIONS: &'static [usize] = &[$($dimension,)*];
 
             /// Names of what it joins: `ground`, a marker or a cable, then a marker.
-            fn markers(&self) -> &[String; 2] {
+            pub(in crate::scene) fn markers(&self) -> &[String; 2] {
                 match self {
                     $(Self::$kind(joint) => &joint.markers,)*
                 }

@@ -18,7 +18,7 @@ pub struct PatchGrid {
 impl PatchBody {
     /// Grid that it is drawn with.
     pub fn grid(&self) -> PatchGrid {
-        PatchGrid::new(self.mesh.map(|count| count as usize))
+        PatchGrid::new(self.mesh.counts.map(|count| count as usize))
     }
 }
 

@@ -44,7 +44,7 @@ impl<'a> PatchGeometry<'a> {
 
     /// Places `[s1, s2]` of the corners of the elements: `(n + 1) (m + 1)` of them, those along `s2` side by side.
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
-        let [n, m] = self.body.mesh;
+        let [n, m] = self.body.mesh.counts;
         let place = |k: u32, of: u32| f64::from(k) / f64::from(of);
         (0..=n).flat_map(move |i| (0..=m).map(move |j| [place(i, n), place(j, m)]))
     }
@@ -57,7 +57,7 @@ impl<'a> PatchGeometry<'a> {
     /// Places of the lines of the mesh along `s1` and `s2`, m from 0.
     pub fn lines(&self) -> [Vec<f64>; 2] {
         [0, 1].map(|k| {
-            let (length, count) = (self.lengths[k], self.body.mesh[k]);
+            let (length, count) = (self.lengths[k], self.body.mesh.counts[k]);
             let place = |line: u32| length * f64::from(line) / f64::from(count);
             (0..=count).map(place).collect()
         })
@@ -116,7 +116,7 @@ impl PatchBody {
 
     /// Number of elements.
     pub fn elements(&self) -> u64 {
-        self.mesh.map(u64::from).into_iter().product()
+        self.mesh.counts.map(u64::from).into_iter().product()
     }
 
     /// Index of a marker among those of the body, in alphabetical order.

@@ -9,11 +9,12 @@ use super::checks::{direction, expected, finite, needed, not_negative, positive,
 use crate::scene::description::{
     LaminatePly, PatchBody, PatchStiffness, PatchSurface, PatchThickness, SceneVector,
 };
+use crate::scene::divisions::MOST_DIVISIONS;
 use crate::scene::patch::SurfaceMap;
 use crate::scene::{Error, PatchMarker};
 
 /// Elements of a plate or shell along each coordinate: factors of finer meshes take gigabytes.
-const MESH: RangeInclusive<u32> = 1..=200;
+const MESH: RangeInclusive<u32> = 1..=MOST_DIVISIONS;
 /// Most plies of a laminate, and most points of a curve or of a row of a grid.
 const MOST: usize = 200;
 /// Parts along each coordinate between which a surface is looked at.
@@ -42,7 +43,7 @@ impl PatchBody {
             let found = if is_plate { "\"plate\"" } else { "\"shell\"" };
             return Err(expected(&at("element"), wanted, found));
         }
-        for (k, count) in self.mesh.iter().enumerate() {
+        for (k, count) in self.mesh.counts.iter().enumerate() {
             if !MESH.contains(count) {
                 let wanted = format!(
                     "an integer from {} to {} (factors of finer meshes take gigabytes)",

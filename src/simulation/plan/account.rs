@@ -1,12 +1,13 @@
 //! The account of a search: what was chosen, and why.
 
+use super::divisions::follows;
 use super::experiment::TrialRun;
 use super::ladder::Choice;
 use super::outputs::{Difference, RelativeTo};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 use super::response::FREQUENCIES;
 use super::search::{COMPARED_MODES, Search, counted};
-use crate::scene::Model;
+use crate::scene::{Body, Model, Scene};
 
 impl Search<'_, '_> {
     /// The plan of a choice, from what doubling and a tenth of the tolerance change.
@@ -43,6 +44,7 @@ impl Search<'_, '_> {
             } else {
                 self.price(&double, None)
             },
+            at_bound: self.at_bound(choice),
             is_cut: self.is_cut,
             runs: self.runs.len(),
             runs_cost: if cost > 0.0 { self.work / cost } else { 0.0 },
@@ -68,13 +70,26 @@ impl Search<'_, '_> {
 
     pub(super) fn price(&self, choice: &Choice, error: Option<f64>) -> Option<Price> {
         let run = self.known(choice)?;
+        let planned = self.planned(choice);
         let time = run.times.last().copied().filter(|time| *time > 0.0)?;
         Some(Price {
-            elements: choice.elements.clone(),
+            elements: self.counts(choice, &planned),
+            meshes: meshes(&planned),
             tolerance: choice.tolerance,
             work: run.work / time,
             error,
         })
+    }
+
+    /// Elements of lines and modes of reduced bodies of a choice, which makes this scene; stiffeners have those of their lines.
+    fn counts(&self, choice: &Choice, planned: &Scene) -> Vec<u32> {
+        let own = choice.elements[..self.first_division()].iter();
+        let bodies = counted(self.scene).zip(own);
+        let counts = bodies.map(|(body, count)| match planned.bodies[body].cable() {
+            Some(line) if follows(self.scene, body) => line.elements.unwrap_or(*count),
+            _ => *count,
+        });
+        counts.collect()
     }
 
     /// Lists the changes on doubling the mesh of the responses to inputs that are held, and of natural frequencies.
@@ -120,6 +135,7 @@ impl Search<'_, '_> {
     fn bodies(&self, choice: &Choice, in_space: &[Difference]) -> Vec<PlannedBody> {
         let largest = in_space.iter().enumerate();
         let largest = largest.max_by(|a, b| a.1.largest.total_cmp(&b.1.largest));
+        let largest = largest.filter(|(_, difference)| difference.largest.is_finite());
         let changes = largest.map(|(group, difference)| {
             format!(
                 "changes {} most, by {:.1e}",
@@ -128,14 +144,21 @@ impl Search<'_, '_> {
             )
         });
         let with_counts: Vec<usize> = counted(self.scene).collect();
+        let planned = self.planned(choice);
+        let counts = self.counts(choice, &planned);
         let bodies = self.scene.bodies.iter().enumerate().map(|(index, body)| {
+            if let Some(patch) = planned.bodies[index].patch() {
+                return self.planned_patch(index, patch.mesh.counts, changes.as_deref());
+            }
             let place = with_counts.iter().position(|of| *of == index);
-            let count = place.map_or(0, |place| choice.elements[place]);
+            let count = place.map_or(0, |place| counts[place]);
+            let follows = follows(self.scene, index);
             let is_free = place.is_some_and(|place| self.is_free(place));
             let modes = place.and_then(|place| *choice.modes.get(place)?);
             let given = body.cable().filter(|line| line.model == Model::Modal);
             let modes = modes.or(given.and_then(|line| line.modes));
             let why = match (is_free, &changes, count) {
+                _ if follows => "as many as the line that it stiffens has".into(),
                 (false, ..) => "as the scene says".into(),
                 (true, Some(changes), 0) => format!("to let it bend {changes}"),
                 (true, Some(changes), _) if modes.is_some() => {
@@ -159,10 +182,46 @@ impl Search<'_, '_> {
                 name: body.name().to_owned(),
                 kind,
                 elements,
+                mesh: None,
                 fewest: place.map(|place| self.fewest[place]),
                 why,
             }
         });
         bodies.collect()
     }
+
+    /// The account of a plate or shell, by its place among the bodies.
+    fn planned_patch(&self, index: usize, mesh: [u32; 2], changes: Option<&str>) -> PlannedBody {
+        let body = &self.scene.bodies[index];
+        let is_open = body.patch().map(|patch| patch.mesh.is_open);
+        let is_free = self.divisions.iter().any(|division| {
+            let mut directions = division.directions.iter();
+            directions.any(|(of, _)| *of == index)
+        });
+        let why = match (is_free, changes) {
+            (true, Some(changes)) => format!("doubling all {changes}"),
+            (true, None) => "not more could be tried".into(),
+            (false, _) if is_open.is_some_and(|is_open| is_open.contains(&true)) => {
+                "as many as what it is joined with has".into()
+            }
+            (false, _) => "as the scene says".into(),
+        };
+        PlannedBody {
+            name: body.name().to_owned(),
+            kind: match body {
+                Body::Plate(_) => "plate",
+                _ => "shell",
+            },
+            elements: None,
+            mesh: Some(mesh),
+            fewest: None,
+            why,
+        }
+    }
+}
+
+/// Numbers of elements of all plates and shells.
+fn meshes(scene: &Scene) -> Vec<[u32; 2]> {
+    let patches = scene.bodies.iter().filter_map(Body::patch);
+    patches.map(|patch| patch.mesh.counts).collect()
 }

@@ -5,7 +5,7 @@
 //! Source: R. W. Clough, J. Penzien, Dynamics of Structures, 3rd ed. (2003), section 12-4 (damping in modal coordinates; in proportion to
 //! stiffness).
 
-use super::search::fewest;
+use super::search::{counted, fewest};
 use crate::scene::{Accuracy, Error, Scene};
 use crate::simulation::dimension::AnyEngine;
 use crate::simulation::inputs::Inputs;
@@ -81,6 +81,12 @@ pub(in crate::simulation) fn damp(scene: &Scene) -> Result<(Scene, Vec<Damped>),
 fn swinging(scene: &Scene) -> Result<Scene, Error> {
     let mut scene = scene.clone().plain().without_outputs();
     let fewest = fewest(&scene)?;
+    // Stiffeners have the number of their lines.
+    let open = &fewest[counted(&scene).count()..];
+    let open: Vec<u32> = { open.iter() }
+        .map(|least| least * ELEMENTS.div_ceil(*least))
+        .collect();
+    scene.divide(open);
     let lines = scene.bodies.iter_mut().filter_map(|body| body.cable_mut());
     for (line, fewest) in lines.zip(fewest) {
         line.elements.get_or_insert(fewest.max(ELEMENTS));

@@ -28,6 +28,8 @@ pub(super) struct TrialRun {
     /// Largest displacements of bodies from where they were drawn, and from a rigid motion of what was drawn, m.
     pub moved: Vec<f64>,
     pub deformed: Vec<f64>,
+    /// Largest error (m) that the meshes of plates and shells make along both directions, with the places of the bodies.
+    pub missed: Vec<(usize, [f64; 2])>,
     /// Linear responses to inputs that are held.
     pub responses: Responses,
     /// Reference size of the errors of every output, in the output's unit. The search fills it in.
@@ -159,7 +161,7 @@ impl PlannedExperiment {
                 .push(row.map_err(|error| failed(error.to_string()))?);
             run.times.push(simulation.time());
         }
-        (run.moved, run.deformed) = (motion.moved, motion.deformed);
+        (run.moved, run.deformed, run.missed) = (motion.moved, motion.deformed, motion.missed);
         Ok(run)
     }
 
@@ -205,6 +207,7 @@ impl TrialRun {
             drawn: simulation.drawn(),
             moved: Vec::new(),
             deformed: Vec::new(),
+            missed: Vec::new(),
             responses,
             scales: Vec::new(),
             work: 0.0,

@@ -34,6 +34,10 @@ pub(super) struct Choice {
 /// Choices from cheap to dear, with what the next one changed.
 pub(super) struct Ladder {
     pub rungs: Vec<(Choice, Vec<Difference>)>,
+    /// Place of the first number of elements of plates and shells in a choice.
+    pub first_division: usize,
+    /// These numbers of the choice that each rung was compared with, over its own.
+    steps: Vec<Vec<f64>>,
     /// Limits of the changes of every output.
     limits: Vec<f64>,
     /// The part of what a rung changed that the next one changes at least, of every output; infinite where nothing is foreseen.
@@ -44,13 +48,38 @@ impl Ladder {
     pub fn new(limits: Vec<f64>, least: Vec<f64>) -> Self {
         Self {
             rungs: Vec::new(),
+            first_division: usize::MAX,
+            steps: Vec::new(),
             limits,
             least,
         }
     }
 
     pub fn add(&mut self, choice: &Choice, found: Vec<Difference>) {
+        self.add_step(choice, choice, found);
+    }
+
+    /// Adds a rung with what a choice with a finer mesh changes.
+    pub fn add_step(&mut self, choice: &Choice, finer: &Choice, found: Vec<Difference>) {
         self.rungs.push((choice.clone(), found));
+        let step = self.ratios(choice, finer);
+        self.steps.push(step);
+    }
+
+    /// Whether a choice with a finer mesh is what the one of the last rung was to it: directions of plates and shells are not always all
+    /// doubled.
+    pub fn goes_on(&self, choice: &Choice, finer: &Choice) -> bool {
+        let ratios = self.ratios(choice, finer);
+        self.steps.last().is_none_or(|step| *step == ratios)
+    }
+
+    /// Numbers of elements of plates and shells of a finer choice over those of another one.
+    fn ratios(&self, choice: &Choice, finer: &Choice) -> Vec<f64> {
+        let counts = choice.elements.iter().zip(&finer.elements);
+        let counts = counts.skip(self.first_division);
+        counts
+            .map(|(count, finer)| f64::from(*finer) / f64::from(*count))
+            .collect()
     }
 
     /// Whether no output would come closer on the next rung, and is still to.
@@ -87,12 +116,11 @@ impl Ladder {
         // Letting rigid bodies bend is no doubling.
         let rigid = |choice: &Choice| choice.elements.iter().filter(|count| **count == 0).count();
         let least = rigid(&self.rungs.last()?.0);
-        let alike = self
-            .rungs
-            .iter()
-            .rev()
-            .filter(|rung| rigid(&rung.0) == least);
-        let mut changes = alike.map(|(_, all)| all[group].largest);
+        let step = self.steps.last()?;
+        let alike = self.rungs.iter().zip(&self.steps).rev();
+        let alike = alike.filter(|(rung, _)| rigid(&rung.0) == least);
+        let alike = alike.take_while(|(_, of)| *of == step);
+        let mut changes = alike.map(|((_, all), _)| all[group].largest);
         let [last, before] = [changes.next()?, changes.next()?];
         let is_new = changes.next().is_some_and(|first| before > BEFORE * first);
         if last > REGULAR * before || is_new || self.least[group].is_infinite() {

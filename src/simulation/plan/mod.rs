@@ -7,6 +7,7 @@ mod account;
 mod belief;
 mod courses;
 mod damping;
+mod divisions;
 mod experiment;
 mod given;
 mod ladder;

@@ -12,12 +12,14 @@ const MOST: u32 = 64;
 /// The largest displacements of bodies so far.
 pub(super) struct LargestDisplacements {
     drawn: Vec<Vec<[f64; 3]>>,
-    /// Places among the bodies of those along lines.
+    /// Places among the bodies of those along lines, plates and shells.
     lines: Vec<usize>,
     /// Largest displacement of every body from where it was drawn, m.
     pub moved: Vec<f64>,
     /// Largest elastic displacement of every body, m: zero of rigid ones.
     pub deformed: Vec<f64>,
+    /// Largest error (m) that the meshes of plates and shells make along both directions, with the places of the bodies.
+    pub missed: Vec<(usize, [f64; 2])>,
 }
 
 /// Parts that a body of so many elements is cut into.
@@ -32,12 +34,13 @@ impl LargestDisplacements {
         let drawn = simulation.drawn_outlines(parts);
         let bodies = drawn.len();
         let lines = simulation.scene().bodies.iter().enumerate();
-        let lines = lines.filter(|(_, body)| body.cable().is_some());
+        let lines = lines.filter(|(_, body)| body.cable().is_some() || body.patch().is_some());
         Self {
             drawn,
             lines: lines.map(|(index, _)| index).collect(),
             moved: vec![0.0; bodies],
             deformed: vec![0.0; bodies],
+            missed: Vec::new(),
         }
     }
 
@@ -55,6 +58,16 @@ impl LargestDisplacements {
         let elastic = simulation.elastic_displacements()?;
         for (body, elastic) in self.lines.iter().zip(elastic) {
             self.deformed[*body] = self.deformed[*body].max(elastic);
+        }
+        let missed = simulation.missed_by_patches()?;
+        if self.missed.is_empty() {
+            self.missed = missed;
+            return Ok(());
+        }
+        for ((_, largest), (_, now)) in self.missed.iter_mut().zip(&missed) {
+            for (largest, now) in largest.iter_mut().zip(now) {
+                *largest = largest.max(*now);
+            }
         }
         Ok(())
     }

@@ -31,6 +31,8 @@ pub struct Plan {
     pub dearer: Option<Price>,
     /// Proposal of axial damping for forces that do not converge.
     pub settled: Option<Settled>,
+    /// Plates and shells whose meshes are as fine as they may be, in words.
+    pub(super) at_bound: Vec<String>,
     /// Whether the work that planning may cost ended before the plan was found: it is the best so far.
     pub is_cut: bool,
     /// Runs that were made, and what they cost together, in runs with the choice.
@@ -44,11 +46,13 @@ pub struct Plan {
 pub struct PlannedBody {
     /// Name of the body.
     pub name: String,
-    /// `cable`, `rod`, `beam`, `reduced`, `modal` or `rigid`.
+    /// `cable`, `rod`, `beam`, `plate`, `shell`, `reduced`, `modal` or `rigid`.
     pub kind: &'static str,
     /// Number of elements, where it bends; of natural modes with held interfaces, where it is a line that is reduced to modes, or reduced and
     /// their number was open.
     pub elements: Option<u32>,
+    /// Numbers of elements of a plate or shell along `s1` and `s2`.
+    pub mesh: Option<[u32; 2]>,
     /// The fewest that a cable can have, or is given.
     pub fewest: Option<u32>,
     /// Why.
@@ -99,8 +103,10 @@ pub struct Settled {
 /// Price of a choice of mesh and tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Price {
-    /// Elements of every cable.
+    /// Elements of every line, and modes of every reduced body whose number of modes was open.
     pub elements: Vec<u32>,
+    /// Numbers of elements of every plate and shell along `s1` and `s2`.
+    pub meshes: Vec<[u32; 2]>,
     /// Tolerance.
     pub tolerance: f64,
     /// Work (operations times parts) in a second of simulated time.
@@ -116,10 +122,15 @@ impl Plan {
     /// Summarizes the choice and its criterion in one line.
     pub fn in_a_line(&self) -> String {
         let body = |body: &PlannedBody| match body.elements {
+            None if body.mesh.is_some() => {
+                let mesh = body.count_in_words();
+                format!("{} {} with {mesh} elements", body.name, body.kind)
+            }
             Some(count) => format!("{} {} with {count} {}", body.name, body.kind, body.parts()),
             None => format!("{} {}", body.name, body.kind),
         };
-        let bodies = self.bodies.iter().filter(|body| body.fewest.is_some());
+        let bodies = self.bodies.iter();
+        let bodies = bodies.filter(|body| body.fewest.is_some() || body.mesh.is_some());
         let bodies: Vec<String> = bodies.map(body).collect();
         let bodies = if bodies.is_empty() {
             String::new()
@@ -145,6 +156,13 @@ impl Plan {
         self.is_cut.then_some(CUT)
     }
 
+    /// Plates and shells whose meshes could not be finer, one sentence each, where that keeps the plan from its error.
+    pub fn bounds(&self) -> &[String] {
+        let is_kept = self.outputs.iter().all(|of| of.settles == Settles::Yes)
+            && self.answers.iter().all(|(_, error)| *error <= self.error);
+        if is_kept { &[] } else { &self.at_bound }
+    }
+
     /// Lists the promises that the plan does not keep, one sentence each.
     pub fn missed(&self) -> Vec<String> {
         let wanted = self.error;
@@ -166,7 +184,9 @@ impl Plan {
             format!("{name}: twice the mesh changes it by {error}, {wanted:e} is wanted")
         });
         let cut = self.cut().map(str::to_owned);
-        outputs.chain(answers).chain(cut).collect()
+        let mut told: Vec<String> = outputs.chain(answers).chain(cut).collect();
+        told.extend(self.bounds().iter().cloned());
+        told
     }
 
     /// Outputs that were measured by another size than their own largest change, a sentence each.
@@ -236,6 +256,7 @@ impl PlannedBody {
     pub fn count_in_words(&self) -> String {
         let has_modes = ["reduced", "modal"].contains(&self.kind);
         match self.elements {
+            None if self.mesh.is_some() => self.mesh.map(mesh_in_words).unwrap_or_default(),
             Some(1) if has_modes => "1 mode".into(),
             Some(count) if has_modes => format!("{count} modes"),
             count => count.map_or(String::new(), |count| count.to_string()),
@@ -251,10 +272,11 @@ impl PlannedOutput {
 }
 
 impl Price {
-    /// Elements of all cables in words.
+    /// Elements of all bodies in words.
     pub fn elements_in_words(&self) -> String {
-        let elements: Vec<String> = self.elements.iter().map(u32::to_string).collect();
-        elements.join(", ")
+        let elements = self.elements.iter().map(u32::to_string);
+        let elements = elements.chain(self.meshes.iter().copied().map(mesh_in_words));
+        elements.collect::<Vec<_>>().join(", ")
     }
 
     /// The error in words; none where it is not known.
@@ -266,6 +288,10 @@ impl Price {
     pub fn milliseconds(&self) -> f64 {
         1e3 * OPERATION * self.work
     }
+}
+
+fn mesh_in_words([n, m]: [u32; 2]) -> String {
+    format!("{n} x {m}")
 }
 
 fn in_words(error: f64) -> String {

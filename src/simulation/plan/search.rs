@@ -1,5 +1,6 @@
 //! The search for meshes and a tolerance.
 
+use super::divisions::{elements_of, follows, open_divisions};
 use super::experiment::{PlannedExperiment, TrialRun, Unfinished};
 use super::given::TrialConditions;
 use super::ladder::Choice;
@@ -10,8 +11,8 @@ use super::response::Responses;
 use super::shear::{Beam, Sheared};
 use super::{Budget, Progress};
 use crate::scene::{
-    Accuracy, Axial, Body, BodyReference, Error, FileBody, FixedInterfaceModes, LineBody, Model,
-    Modes, Scene,
+    Accuracy, Axial, Body, BodyReference, Division, Error, FileBody, FixedInterfaceModes, LineBody,
+    Model, Modes, Scene,
 };
 use crate::simulation::{check, variables};
 
@@ -45,6 +46,8 @@ pub(super) struct Search<'a, 'p> {
     /// As few elements of every cable as there can be while it bends, or as many as are given; none of one that is said
     /// to be rigid.
     pub fewest: Vec<u32>,
+    /// Numbers of elements of plates and shells that are left to the planner.
+    pub(super) divisions: Vec<Division>,
     /// Bodies that may be beams.
     pub(super) beams: Vec<Beam>,
     /// The loosest tolerance that may be chosen.
@@ -92,9 +95,11 @@ fn with_rigid(mut scene: Scene, body: usize) -> Scene {
     scene
 }
 
-/// The scene with numbers of elements and modes, in the order of [`counted`]; with 0 a body is rigid.
+/// The scene with numbers of elements and modes, in the order of [`counted`], then of elements of plates and shells; with 0 a body is rigid.
+/// Stiffeners take the number of their lines.
 pub(super) fn with_counts(mut scene: Scene, counts: &[u32]) -> Scene {
     let bodies: Vec<usize> = counted(&scene).collect();
+    scene.divide(counts[bodies.len()..].iter().copied());
     for (body, count) in bodies.into_iter().zip(counts) {
         if *count == 0 {
             scene = with_rigid(scene, body);
@@ -105,14 +110,14 @@ pub(super) fn with_counts(mut scene: Scene, counts: &[u32]) -> Scene {
         } else if let Some(line) = scene.bodies[body].cable_mut()
             && line.model != Model::Modal
         {
-            line.elements = Some(*count);
+            line.elements.get_or_insert(*count);
         }
     }
     scene
 }
 
 /// Returns the least number of elements of every line body, 0 for rigid ones (see [`Search::fewest`]); one mode of reduced bodies whose number
-/// of modes is open.
+/// of modes is open; of plates and shells as few as joints allow.
 ///
 /// # Errors
 /// A scene that is not valid, or markers that are too close for nodes.
@@ -129,7 +134,19 @@ pub(super) fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
             (_, None) => resolved.fewest_elements(*cable),
         })
     });
-    counts.chain(open_reduced(scene).map(|_| Ok(1))).collect()
+    let mut counts: Vec<u32> = counts.collect::<Result<_, _>>()?;
+    counts.extend(open_reduced(scene).map(|_| 1));
+    for division in open_divisions(scene) {
+        let stiffeners = resolved.bodies.iter().enumerate();
+        let stiffeners = stiffeners.filter_map(|(body, of)| match of {
+            BodyReference::Cable(cable) if division.stiffeners.contains(&body) => Some(*cable),
+            _ => None,
+        });
+        let stiffeners: Vec<_> = stiffeners.collect();
+        let even = resolved.evenly(&stiffeners, division.count);
+        counts.push(even.unwrap_or(division.count));
+    }
+    Ok(counts)
 }
 
 impl<'a, 'p> Search<'a, 'p> {
@@ -155,6 +172,7 @@ impl<'a, 'p> Search<'a, 'p> {
             runs: Vec::new(),
             work: 0.0,
             fewest: fewest(scene)?,
+            divisions: open_divisions(scene).collect(),
             loosest: f64::INFINITY,
             most_work: budget.work(),
             share: 1.0,
@@ -227,14 +245,20 @@ impl<'a, 'p> Search<'a, 'p> {
             // Stress is read of what deforms.
             u32::from(with_rigid(self.scene.clone(), body).resolve().is_err())
         });
-        least.chain(reduced).collect()
+        let divided = elements[self.first_division()..].iter().copied();
+        least.chain(reduced).chain(divided).collect()
     }
 
     /// Whether the number of elements or modes of a body is left to the planner, by its place among those that have one.
     pub fn is_free(&self, counted_body: usize) -> bool {
         match cables(self.scene).nth(counted_body) {
-            Some((_, line)) => line.elements.is_none() && line.model.has_elements(),
-            None => self.most_modes(counted_body).is_some(),
+            Some((body, line)) => {
+                let is_open = line.elements.is_none() && line.model.has_elements();
+                is_open && !follows(self.scene, body)
+            }
+            None => {
+                counted_body >= self.first_division() || self.most_modes(counted_body).is_some()
+            }
         }
     }
 
@@ -250,7 +274,7 @@ impl<'a, 'p> Search<'a, 'p> {
         (0..self.fewest.len()).any(|cable| self.is_free(cable))
     }
 
-    fn planned(&self, choice: &Choice) -> Scene {
+    pub(super) fn planned(&self, choice: &Choice) -> Scene {
         let mut scene = self.scene.clone();
         for beam in &choice.beams {
             self.beams[*beam].put_into(&mut scene);
@@ -322,15 +346,14 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 
     fn make(&mut self, choice: &Choice) -> Result<TrialRun, Unfinished> {
-        let elements = choice.elements.iter().sum();
-        (self.progress)(self.runs.len() + 1, elements, choice.tolerance);
+        let scene = self.planned(choice);
+        (self.progress)(self.runs.len() + 1, elements_of(&scene), choice.tolerance);
         let left = self.most_work - self.work;
         if self.runs.len() >= MOST_RUNS || left <= 0.0 || (self.is_over)() {
             self.is_cut = true;
             return Err(Unfinished::TooMuchWork);
         }
         let most = left.min(self.share * self.most_work);
-        let scene = self.planned(choice);
         let responses = self.responses(choice);
         let mut run = (self.experiment).run(scene, responses, most, self.is_over);
         let is_last = most == left || (self.is_over)();
@@ -396,7 +419,15 @@ impl<'a, 'p> Search<'a, 'p> {
     /// Doubles all numbers of elements and modes that are free, and lets rigid bodies bend; false where there are none or too many.
     pub fn refine(&self, choice: &mut Choice) -> bool {
         let mut refined = false;
-        for (body, count) in choice.elements.iter_mut().enumerate() {
+        let first = self.first_division();
+        let doubled = self.doubled(choice);
+        for (count, is_doubled) in choice.elements[first..].iter_mut().zip(doubled) {
+            if is_doubled {
+                *count *= 2;
+                refined = true;
+            }
+        }
+        for (body, count) in choice.elements[..first].iter_mut().enumerate() {
             let most_modes = self.most_modes(body);
             if self.is_free(body) && *count < most_modes.unwrap_or(MOST_ELEMENTS) {
                 let doubled = (2 * *count).max(self.fewest[body]);

@@ -20,16 +20,21 @@ impl Search<'_, '_> {
         in_time: &[Difference],
     ) -> Result<Vec<Difference>, Error> {
         let mut ladder = Ladder::new(self.equal(OF_SPACE), self.foreseen_at_least());
+        ladder.first_division = self.first_division();
         let mut tried = Choice {
             elements: self.stiffest(&choice.elements),
             ..choice.clone()
         };
         loop {
+            // Which directions are doubled follows from its run.
+            if !self.divisions.is_empty() {
+                let _ = self.run(&tried);
+            }
             let mut next = tried.clone();
             if !self.refine(&mut next) {
                 break;
             }
-            if let Some(found) = ladder.foreseen() {
+            if let Some(found) = self.foreseen(&ladder, &tried, &next) {
                 ladder.add(&tried, found);
                 break;
             }
@@ -39,7 +44,7 @@ impl Search<'_, '_> {
                 self.tighten(&tried, &mut next)
             }
             match self.compare(&tried, &self.with_more_modes(&next), self.error) {
-                Ok(found) => ladder.add(&tried, found),
+                Ok(found) => ladder.add_step(&tried, &next, found),
                 Err(Unfinished::TooMuchWork) => break,
                 Err(Unfinished::Failed(reason)) if !self.refine(&mut next.clone()) => {
                     if ladder.rungs.is_empty() {
@@ -50,7 +55,8 @@ impl Search<'_, '_> {
                 }
                 Err(Unfinished::Failed(_)) => {}
             }
-            if ladder.is_climbed() || self.is_enough(&ladder, in_time) {
+            let may_do = ladder.is_climbed() || self.is_enough(&ladder, in_time);
+            if may_do && self.is_verified(&mut ladder, &tried, &mut next, in_time) {
                 break;
             }
             if tried.elements.contains(&0) {
@@ -67,6 +73,22 @@ impl Search<'_, '_> {
         };
         *choice = best;
         Ok(self.economize(choice, found))
+    }
+
+    /// Changes that the next rung would make, where that need not be run: of all that is doubled, and of what is not as a run says.
+    fn foreseen(
+        &mut self,
+        ladder: &Ladder,
+        tried: &Choice,
+        next: &Choice,
+    ) -> Option<Vec<Difference>> {
+        if !ladder.goes_on(tried, next) {
+            return None;
+        }
+        let mut found = ladder.foreseen()?;
+        self.add_beside(tried, &mut next.clone(), &mut found).ok()?;
+        let most = OF_SPACE * self.error;
+        found.iter().all(|of| of.largest <= most).then_some(found)
     }
 
     /// Halves single cables where that costs nothing. What doubling all changes then.
@@ -94,7 +116,7 @@ impl Search<'_, '_> {
     }
 
     /// Whether what the last rung changed and all doublings to come would leaves enough to the tolerance.
-    fn is_enough(&self, ladder: &Ladder, in_time: &[Difference]) -> bool {
+    pub(super) fn is_enough(&self, ladder: &Ladder, in_time: &[Difference]) -> bool {
         let Some((_, last)) = ladder.rungs.last() else {
             return false;
         };

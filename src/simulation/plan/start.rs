@@ -1,8 +1,9 @@
 //! The start of a scene, tried with coarse meshes before anything is planned: what no mesh mends is told at once.
 
+use super::divisions::open_divisions;
 use super::given::TrialConditions;
 use super::search::{cables, fewest, open_reduced, with_counts};
-use crate::scene::{Accuracy, Error, Scene};
+use crate::scene::{Accuracy, Error, MOST_DIVISIONS, Scene};
 use crate::simulation::{Error as Reason, InputTable, Simulation};
 
 /// How many times as fine as the coarsest a mesh is tried where the mesh is hardly the reason.
@@ -22,13 +23,24 @@ pub(super) fn check_start(scene: &Scene, given: &TrialConditions) -> Result<(), 
     let is_free: Vec<bool> = cables(scene)
         .map(|(_, cable)| cable.elements.is_none() && cable.model.has_elements())
         .chain(open_reduced(scene).map(|_| false))
+        .chain(open_divisions(scene).map(|_| true))
         .collect();
     let most = ELEMENTS.max(FINER * coarsest.iter().sum::<u32>());
     let moved = given.moved(scene)?;
     let mut finer = 1;
     loop {
-        let elements: Vec<u32> = (coarsest.iter().zip(&is_free))
-            .map(|(count, is_free)| if *is_free { finer * count } else { *count })
+        let divided = cables(scene).count() + open_reduced(scene).count();
+        let elements: Vec<u32> = (coarsest.iter().zip(&is_free).enumerate())
+            .map(|(place, (count, is_free))| match place < divided {
+                _ if !is_free => *count,
+                true => finer * count,
+                // As often doubled as there may be.
+                false => {
+                    let doubled = (0..=finer.ilog2()).rev().map(|power| count << power);
+                    let mut doubled = doubled.filter(|count| *count <= MOST_DIVISIONS);
+                    doubled.next().unwrap_or(*count)
+                }
+            })
             .collect();
         let Err(reason) = tried(scene, &elements, given, moved.as_ref()) else {
             return Ok(());

@@ -16,6 +16,8 @@ pub struct Edge<const D: usize> {
     pub nodes: Vec<usize>,
     /// The middle of the line, about which moments of the reaction are: the element and the place in it.
     pub middle: ([usize; 2], [f64; 2]),
+    /// Nodes of the slopes across both lines, where a moment may act; none of a pin.
+    pub moments: Vec<usize>,
     /// Rows that are eliminated, with their values.
     pub rows: Vec<(ConnectivityRow<D>, f64)>,
     /// Conditions that keep multipliers.

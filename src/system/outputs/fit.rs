@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
-use crate::bodies::{LineChain, Marker, Node, axes_at};
+use crate::bodies::{LineChain, Marker, Node, Patch, axes_at};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
@@ -181,6 +181,20 @@ impl<const D: usize> Evaluation<D> {
         let away = chain
             .range()
             .map(|node| fit.displacement(&(at(drawn, node) * by), &at(&self.x, node)));
+        away.map(|away| away.norm()).fold(0.0, f64::max)
+    }
+
+    /// Largest distance of the mesh nodes of a plate or shell from where the rigid fit of all of them to these drawn nodes takes them, m.
+    pub fn surface_elastic_displacement(&self, patch: &Patch, drawn: &[Node<D>]) -> f64 {
+        let at = |x: &[Node<D>], node: usize| full(Vector::from(x[node][0]));
+        let nodes = || patch.mesh().step_by(2);
+        let part = 1.0 / nodes().count() as f64;
+        let mean = |x: &[Node<D>]| nodes().map(|node| at(x, node) * part).sum::<Vector3<f64>>();
+        let (before, now) = (mean(drawn), mean(&self.x));
+        let moments =
+            nodes().map(|node| (at(&self.x, node) - now) * (at(drawn, node) - before).transpose());
+        let fit = RigidFit::new(before, now, orthogonal(&moments.sum::<Matrix3<f64>>()));
+        let away = nodes().map(|node| fit.displacement(&at(drawn, node), &at(&self.x, node)));
         away.map(|away| away.norm()).fold(0.0, f64::max)
     }
 }

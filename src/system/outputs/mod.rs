@@ -8,6 +8,7 @@ pub(in crate::system) mod evaluation;
 pub(in crate::system) mod fit;
 mod forces;
 pub(in crate::system) mod gauge;
+mod patch_resolution;
 mod resolution;
 pub(in crate::system) mod rod;
 pub(in crate::system) mod section;

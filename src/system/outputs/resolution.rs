@@ -70,25 +70,45 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// ends. What elements are bent by as drawn, from these nodes, makes none.
     pub fn bent_away(&self, chain: &LineChain<D>, drawn: &[Node<D>]) -> N {
         let x = &self.x[..];
-        let place = |node: usize| Vector3::from(components(&Vector::from(x[node][0])));
-        let [first, last] = [0, chain.elements().len() - 1].map(|j| chain.nodes(j));
-        let ends = [place(first[0]), place(last[1])];
-        let mut sums = [Vector3::<N>::zeros(); 2];
-        for j in 0..chain.elements().len() {
-            let [a, b] = chain.nodes(j).map(place);
-            let middle = (a + b) * N::of(0.5);
-            let error = bent_too_far(chain, j, x, drawn);
-            for (sum, end) in sums.iter_mut().zip(&ends) {
-                *sum += error.cross(&(end - middle));
-            }
-        }
-        let [a, b] = sums.map(|sum| sum.norm_squared());
-        let square = if a > b { a } else { b };
-        if square > N::of(0.0) {
-            square.root() * chain.length_now(&self.drives).length_ratio()
+        let count = chain.elements().len();
+        let place = |place: usize| {
+            let node = match place {
+                0 => chain.nodes(0)[0],
+                place => chain.nodes(place - 1)[1],
+            };
+            Vector3::from(components(&Vector::from(x[node][0])))
+        };
+        let off = displaced(count, place, |j| bent_too_far(chain, j, x, drawn));
+        if off > N::of(0.0) {
+            off * chain.length_now(&self.drives).length_ratio()
         } else {
-            square
+            off
         }
+    }
+}
+
+/// Displacement, m, that errors of the rotations over elements make of one end of a line where the other one is held: the larger one of both
+/// ends.
+pub(super) fn displaced<N: Number>(
+    elements: usize,
+    place: impl Fn(usize) -> Vector3<N>,
+    error: impl Fn(usize) -> Vector3<N>,
+) -> N {
+    let ends = [place(0), place(elements)];
+    let mut sums = [Vector3::<N>::zeros(); 2];
+    for j in 0..elements {
+        let middle = (place(j) + place(j + 1)) * N::of(0.5);
+        let error = error(j);
+        for (sum, end) in sums.iter_mut().zip(&ends) {
+            *sum += error.cross(&(end - middle));
+        }
+    }
+    let [a, b] = sums.map(|sum| sum.norm_squared());
+    let square = if a > b { a } else { b };
+    if square > N::of(0.0) {
+        square.root()
+    } else {
+        square
     }
 }
 
@@ -99,7 +119,20 @@ fn bent_too_far<const D: usize, N: Number>(
     x: &[Node<D, N>],
     drawn: &[Node<D>],
 ) -> Vector3<N> {
-    let (now, before) = (bend(chain, j, x), bend(chain, j, drawn));
+    let tangents = chain
+        .tangents(j, x)
+        .map(|tangent| Vector3::from(components(&tangent)));
+    let before = chain
+        .tangents(j, drawn)
+        .map(|tangent| Vector3::from(components(&tangent)));
+    too_far::<D, N>(bend(tangents), bend(before))
+}
+
+/// Error of the rotation over an element that is bent by these rotation vectors now and as drawn, rad.
+pub(super) fn too_far<const D: usize, N: Number>(
+    now: Vector3<N>,
+    before: Vector3<f64>,
+) -> Vector3<N> {
     let fourth = |square: N| square * square;
     if D == 2 {
         let before = before.map(N::of);
@@ -111,10 +144,9 @@ fn bent_too_far<const D: usize, N: Number>(
     now * ((fourth(now.norm_squared()) - fourth(rest)) * N::of(STIFFENING))
 }
 
-/// Rotation vector by which the tangent of an element turns from its first end to its last, rad. Of an element that folds back on itself it
+/// Rotation vector by which the tangent of an element, here from its first end to its last, turns, rad. Of an element that folds back on itself it
 /// is as long as all rotations on the way together, which have opposite directions there.
-fn bend<const D: usize, N: Number>(chain: &LineChain<D>, j: usize, x: &[Node<D, N>]) -> Vector3<N> {
-    let tangents = (chain.tangents(j, x)).map(|tangent| Vector3::from(components(&tangent)));
+pub(super) fn bend<N: Number, const PLACES: usize>(tangents: [Vector3<N>; PLACES]) -> Vector3<N> {
     let (mut sum, mut way, mut folds) = (Vector3::zeros(), N::of(0.0), false);
     for pair in tangents.windows(2) {
         let (before, next) = (&pair[0], &pair[1]);

@@ -40,7 +40,16 @@ fn surfaces_and_meshes_are_checked() {
         /name | "panels" | accepted
         /bodies/0/mesh | [0, 2] | bodies[0].mesh[0]: expected an integer from 1 to 200 (factors of finer meshes take gigabytes), found 0
         /bodies/0/mesh | [4, 201] | bodies[0].mesh[1]
-        /bodies/0/mesh | [4] | bodies[0].mesh
+        /bodies/0/mesh | [4] | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found 1
+        /bodies/0/mesh | "many" | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found "many"
+        /bodies/0/mesh | [4, "many"] | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found "many"
+        /bodies/0/mesh | [4, 1.5] | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found 1.5
+        /bodies/0/mesh | [4, -1] | bodies[0].mesh: expected two numbers of elements
+        /bodies/0/mesh | 4 | bodies[0].mesh: expected two numbers of elements
+        /bodies/0/mesh | "auto" | accepted
+        /bodies/0/mesh | [4, "auto"] | accepted
+        /bodies/0/mesh | null | accepted
+        /joints/0/edges | ["ground", "panel.s1=0.3"] | joints[0].edges[1]: expected an edge (s1=0, s1=1, s2=0, s2=1) or another line of the mesh of 4 x 2 elements
         /bodies/0/surface | {"disc": {}} | bodies[0].surface
         /bodies/0/surface/rectangle/edges | [[2, 0, 0], [4, 0, 0]] | bodies[0].surface: expected a surface whose lines along s1 and s2 cross
         /bodies/0/surface/rectangle/edges/0 | [2, 0] | bodies[0].surface.rectangle.edges[0]: expected 3 components [x, y, z], found 2
@@ -307,7 +316,7 @@ fn stiffeners_are_checked() {
         /joints/4/edges | ["ball", "panel.s2=0.5"] | joints[4].edges[0]: expected a marker of this scene
         /joints/4/edges | ["bone", "panel.s2=0.5"] | joints[4].edges[0]: expected a marker of this scene
         /bodies/3/elements | 3 | joints[4].edges[0]: expected a body of 4 elements, as many as panel.s2=0.5 has, found rib of 3
-        /bodies/3/elements | "auto" | joints[4].edges[0]: expected a body of 4 elements, as many as panel.s2=0.5 has, found rib of "auto"
+        /bodies/3/elements | "auto" | accepted
         /bodies/3/markers/b | 0.3 | joints[4].edges[0]: expected a body whose nodes are those of panel.s2=0.5, found rib (nodes up to
         /bodies/3 | {"name": "rib", "element": "rod", "model": "modal", "modes": 2, "material": {"youngs_modulus": 1e9, "shear_modulus": 4e8, "density": 1000}, "section": {"area": 1e-4, "second_moments": [1e-10, 1e-10], "torsion_constant": 2e-10}, "axis": [0, 0, 1], "shape": {"line": {"from": [0, 0.5, 0], "to": [2, 0.5, 0]}}} | joints[4].edges[0]: expected a cable, rod or beam with elements, neither rigid nor reduced to modes, found "rib"
         /bodies/3/shape/line | {"from": [2, 0.5, 0], "to": [0, 0.5, 0]} | accepted
