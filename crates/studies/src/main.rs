@@ -14,6 +14,7 @@ mod integrators;
 mod laws;
 mod outputs;
 mod overhead;
+mod plates;
 mod rivals;
 mod rods;
 mod scene;
