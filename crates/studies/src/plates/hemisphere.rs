@@ -29,7 +29,7 @@ const POISSON: f64 = 0.3;
 pub enum Sampling {
     /// The points of Gauss of the stiffness.
     Gauss,
-    /// Those of Lobatto along the strain, as in the product.
+    /// Points of Lobatto along the strain, as in the product.
     Lobatto,
 }
 

@@ -19,9 +19,9 @@ type Matrix = SMatrix<f64, NUMBERS, NUMBERS>;
 /// Stress in the part of the tangent that stress makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stress {
-    /// That of the present state, as usual.
+    /// Stress of the present state, as usual.
     Present,
-    /// That which the last linear step predicted.
+    /// Stress which the last linear step predicted.
     Predicted,
 }
 

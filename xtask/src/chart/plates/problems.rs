@@ -30,7 +30,7 @@ pub struct Motion {
     pub tightest: f64,
 }
 
-/// What an error is measured from.
+/// Solution that an error is measured from.
 #[derive(Clone, Debug)]
 pub enum Answer {
     /// Flexbody's finest mesh.
@@ -44,11 +44,11 @@ pub enum Answer {
 /// Meshes by their number of elements along the first axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Meshes {
-    /// Those of Flexbody.
+    /// Meshes of Flexbody.
     pub own: &'static [u32],
-    /// Those of Flexbody's converged answer.
+    /// Meshes of Flexbody's converged answer, the finest first.
     pub finest: [u32; 2],
-    /// Those of Exudyn, from coarse to fine; all settings run on the first.
+    /// Meshes of Exudyn, from coarse to fine; all settings run on the first.
     pub exudyn: &'static [u32],
     /// Whether there is one element across.
     pub is_strip: bool,
@@ -78,7 +78,7 @@ pub struct Problem {
     pub motion: Option<Motion>,
     /// Numbers of parts of the load in Exudyn's static solver.
     pub load_steps: &'static [u32],
-    /// What is right.
+    /// Solution that errors are measured from.
     pub answer: Answer,
     /// Meshes.
     pub meshes: Meshes,
