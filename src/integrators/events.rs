@@ -1,4 +1,6 @@
 //! Steps that end where something happens within them: they are cut shorter until they do (decision 82).
+//!
+//! Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., section II.6 (event location).
 
 use super::controller::Trial;
 use super::{Counts, OneStepMethod, StepError, outcome};
@@ -9,7 +11,7 @@ const CUTS: u32 = 40;
 /// Part of what remains from which on a step leads to the end.
 const WHOLE: f64 = 1.0 - 1e-12;
 
-/// What a way over a smooth interval knows of events.
+/// Search for events over a smooth interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EventSearch {
     /// Whether anything may happen.
@@ -70,6 +72,9 @@ impl EventSearch {
 }
 
 /// Lets happen what was found at a state.
+///
+/// # Errors
+/// The state after it cannot be brought onto the constraints.
 pub(super) fn happen(dynamics: &mut dyn Dynamics, state: &mut State) -> Result<(), StepError> {
     outcome(dynamics.switch(state)).map(drop)
 }

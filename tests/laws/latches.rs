@@ -65,7 +65,7 @@ fn flywheels_lock_with_their_momentum() {
             let before = balance(&mut run);
             run.step(0.49);
             is_near(run.read("lock.latch_state"), 0.0, 0.0);
-            is_near(run.read("between.angle"), 0.98, 1e-9);
+            is_near(run.read("between.angle"), 0.98, 1e-8);
             run.step(0.79);
             is_near(run.read("lock.latch_state"), 1.0, 0.0);
             let rate = (1.5 * 1.0 + 0.5 * 3.0) / 2.0;

@@ -42,7 +42,9 @@ pub use body::{
 pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
-pub use output::{Along, DeflectionOutput, Output, OutputKind, PlyStressOutput, ReactionOutput};
+pub use output::{
+    Along, DeflectionOutput, OfGear, Output, OutputKind, PlyStressOutput, ReactionOutput,
+};
 pub use patch::{
     LaminatePly, Pad, PatchBody, PatchMarker, PatchStiffness, PatchSurface, PatchThickness,
 };

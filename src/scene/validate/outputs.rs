@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{expected, needed, or, quoted, unknown};
 use super::references::refuse_point;
 use crate::scene::Error;
-use crate::scene::description::{Along, DeflectionOutput, Output, ReactionOutput};
+use crate::scene::description::{Along, DeflectionOutput, OfGear, Output, ReactionOutput};
 use crate::scene::loads::LoadKind;
 use crate::scene::resolved::{
     self, AngleId, DirectionSource, EdgeBase, First, OutputTarget, Place, Reaction, Resolved,
@@ -208,11 +208,10 @@ impl<'a> Resolved<'a> {
             Output::Travel(of) => self.travel(&at("joint"), &of.joint)?,
             Output::Reaction(of) => OutputTarget::Reaction(self.reaction(path, of, false)?),
             Output::ReactionMoment(of) => OutputTarget::Reaction(self.reaction(path, of, true)?),
-            Output::GearForce(of) => self.gear(&at("gear"), &of.gear, false)?,
-            Output::GearTorque(of) => self.gear(&at("gear"), &of.gear, true)?,
-            Output::LatchForce(of) => self.latch(&at("latch"), &of.latch, Some(false))?,
-            Output::LatchTorque(of) => self.latch(&at("latch"), &of.latch, Some(true))?,
-            Output::LatchState(of) => self.latch(&at("latch"), &of.latch, None)?,
+            Output::GearForce(of) | Output::GearTorque(of) => self.gear(&at("gear"), of, output)?,
+            Output::LatchForce(of) | Output::LatchTorque(of) | Output::LatchState(of) => {
+                self.latch(&at("latch"), &of.latch, output)?
+            }
             Output::LoadForce(of) => self.exerting(&at("load"), &of.load, false)?,
             Output::LoadMoment(of) => self.exerting(&at("load"), &of.load, true)?,
             Output::Energy(_)
@@ -283,13 +282,15 @@ impl<'a> Resolved<'a> {
         Ok(OutputTarget::Slide(joint.name, slide))
     }
 
-    fn gear(&self, path: &str, name: &str, is_torque: bool) -> Result<OutputTarget<'a>, Error> {
-        let Some(gear) = self.gears.iter().find(|gear| gear.name == name) else {
+    /// A gear whose second coordinate is an angle for its torque, a displacement for its force.
+    fn gear(&self, path: &str, of: &OfGear, output: &Output) -> Result<OutputTarget<'a>, Error> {
+        let name = &of.gear;
+        let Some(gear) = self.gears.iter().find(|gear| gear.name == *name) else {
             let known = self.gears.iter().map(|gear| gear.name);
             return Err(unknown(path, "a gear of this scene", name, known));
         };
         let [_, second] = &gear.coordinates;
-        if second.is_angle() != is_torque {
+        if second.is_angle() != matches!(output, Output::GearTorque(_)) {
             let wanted = if second.is_angle() {
                 "a gear whose second coordinate is a displacement; gear_torque reads angles"
             } else {
@@ -300,24 +301,19 @@ impl<'a> Resolved<'a> {
         Ok(OutputTarget::Gear(gear.name, gear.holder))
     }
 
-    /// A latch; one on an angle, or on a displacement, where that is wanted.
-    fn latch(
-        &self,
-        path: &str,
-        name: &str,
-        is_torque: Option<bool>,
-    ) -> Result<OutputTarget<'a>, Error> {
+    /// A latch; one on an angle for its torque, one on a displacement for its force.
+    fn latch(&self, path: &str, name: &str, output: &Output) -> Result<OutputTarget<'a>, Error> {
         let Some(latch) = self.latches.iter().find(|latch| latch.name == name) else {
             let known = self.latches.iter().map(|latch| latch.name);
             return Err(unknown(path, "a latch of this scene", name, known));
         };
         let is_angle = latch.coordinate.is_angle();
-        match is_torque {
-            Some(true) if !is_angle => {
+        match output {
+            Output::LatchTorque(_) if !is_angle => {
                 let wanted = "a latch on an angle; latch_force reads displacements";
                 Err(expected(path, wanted, quoted(name)))
             }
-            Some(false) if is_angle => {
+            Output::LatchForce(_) if is_angle => {
                 let wanted = "a latch on a displacement; latch_torque reads angles";
                 Err(expected(path, wanted, quoted(name)))
             }

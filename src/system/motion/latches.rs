@@ -8,6 +8,8 @@ use crate::system::{State, System};
 
 /// Distance of a coordinate from the value that a latch holds at which it closes, in parts of the relative tolerance and the size.
 const NEAR: f64 = 1e-3;
+/// The least such distance, in parts of the size.
+const ROUNDOFF: f64 = 1e-13;
 /// Force beyond its range at which a latch opens, relative.
 const BEYOND: f64 = 1e-6;
 
@@ -76,38 +78,48 @@ impl<const D: usize> DrivenSystem<'_, D> {
     /// Finds the first latch that closes or opens in a step from the remembered state. A step may be cut short unless `is_last`.
     pub(super) fn find_event(&mut self, state: &mut State, relative: f64, is_last: bool) -> Event {
         self.measure_latches(1, state);
-        let (system, time) = (self.system, state.time);
-        let h = time - self.work.before.time;
-        let (mut first, mut is_due) = (1.0_f64, false);
-        let mut is_cut = false;
-        for (i, place) in system.latches.iter().enumerate() {
-            let constraint = &system.constraints[place.constraint];
-            let motions = self.work.latches[i].motions;
-            let is_open = self.work.kinematics.released[place.release];
-            let is_over = (system.releases[place.release].time).is_some_and(|due| due <= time);
-            let happens = if !is_open {
-                match place.latch.is_bounded() {
-                    true => opening(motions, place.latch.range, BEYOND),
-                    false => Happening::Never,
-                }
-            } else if place.latch.is_armed(time + grain(time), self.inputs) && !is_over {
-                let size = constraint.kind.size(&system.bodies);
-                closing(motions, h, size * (NEAR * relative).max(1e-13))
-            } else {
-                Happening::Never
-            };
+        let (mut cut, mut is_due) = (None, false);
+        for (i, place) in self.system.latches.iter().enumerate() {
+            let happens = self.happening(place, self.work.latches[i].motions, state, relative);
             let ends = happens == Happening::AtEnd || is_last && happens != Happening::Never;
             self.work.latches[i].is_due = ends;
             is_due |= ends;
             if let (Happening::Within(part), false) = (happens, is_last) {
-                (first, is_cut) = (first.min(part), true);
+                cut = Some(cut.map_or(part, |first: f64| first.min(part)));
             }
         }
-        if is_cut {
-            state.copy_from(&self.work.before);
-            return Event::Within(first);
+        match cut {
+            Some(part) => {
+                state.copy_from(&self.work.before);
+                Event::Within(part)
+            }
+            None if is_due => Event::AtEnd,
+            None => Event::None,
         }
-        if is_due { Event::AtEnd } else { Event::None }
+    }
+
+    /// Where a latch closes or opens in a step with these motions at both ends.
+    fn happening(
+        &self,
+        place: &LatchPlace,
+        motions: [LatchMotion; 2],
+        state: &State,
+        relative: f64,
+    ) -> Happening {
+        let (system, latch, time) = (self.system, &place.latch, state.time);
+        let is_open = self.work.kinematics.released[place.release];
+        if !is_open && latch.is_bounded() {
+            return opening(motions, latch.range, BEYOND);
+        }
+        let is_over = (system.releases[place.release].time).is_some_and(|due| due <= time);
+        if !is_open || is_over || !latch.is_armed(time + grain(time), self.inputs) {
+            return Happening::Never;
+        }
+        let size = system.constraints[place.constraint]
+            .kind
+            .size(&system.bodies);
+        let tolerance = size * (NEAR * relative).max(ROUNDOFF);
+        closing(motions, time - self.work.before.time, tolerance)
     }
 
     /// Coordinates, rates and forces of all latches at a state: that before a step (0) or after it (1).
@@ -125,9 +137,10 @@ impl<const D: usize> DrivenSystem<'_, D> {
         let view = system.view(&self.work.kinematics);
         for (place, watch) in system.latches.iter().zip(&mut self.work.latches) {
             let is_held = is_forced && !view.released[place.release];
-            let lambda = match is_held {
-                true => self.work.constraints.lambda[place.constraint],
-                false => 0.0,
+            let lambda = if is_held {
+                self.work.constraints.lambda[place.constraint]
+            } else {
+                0.0
             };
             let constraint = &system.constraints[place.constraint];
             watch.motions[side] = LatchMotion::of(constraint, &view, lambda);

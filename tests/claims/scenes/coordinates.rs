@@ -34,6 +34,7 @@ pub fn all() -> Vec<Specimen> {
         screw(),
         screw_between(),
         gears(),
+        latched(),
         rack(),
         let_go(),
         let_go_between(),
@@ -442,6 +443,34 @@ fn let_go() -> Specimen {
         specimen = vector(specimen, &of, unit, value);
     }
     specimen
+}
+
+/// A torque on two rotors, one of which a latch holds: the latch bears the torque of the one, the other is accelerated.
+fn latched() -> Specimen {
+    let (torque, n) = (0.9, axis());
+    let [first, mut second] = ["u", "v"].map(body);
+    second.place = Vector3::new(2.0, 0.1, 0.3);
+    let load = |joint: &str| json!({"name": format!("motor_{joint}"), "kind": "torque", "joint": joint, "value": torque});
+    let outputs = |latch: &str| {
+        ["latch_state", "latch_torque"]
+            .map(|kind| json!({"kind": kind, "latch": latch}))
+            .to_vec()
+    };
+    let scene = json!({"name": "latched", "dimension": 3,
+        "bodies": [first.described(Value::Null), second.described(Value::Null)],
+        "joints": [{"name": "a", "kind": "revolute", "markers": ["ground", "u.c"], "direction": AXIS},
+                   {"name": "b", "kind": "revolute", "markers": ["ground", "v.c"], "direction": AXIS}],
+        "latches": [{"name": "shut", "joint": "a", "closed": true}, {"name": "open", "joint": "b", "at": 1.0}],
+        "loads": [load("a"), load("b")],
+        "outputs": joined([read(TURN, "a"), read(TURN, "b"), outputs("shut"), outputs("open")])});
+    let about = n.dot(&(second.tensor() * n));
+    let specimen = Specimen::new("latched", scene)
+        .claim("shut.latch_state", "", 1.0)
+        .claim("shut.latch_torque", "N.m", -torque)
+        .claim("open.latch_state", "", 0.0)
+        .claim("open.latch_torque", "N.m", 0.0);
+    let specimen = claimed(specimen, TURN, "a", [0.0; 3]);
+    claimed(specimen, TURN, "b", [0.0, 0.0, torque / about])
 }
 
 /// Two bodies at rest whose centres of mass are at one place: along what is let go a force moves the second alone, across it both.

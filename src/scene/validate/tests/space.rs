@@ -401,7 +401,7 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /latches | [{"name": "l", "joint": "none"}] | latches[0].joint: expected a joint of this scene
         /latches | [{"name": "l", "joint": "ball"}] | latches[0].joint: expected a joint with an angle or along a line
         /latches | [{"name": "l", "joint": "elbow", "coordinate": "displacement"}] | latches[0].joint: expected a joint along a line
-        /latches | [{"name": "l", "joint": "elbow", "from_time": -1}] | latches[0].from_time: expected a number that is not negative (s), found -1
+        /latches | [{"name": "l", "joint": "elbow", "from_time": -1}] | latches[0].from_time: expected zero or a positive number (s), found -1
         /latches | [{"name": "l", "joint": "elbow", "least_force": 2, "most_force": 1}] | latches[0].most_force: expected more than least_force = 2, found 1
         /gears | [{"name": "g", "joints": ["elbow", "rail"], "ratio": 0}] | gears[0].ratio: expected a number that is not zero (m/rad), found 0
         /outputs/0 | {"kind": "gear_torque", "gear": "g"} | outputs[0].gear: expected a gear of this scene
