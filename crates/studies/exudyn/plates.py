@@ -146,7 +146,7 @@ class Plate:
         if acceleration.any():
             for element in self.elements:
                 marker = self.mbs.AddMarker(MarkerBodyMass(bodyNumber=element))
-                self.mbs.AddLoad(LoadMassProportional(markerNumber=marker, loadVector=list(acceleration)))
+                self.mbs.AddLoad(LoadMassProportional(markerNumber=marker, loadVector=acceleration.tolist()))
         if "corner_force" in options:
             corner = self.mbs.AddMarker(MarkerNodePosition(nodeNumber=self.nodes[tuple(self.mesh)]))
             self.mbs.AddLoad(LoadForceVector(markerNumber=corner, loadVector=options["corner_force"]))
