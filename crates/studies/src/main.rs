@@ -14,10 +14,12 @@ mod integrators;
 mod laws;
 mod outputs;
 mod overhead;
+mod plates;
 mod rivals;
 mod rods;
 mod scene;
 mod space;
+mod statics;
 mod swing;
 
 use std::process::ExitCode;
@@ -45,6 +47,8 @@ enum Command {
     Rivals(rivals::Rivals),
     /// Moves one rod in a named discretization.
     Space(space::Space),
+    /// Times the static equilibrium of a scene in space in the product.
+    Statics(statics::Statics),
     /// Lets a pinned rod fall in a named formulation.
     Swing(swing::Swing),
     /// Bends one rod in a named discretization.
@@ -62,6 +66,7 @@ fn main() -> ExitCode {
         Command::Integrate(arguments) => integrate::integrate(&arguments),
         Command::Rivals(arguments) => rivals::rivals(&arguments),
         Command::Space(arguments) => space::space(&arguments),
+        Command::Statics(arguments) => statics::statics(&arguments),
         Command::Bend(arguments) => space::bend(&arguments),
         Command::Overhead(arguments) => overhead::overhead(&arguments),
     };

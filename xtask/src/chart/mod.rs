@@ -26,6 +26,7 @@ mod numbers;
 mod overhead;
 mod peers;
 mod planned;
+mod plates;
 mod reduced;
 mod rivals;
 mod rods;
@@ -42,7 +43,7 @@ type Chart = (&'static str, &'static str, fn(&Bench) -> Result<()>);
 
 /// All charts, in the order of the page.
 #[rustfmt::skip]
-const CHARTS: [Chart; 21] = [
+const CHARTS: [Chart; 22] = [
     ("mesh", "Error against the number of elements", mesh::measure),
     ("space", "Shape functions, meshes, quadratures and masses", space::measure),
     ("methods", "Integrators: error in time against CPU time", methods::measure),
@@ -59,6 +60,7 @@ const CHARTS: [Chart; 21] = [
     ("peers", "Exudyn at its best and the product as it plans: error against CPU time", peers::measure),
     ("rods", "Rods in space beside Exudyn's geometrically exact beam: error against CPU time", rods::measure),
     ("reduced", "Reduced bodies beside Exudyn's floating frame with the same modes: error against CPU time", reduced::measure),
+    ("plates", "Plates beside Exudyn's thin plate: error against CPU time, and cost against size", plates::measure),
     ("trees", "Trees of bodies in space beside MuJoCo, Pinocchio and Exudyn", trees::measure),
     ("failures", "Where methods fail, and what the product does there", failures::measure),
     ("formulations", "Coordinates and how accelerations follow from forces", formulations::measure),

@@ -15,6 +15,8 @@ use super::numbers::{Path, number, path};
 pub const EXUDYN: &str = "crates/studies/exudyn/run.py";
 /// PyElastica for one clamped rod.
 pub const ELASTICA: &str = "crates/studies/exudyn/elastica_rod.py";
+/// Exudyn for rectangular plates.
+pub const PLATES: &str = "crates/studies/exudyn/plates.py";
 /// MuJoCo, Pinocchio and Exudyn for trees in space.
 pub const TREES: &str = "crates/studies/trees/run.py";
 

@@ -6,6 +6,7 @@ mod communication;
 mod constraints;
 mod elimination;
 mod locking;
+mod plates;
 mod ratios;
 mod reduced;
 mod rivals;
@@ -34,6 +35,11 @@ const ROWS: &[Measure] = &[
     ("printed", elimination::printed),
     ("green", elimination::green),
     ("locking", locking::locking),
+    ("no_mixed_derivative", plates::no_mixed_derivative),
+    ("membrane_locking", plates::membrane_locking),
+    ("thick_nodes", plates::thick_nodes),
+    ("newton_of_plates", plates::newton_of_plates),
+    ("held_at_a_point", plates::held_at_a_point),
     ("shear_locking", rivals::shear_locking),
     ("large_bending_by_modes", rivals::large_bending_by_modes),
     ("linear_frame", reduced::linear_frame),
