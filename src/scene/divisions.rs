@@ -275,7 +275,8 @@ mod tests {
         let joints = joints.iter().enumerate().map(
             |(k, (kind, edges))| json!({"name": format!("j{k}"), "kind": kind, "edges": edges}),
         );
-        let scene = json!({"name": "divided", "dimension": 3, "bodies": bodies, "joints": joints.collect::<Vec<_>>()});
+        let scene = json!({"name": "divided", "dimension": 3, "bodies": bodies, "joints": joints.collect::<Vec<_>>(),
+            "accuracy": {"relative_tolerance": 1e-6}});
         Scene::from_json(&scene.to_string())
     }
 

@@ -48,7 +48,7 @@ fn surfaces_and_meshes_are_checked() {
         /bodies/0/mesh | 4 | bodies[0].mesh: expected two numbers of elements
         /bodies/0/mesh | "auto" | accepted
         /bodies/0/mesh | [4, "auto"] | accepted
-        /bodies/0/mesh | null | accepted
+        /bodies/0/mesh | null | bodies[0].mesh: expected two numbers of elements, each a positive integer or "auto", found null
         /joints/0/edges | ["ground", "panel.s1=0.3"] | joints[0].edges[1]: expected an edge (s1=0, s1=1, s2=0, s2=1) or another line of the mesh of 4 x 2 elements
         /bodies/0/surface | {"disc": {}} | bodies[0].surface
         /bodies/0/surface/rectangle/edges | [[2, 0, 0], [4, 0, 0]] | bodies[0].surface: expected a surface whose lines along s1 and s2 cross
