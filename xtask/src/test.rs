@@ -31,6 +31,9 @@ const PARTS: [&str; 10] = [
     "xtask",
 ];
 
+/// Stack of a thread of these tests, bytes. They are compiled without optimization, and code of shells then needs more than is usual.
+const STACK: &str = "67108864";
+
 /// Outcome of a check.
 #[derive(Clone, Copy, PartialEq)]
 enum Outcome {
@@ -271,7 +274,10 @@ fn rust_tests(workspace: &Workspace) -> Result<Outcome> {
             workspace.library(PACKAGE, Platform::host()?)?;
             workspace.program(PACKAGE)
         });
-        let parts = run(workspace.cargo("test").args(PARTS));
+        let parts = run(workspace.cargo("test").args(PARTS).envs([
+            ("CARGO_PROFILE_DEV_OPT_LEVEL", "0"),
+            ("RUST_MIN_STACK", STACK),
+        ]));
         let built = delivered.join().expect("a build that does not panic");
         parts.and(built.map(drop))
     })?;
