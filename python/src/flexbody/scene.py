@@ -71,9 +71,6 @@ begin at once, where no one asked for the ringing.
 """
 
 
-MeshItem = TypeAliasType("MeshItem", Annotated[StrictInt, Field(ge=0)])
-
-
 CoordinateKind = TypeAliasType("CoordinateKind", Literal["displacement", "angle"])
 """
 A coordinate of a joint by name.
@@ -802,6 +799,21 @@ class Material(Part):
     """
     Young's modulus, Pa.
     """
+
+
+MeshComponents = TypeAliasType(
+    "MeshComponents",
+    Annotated[list[Elements], Field(max_length=2, min_length=2, title="MeshComponents")],
+)
+"""
+Numbers of elements along `s1` and `s2`.
+"""
+
+
+Mesh = TypeAliasType("Mesh", Auto | MeshComponents)
+"""
+Numbers of elements in JSON: two, each an integer or `"auto"`, or that word for both.
+"""
 
 
 class Method(Part):
@@ -1547,10 +1559,10 @@ class CenterOfMassOutput(Part):
 
 class ResolutionOutput(Part):
     """
-    How well meshes carry the shapes that cables have: the error in position that they make now, estimated from jumps of
+    How well meshes carry the shapes that cables, rods, beams, plates and shells have: the error in position that they make now, estimated from jumps of
     curvature at nodes and from the angles that elements bend by, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
     needed, which is said once in the log of every run. Within a factor of five on most scenes; what a mesh did before, errors of time,
-    and a cable of one element that is clamped at both ends do not count.
+    a cable of one element that is clamped at both ends, and stretching of surfaces do not count.
     """
 
     kind: Literal["resolution"] = "resolution"
@@ -3638,10 +3650,6 @@ class Plate(Part):
     """
     Middle surface without stress, also the configuration at the start. Coordinates `s1` and `s2` run over it from 0 to 1.
     """
-    mesh: Annotated[list[MeshItem], Field(max_length=2, min_length=2)]
-    """
-    Numbers of elements along `s1` and `s2`.
-    """
     area_density: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
     Mass per area, kg/m^2, with `stiffness`.
@@ -3665,6 +3673,11 @@ class Plate(Part):
     material: PatchMaterial | None = None
     """
     Isotropic material, with `thickness`.
+    """
+    mesh: Mesh = "auto"
+    """
+    Numbers of elements along `s1` and `s2`, each from 1 to 200; `"auto"` for one of them or for both, or nothing said, is as many as the
+    accuracy asks for, found while packaging. Edges that are joined have one number of elements.
     """
     motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
     """
@@ -3694,10 +3707,6 @@ class Shell(Part):
     """
     Middle surface without stress, also the configuration at the start. Coordinates `s1` and `s2` run over it from 0 to 1.
     """
-    mesh: Annotated[list[MeshItem], Field(max_length=2, min_length=2)]
-    """
-    Numbers of elements along `s1` and `s2`.
-    """
     area_density: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
     Mass per area, kg/m^2, with `stiffness`.
@@ -3721,6 +3730,11 @@ class Shell(Part):
     material: PatchMaterial | None = None
     """
     Isotropic material, with `thickness`.
+    """
+    mesh: Mesh = "auto"
+    """
+    Numbers of elements along `s1` and `s2`, each from 1 to 200; `"auto"` for one of them or for both, or nothing said, is as many as the
+    accuracy asks for, found while packaging. Edges that are joined have one number of elements.
     """
     motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
     """
