@@ -6,6 +6,7 @@ mod hemisphere;
 mod strip;
 mod thick;
 
+use flexbody::elements::shape::{curvatures, slopes, values};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 pub use adini::pinned_square;
@@ -13,25 +14,9 @@ pub use hemisphere::{Sampling, hemisphere};
 pub use strip::{Stress, iterations};
 pub use thick::bending_stiffness;
 
-/// Values, slopes and second derivatives of the four Hermite polynomials on [0, 1] at a place: value and slope at the first end, value and slope
-/// at the second.
+/// Values, slopes and second derivatives at a place of the product's shape functions of an element of length 1.
 fn hermite(x: f64) -> [[f64; 4]; 3] {
-    let (x2, x3) = (x * x, x * x * x);
-    [
-        [
-            1.0 - 3.0 * x2 + 2.0 * x3,
-            x - 2.0 * x2 + x3,
-            3.0 * x2 - 2.0 * x3,
-            x3 - x2,
-        ],
-        [
-            6.0 * x2 - 6.0 * x,
-            1.0 - 4.0 * x + 3.0 * x2,
-            6.0 * x - 6.0 * x2,
-            3.0 * x2 - 2.0 * x,
-        ],
-        [12.0 * x - 6.0, 6.0 * x - 4.0, 6.0 - 12.0 * x, 6.0 * x - 2.0],
-    ]
+    [values(x, 1.0), slopes(x, 1.0), curvatures(x, 1.0)].map(Into::into)
 }
 
 /// Linear equations over numbers of nodes, dense.
