@@ -56,23 +56,34 @@ fn assign(scene: &mut Value, assignment: &str) -> Outcome<()> {
     }
 }
 
-/// A system at its start.
-pub struct Start {
+/// A system at its start, in the plane or in space.
+pub struct Start<const D: usize = 2> {
     /// The scene.
     pub scene: Scene,
     /// System of the scene.
-    pub assembled: Assembled,
+    pub assembled: Assembled<D>,
     /// Values of the inputs.
     pub inputs: Vec<f64>,
     /// The state to start from.
     pub state: State,
     /// Scratch.
-    pub work: Workspace,
+    pub work: Workspace<D>,
 }
 
 impl Start {
-    /// Assembles a scene; inputs keep their start values.
+    /// Assembles a scene of the plane, in equilibrium where it says so; inputs keep their start values.
     pub fn new(scene: Scene) -> Outcome<Self> {
+        let mut start = Self::described(scene)?;
+        if start.scene.initial.state() == InitialState::StaticEquilibrium {
+            start.settle()?;
+        }
+        Ok(start)
+    }
+}
+
+impl<const D: usize> Start<D> {
+    /// Assembles a scene as it is described, whatever its initial state is.
+    pub fn described(scene: Scene) -> Outcome<Self> {
         let resolved = scene.resolve().map_err(|error| error.to_string())?;
         let assembled = resolved.assemble().map_err(|error| error.to_string())?;
         let drives = (resolved.motions.iter()).flat_map(|motion| &motion.driven.drives);
@@ -86,17 +97,7 @@ impl Start {
         let mut work = Workspace::new(system);
         let described = (&assembled.nodes[..], &assembled.rates[..]);
         let state = system.initial_state(0.0, &inputs, described, &mut work);
-        let mut state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;
-        if scene.initial.state() == InitialState::StaticEquilibrium {
-            let found = equilibrium::find(
-                system,
-                &inputs,
-                &mut work,
-                &mut state,
-                (None, f64::INFINITY),
-            );
-            found.map_err(|error| error.to_string())?;
-        }
+        let state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;
         Ok(Self {
             scene,
             assembled,
@@ -104,6 +105,18 @@ impl Start {
             state,
             work,
         })
+    }
+
+    /// Moves the state to the static equilibrium.
+    pub fn settle(&mut self) -> Outcome<()> {
+        let found = equilibrium::find(
+            &self.assembled.system,
+            &self.inputs,
+            &mut self.work,
+            &mut self.state,
+            (None, f64::INFINITY),
+        );
+        found.map(drop).map_err(|error| error.to_string())
     }
 
     /// The marker `body.marker`.

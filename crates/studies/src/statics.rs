@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 
 use cpu_time::ThreadTime;
-use flexbody::scene::assemble;
-use flexbody::system::{Evaluation, Workspace, equilibrium};
+use flexbody::system::Evaluation;
 use serde_json::{Map, Value, json};
 
-use crate::scene::{Outcome, read};
+use crate::scene::{Outcome, Start, read};
 
 /// Finds the static equilibrium of a scene in space once, without set-up in its time; prints JSON: CPU time (s) and places of all markers (m).
 #[derive(clap::Args)]
@@ -18,28 +17,15 @@ pub struct Statics {
 
 /// Finds an equilibrium.
 pub fn statics(arguments: &Statics) -> Outcome<()> {
-    let scene = read(&arguments.scene, &[])?;
-    let assembled = assemble::<3>(&scene).map_err(|error| error.to_string())?;
-    let resolved = scene.resolved();
-    let inputs = resolved.inputs.iter();
-    let inputs: Vec<f64> = inputs.flat_map(|input| input.start.clone()).collect();
-    let system = &assembled.system;
-    let mut work = Workspace::new(system);
-    let described = (&assembled.nodes[..], &assembled.rates[..]);
-    let state = system.initial_state(0.0, &inputs, described, &mut work);
-    let mut state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;
+    let mut start = Start::<3>::described(read(&arguments.scene, &[])?)?;
     let started = ThreadTime::now();
-    let found = equilibrium::find(
-        system,
-        &inputs,
-        &mut work,
-        &mut state,
-        (None, f64::INFINITY),
-    );
+    let settled = start.settle();
     let spent = started.elapsed();
-    found.map_err(|error| error.to_string())?;
+    settled?;
+    let (assembled, resolved) = (&start.assembled, start.scene.resolved());
+    let system = &assembled.system;
     let mut values = Evaluation::new(system);
-    values.kinematics(system, &state, &mut work);
+    values.kinematics(system, &start.state, &mut start.work);
     let mut places = Map::new();
     for marker in &resolved.markers {
         let place = assembled.marker(marker.id).position(&values.x);
