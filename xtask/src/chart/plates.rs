@@ -358,17 +358,15 @@ impl Case {
         exudyn: &mut Server,
         mut others: Vec<(Timed, Value)>,
     ) -> Result<Vec<Timed>> {
-        let mut owns: Vec<(Timed, Choice)> = Vec::new();
-        for round in 1..=ROUNDS {
-            let title = format!("plates, {}, round {round} of {ROUNDS}", self.problem.name);
-            if round == 1 {
-                let choices = self.choices();
-                let found = self.take(bench, &title, &choices)?;
-                for (choice, (paths, time)) in choices.into_iter().zip(found) {
-                    owns.push((self.timed(choice, &paths, time)?, choice));
-                }
-                continue;
-            }
+        let name = &self.problem.name;
+        let title = |round: usize| format!("plates, {name}, round {round} of {ROUNDS}");
+        let choices = self.choices();
+        let first = self.take(bench, &title(1), &choices)?;
+        let mut owns = Vec::new();
+        for (choice, (paths, time)) in choices.into_iter().zip(first) {
+            owns.push((self.timed(choice, &paths, time)?, choice));
+        }
+        for round in 2..=ROUNDS {
             for (timed, settings) in &mut others {
                 if timed.is_short() {
                     let options = self.problem.options(timed.elements, settings);
@@ -378,7 +376,7 @@ impl Case {
             }
             let mut repeated: Vec<_> = owns.iter_mut().filter(|own| own.0.is_short()).collect();
             let choices: Vec<Choice> = repeated.iter().map(|own| own.1).collect();
-            let found = self.take(bench, &title, &choices)?;
+            let found = self.take(bench, &title(round), &choices)?;
             for (own, (_, time)) in repeated.iter_mut().zip(found) {
                 own.0.cpu_times.push(time);
             }
