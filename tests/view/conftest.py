@@ -91,7 +91,7 @@ class Pages:
             for body in scene["bodies"]:
                 if body["element"] == "reduced":
                     shutil.copy(ROOT / "scenes" / body["file"], self.folder)
-                elif body["element"] != "rigid":
+                elif body["element"] not in ("rigid", "plate", "shell"):
                     body.setdefault("elements", ELEMENTS)
             scene["accuracy"] = {"relative_tolerance": 1e-4} | {key: value for key, value in scene.get("accuracy", {}).items() if key == "input_profiles"}
             path.write_text(json.dumps(scene), encoding="utf-8")
