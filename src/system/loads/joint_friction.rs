@@ -57,7 +57,7 @@ impl<const D: usize> JointFriction<D> {
         let excess = self.static_ratio - 1.0;
         if excess > 0.0 && self.stribeck_speed > 0.0 {
             let rate = self.coordinate.rate(at.x, at.v) / N::of(self.stribeck_speed);
-            ratio = ratio + N::of(excess) * (-(rate * rate)).exp();
+            ratio += N::of(excess) * (-(rate * rate)).exp();
         }
         N::of(-direction) * ratio * self.level(at)
     }
