@@ -127,7 +127,7 @@ def _natural(model, values, shapes, numbers):
     products = shapes.T @ (model.mass @ shapes)
     cosines = np.abs(products - np.eye(len(products)))
     if cosines.max() > ORTHOGONAL:
-        first, second = np.unravel_index(np.argmax(cosines), cosines.shape)
+        first, second = sorted(np.unravel_index(np.argmax(cosines), cosines.shape))
         raise Error(
             f"modes: expected modes that are orthogonal in the mass, found {cosines.max():.3g} between the modes "
             f"{numbers[first]} and {numbers[second]}: is the mass that of another model?"
