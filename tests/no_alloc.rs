@@ -180,10 +180,31 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
           "accuracy": { "relative_tolerance": 1.0e-4 },
           "method": { METHOD } }"#;
 
+/// A block that stops and turns back under friction, and one that a latch catches.
+const EVENTS: &str = r#"{ "name": "events", "dimension": 2,
+          "bodies": [
+            { "name": "block", "element": "rigid", "mass": 2.0, "inertia": 0.1, "position": [0.0, 0.0],
+               "motion": { "velocity": [1.0, 0.0] }, "markers": { "c": [0.0, 0.0] } },
+            { "name": "other", "element": "rigid", "mass": 2.0, "inertia": 0.1, "position": [0.0, 1.0],
+               "motion": { "velocity": [1.0, 0.0] }, "markers": { "c": [0.0, 0.0] } } ],
+          "joints": [
+            { "name": "guide", "kind": "prismatic", "markers": ["ground", "block.c"], "direction": [1.0, 0.0] },
+            { "name": "rail", "kind": "prismatic", "markers": ["ground", "other.c"], "direction": [1.0, 0.0] } ],
+          "latches": [ { "name": "catch", "joint": "rail", "at": 0.13 } ],
+          "loads": [
+            { "name": "brake", "kind": "joint_friction", "joint": "guide", "force": 3.0, "static_ratio": 1.2, "stribeck_speed": 0.1 },
+            { "name": "spring", "kind": "joint_spring", "joint": "guide", "stiffness": 400.0 } ],
+          "inputs": [ { "kind": "friction", "load": "brake" }, { "kind": "latch", "latch": "catch" } ],
+          "outputs": [ { "kind": "load_force", "load": "brake" }, { "kind": "latch_force", "latch": "catch" }, { "kind": "work" } ],
+          "accuracy": { "relative_tolerance": 1.0e-4 },
+          "method": { METHOD } }"#;
+
 fn scenes() -> Vec<String> {
     let mut scenes: Vec<String> = [r#""integrator": "radau""#, r#""integrator": "rk4""#]
         .map(|method| MANY.replace("METHOD", method))
         .into();
+    let methods = [r#""integrator": "radau""#, r#""integrator": "dopri853""#];
+    scenes.extend(methods.map(|method| EVENTS.replace("METHOD", method)));
     for integrator in [
         "radau", "rk4", "dopri853", "rkn43", "rkn64", "verlet", "auto",
     ] {

@@ -165,7 +165,7 @@ fn course(motion: &ResolvedMotion<'_>) -> String {
     let derivatives = motion.driven.drives.iter().find_map(|drive| match drive {
         Drive::Input { derivatives, .. } => Some(*derivatives),
         Drive::Turned { attitude, .. } => Some(attitude.derivatives),
-        Drive::Function(_) => None,
+        Drive::Function(_) | Drive::Kept => None,
     });
     match derivatives {
         None => values(motion.values),

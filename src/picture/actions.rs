@@ -32,6 +32,7 @@ pub fn known_actions<'a>(resolved: &'a Resolved<'a>) -> Vec<KnownAction<'a>> {
         InputKind::RestLength(_)
         | InputKind::Release(_)
         | InputKind::Latch(_)
+        | InputKind::Friction(..)
         | InputKind::Current(_) => None,
     };
     let inputs = resolved.inputs.iter();

@@ -128,10 +128,13 @@ fn plain<'a>(name: &'a str, kind: &'static str, ends: Ends<'a>) -> Mark<'a> {
     }
 }
 
-/// A spring or a limit; none of other loads.
+/// A spring, a limit or friction; none of other loads.
 fn of_load<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
     let (on, kind, strokes) = match (load.kind.place(), load.kind.limits()) {
         (_, Some((on, limits))) => (on, "joint limit", symbols::joint_limit(&on, limits)),
+        (LoadPlace::Coordinate(on), None) if load.kind.is_friction() => {
+            (on, "friction", symbols::joint_friction())
+        }
         (LoadPlace::Coordinate(on), None) if load.kind.exerts_on().is_some() => {
             (on, "spring", symbols::joint_spring(&on))
         }

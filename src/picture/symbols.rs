@@ -230,6 +230,15 @@ pub fn joint_spring(on: &JointCoordinate<'_>) -> Vec<Stroke> {
     }
 }
 
+/// Friction on the coordinate of a joint: two shoes that press on it.
+pub fn joint_friction() -> Vec<Stroke> {
+    let shoe = |side: f64| {
+        let shoe = [-0.9, 0.9].map(|x| at(x, 1.3 * side));
+        SECOND.line(shoe, Style::line(SPRING, 0.35))
+    };
+    vec![shoe(-1.0), shoe(1.0)]
+}
+
 /// Bars where a coordinate of a joint meets its limits: across the way, or beside the joint where it is an angle.
 pub fn joint_limit(on: &JointCoordinate<'_>, limits: [Option<f64>; 2]) -> Vec<Stroke> {
     let sides = [-1.0, 1.0].into_iter().zip(limits);

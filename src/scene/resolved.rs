@@ -30,7 +30,7 @@ macro_rules! numbers {
 numbers! {
     /// A marker among those of all bodies.
     MarkerId;
-    /// Owner of constraints in the system. Joints come first, then gears, latches, motions and the constraints of ports.
+    /// Owner of constraints in the system. Joints come first, then gears, latches, motions, frictions and the constraints of ports.
     ConstraintOwnerId;
     /// A joint of kind `along` among those of its kind.
     SlideId;
@@ -334,6 +334,8 @@ pub enum InputKind<'a> {
     Release(&'a str),
     /// Arming of the latch of this name.
     Latch(&'a str),
+    /// Force against sliding of the friction of this name; whether it is on an angle.
+    Friction(&'a str, bool),
     /// Velocity of the fluid of this name, m/s.
     Current(&'a str),
 }

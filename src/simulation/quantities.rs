@@ -93,6 +93,10 @@ pub enum Quantity {
     LoadForce(LoadId, usize),
     /// Component of the moment of a load on its second end; in the plane the third.
     LoadMoment(LoadId, usize),
+    /// Component of the force of friction on the second end of its joint, also where it sticks.
+    FrictionForce(LoadId, usize),
+    /// Component of the moment of friction on the second end of its joint, also where it sticks; in the plane the third.
+    FrictionMoment(LoadId, usize),
     /// State of a latch: 1 closed, 0 open.
     LatchState(ConstraintOwnerId),
     /// Force of a gear on the displacement of its second joint, or of a latch on that of its joint.
@@ -206,8 +210,10 @@ pub(super) fn value<const D: usize, N: Number>(
         }
         GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
         LatchState(latch) => values.latch_state(system, latch.index()),
-        LoadForce(..) | LoadMoment(..) | MotionForce(..) | MotionMoment(..) | CouplingForce(..)
-        | CouplingMoment(..) => exerted(quantity, values, assembled),
+        LoadForce(..) | LoadMoment(..) | FrictionForce(..) | FrictionMoment(..)
+        | MotionForce(..) | MotionMoment(..) | CouplingForce(..) | CouplingMoment(..) => {
+            exerted(quantity, values, assembled)
+        }
         KineticEnergy => values.kinetic_energy(system),
         StrainEnergy => values.strain_energy(system),
         GravityEnergy => values.gravity_energy(system),
@@ -293,8 +299,8 @@ fn exerted<const D: usize, N: Number>(
     let motion = |joint: ConstraintOwnerId| values.reaction(system, joint.index());
     let coupling = |id| values.coupling(system, assembled.coupling(id));
     match quantity {
-        LoadForce(id, axis) => load(id).0[axis],
-        LoadMoment(id, axis) => load(id).1[axis],
+        LoadForce(id, axis) | FrictionForce(id, axis) => load(id).0[axis],
+        LoadMoment(id, axis) | FrictionMoment(id, axis) => load(id).1[axis],
         MotionForce(joint, axis) => -motion(joint).0[axis],
         MotionMoment(joint, axis) => -motion(joint).1[axis],
         CouplingForce(id, axis) => coupling(id).0[axis],
@@ -400,12 +406,14 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         }
         MembraneForce(..) => (Kinematics, |by| Some(by.force / by.size)),
         SurfaceMoment(..) => (Kinematics, |by| Some(by.force)),
-        AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) | GearForce(_) => {
-            (Dynamics, |by| Some(by.force))
-        }
-        BendingMoment(..) | Torque(_) | ReactionMoment(..) | MotionMoment(..) | GearTorque(_) => {
-            (Dynamics, |by| Some(by.force * by.size))
-        }
+        AxialForce(_)
+        | ConnectivityForce(..)
+        | Reaction(..)
+        | MotionForce(..)
+        | GearForce(_)
+        | FrictionForce(..) => (Dynamics, |by| Some(by.force)),
+        BendingMoment(..) | Torque(_) | ReactionMoment(..) | MotionMoment(..) | GearTorque(_)
+        | FrictionMoment(..) => (Dynamics, |by| Some(by.force * by.size)),
         Stress(_) | TorsionStress(_) => (Dynamics, |by| Some(by.force / (by.size * by.size))),
         StressTensor(..) | VonMisesStress(_) | LayerStress(..) | LayerVonMises(_) => {
             (Kinematics, |by| Some(by.force / (by.size * by.size)))

@@ -115,6 +115,7 @@ impl<const D: usize> System<D> {
             angles: parts.angles,
             releases,
             latches: Vec::new(),
+            frictions: Vec::new(),
             slides: Vec::new(),
             gravity: parts.gravity,
             weight: Vec::new(),
@@ -278,6 +279,7 @@ impl<const D: usize> System<D> {
             }
         }
         self.latches = self.find_latches();
+        self.frictions = self.find_frictions();
         self.tree = Tree::of(self);
     }
 }

@@ -33,7 +33,7 @@ pub use outputs::evaluation::Evaluation;
 pub use outputs::gauge::{Gauge, von_mises};
 pub use outputs::stress::StressPoint;
 pub use outputs::surface::StressLayer;
-pub use signal::{Drive, InputSignal, Signal, Trajectory, moved};
+pub use signal::{Drive, FrictionState, InputSignal, Signal, Trajectory, moved};
 pub use spectra::fastest::fastest;
 pub use spectra::modes::{Mode, damping_along, modes};
 pub use spectra::response::slow_response;
@@ -51,6 +51,7 @@ use crate::math::space::Vector;
 
 use crate::bodies::{Bodies, Elimination, Node};
 pub use joints::Release;
+use joints::friction::FrictionPlace;
 pub use joints::latch::Event;
 use joints::latch::LatchPlace;
 use joints::{Constraint, JointEquations, Linear};
@@ -87,10 +88,12 @@ pub struct System<const D: usize = 2> {
     /// Loads that act only where the initial state is looked for.
     initial_loads: Vec<AppliedLoad<D>>,
     angles: Vec<Angle<D>>,
-    /// Releases of joints and latches.
+    /// Releases of joints, latches and frictions.
     releases: Vec<Release>,
     /// Latches.
     latches: Vec<LatchPlace>,
+    /// Frictions of joints.
+    frictions: Vec<FrictionPlace>,
     /// For every slide, its constraint.
     slides: Vec<usize>,
     gravity: Vector<D>,
@@ -234,15 +237,9 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Lists the inputs of every coordinate that inputs drive.
+    /// Lists what prescribes every driven coordinate that follows no function of time.
     fn trajectories(&self) -> impl Iterator<Item = InputSignal> {
-        self.drives.iter().filter_map(|drive| match drive {
-            Drive::Input { first, derivatives } => {
-                Some(InputSignal::Coordinate(*first, 1 + derivatives))
-            }
-            Drive::Turned { attitude, part } => Some(InputSignal::Part(*attitude, *part)),
-            Drive::Function(_) => None,
-        })
+        self.drives.iter().filter_map(InputSignal::of)
     }
 
     /// Whether a state has the sizes of this system.

@@ -70,23 +70,47 @@ pub enum Drive {
         /// Which part, scalar first.
         part: usize,
     },
+    /// A number that the state keeps, and that changes at events only.
+    Kept,
 }
 
-/// Inputs that prescribe a driven coordinate.
+/// Where a state keeps what friction does: driven coordinates that change at events only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrictionState {
+    /// Index of the driven coordinate that holds the place at which the coordinate sticks, m or rad.
+    pub place: usize,
+    /// Index of the driven coordinate that holds the direction of sliding: 1, -1, or 0 where it sticks.
+    pub direction: usize,
+}
+
+/// Inputs, or the state, as they prescribe a driven coordinate that follows no function of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputSignal {
     /// Value and derivatives of the coordinate: index of the first input, and the number of inputs.
     Coordinate(usize, usize),
     /// Part of the quaternion of an orientation, by its index.
     Part(Attitude, usize),
+    /// None: the state keeps the number.
+    Kept,
 }
 
 impl InputSignal {
+    /// Finds what prescribes a driven coordinate, unless it follows a function of time.
+    pub fn of(drive: &Drive) -> Option<Self> {
+        match drive {
+            Drive::Input { first, derivatives } => Some(Self::Coordinate(*first, 1 + derivatives)),
+            Drive::Turned { attitude, part } => Some(Self::Part(*attitude, *part)),
+            Drive::Kept => Some(Self::Kept),
+            Drive::Function(_) => None,
+        }
+    }
+
     /// Whether its second derivative is an input.
     pub fn has_acceleration(self) -> bool {
         match self {
             Self::Coordinate(_, count) => count == 3,
             Self::Part(attitude, _) => attitude.derivatives == 2,
+            Self::Kept => false,
         }
     }
 
@@ -97,6 +121,7 @@ impl InputSignal {
                 std::array::from_fn(|k| if k < count { inputs[first + k] } else { 0.0 })
             }
             Self::Part(attitude, part) => attitude.start(inputs).map(|order| order[part]),
+            Self::Kept => [0.0; 3],
         }
     }
 
@@ -109,6 +134,7 @@ impl InputSignal {
             Self::Part(attitude, part) => {
                 attitude.second(quaternion(place - part, known), |i| inputs[i])[part]
             }
+            Self::Kept => 0.0,
         }
     }
 
@@ -126,6 +152,7 @@ impl InputSignal {
                 let [q, ..] = quaternion(place - part, known);
                 attitude.second_along(&q, direction)[part]
             }
+            Self::Kept => 0.0,
         }
     }
 
@@ -144,6 +171,7 @@ impl InputSignal {
                 let higher = attitude.higher(now, inputs, slope);
                 higher.map(|orders| orders.map(|order| order[part]))
             }
+            Self::Kept => None,
         }
     }
 
@@ -175,6 +203,7 @@ impl InputSignal {
                 let ends = [from, end.map(|order| order[part])];
                 Trajectory::between((time, h), ends, self.has_acceleration())
             }
+            Self::Kept => Trajectory::hold(time, from),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Scratch of a system: nothing allocates in a step.
 
 use super::joints::Release;
-use super::joints::latch::LatchMotion;
+use super::joints::friction::FrictionChange;
+use super::joints::latch::HeldMotion;
 use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
@@ -34,13 +35,26 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) before: State,
     /// Motions of latches over the last step, `[latches]`.
     pub(super) latches: Vec<LatchWatch>,
+    /// Motions of frictions over the last step, `[frictions]`.
+    pub(super) frictions: Vec<FrictionWatch>,
 }
 
 /// A latch before and after a step, and whether it is to close or to open.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LatchWatch {
-    pub motions: [LatchMotion; 2],
+    pub motions: [HeldMotion; 2],
     pub is_due: bool,
+}
+
+/// Friction before and after a step, and what it is to change to.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct FrictionWatch {
+    pub motions: [HeldMotion; 2],
+    /// Largest force while it sticks, N or N m.
+    pub limits: [f64; 2],
+    /// Coordinate where it was measured last, m or rad.
+    pub value: f64,
+    pub change: Option<FrictionChange>,
 }
 
 /// Configuration and rates of a system; the first part is what they follow from. [`System::forward_kinematics`] and
@@ -228,6 +242,7 @@ impl<const D: usize> Workspace<D> {
             change: vec![0.0; system.coordinates()],
             before: system.blank_state(0.0),
             latches: vec![LatchWatch::default(); system.latches.len()],
+            frictions: vec![FrictionWatch::default(); system.frictions.len()],
         }
     }
 

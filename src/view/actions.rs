@@ -144,18 +144,18 @@ fn exerted<'a>(
         })
 }
 
-/// Returns the action of a spring, a bushing or a joint limit on its second end, or of a contact on its marker or along its body; none of other loads.
+/// Returns the action of a spring, a bushing, friction or a joint limit on its second end, or of a contact on its marker or along its body; none of other loads.
 fn of_spring<'a>(
     id: LoadId,
     load: &'a scene::ResolvedLoad<'a>,
     dimension: usize,
 ) -> Vec<MovingAction<'a>> {
-    let quantity = move |is_moment, axis| {
-        if is_moment {
-            Quantity::LoadMoment(id, axis)
-        } else {
-            Quantity::LoadForce(id, axis)
-        }
+    let is_friction = load.kind.is_friction();
+    let quantity = move |is_moment, axis| match (is_moment, is_friction) {
+        (true, true) => Quantity::FrictionMoment(id, axis),
+        (true, false) => Quantity::LoadMoment(id, axis),
+        (false, true) => Quantity::FrictionForce(id, axis),
+        (false, false) => Quantity::LoadForce(id, axis),
     };
     if let Some(marker) = load.kind.exerts_on() {
         let on = MarkerActions {

@@ -19,7 +19,7 @@ const SINGLE: [&str; 4] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 13] = [
+const REFUSED: [&str; 14] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -29,6 +29,7 @@ const REFUSED: [&str; 13] = [
     "initial.loads{spring_damper}",
     "initial.loads{table_spring}",
     "initial.loads{joint_spring}",
+    "initial.loads{joint_friction}",
     "initial.loads{joint_limit}",
     "initial.loads{bushing}",
     "initial.loads{fluid}",
@@ -47,9 +48,9 @@ const TOGETHER: [&str; 7] = [
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
 /// whose element is chosen says is what the element says that it becomes (`elements.rs`). Plates and shells have theirs in `patches.rs` and `tests/laws/plate_sections.rs`, latches in
-/// `tests/laws/latches.rs`. What needs a file has its claims in `reduced.rs`,
+/// `tests/laws/latches.rs`, friction of joints in `tests/laws/friction.rs`. What needs a file has its claims in `reduced.rs`,
 /// what reduces lines to modes in `tests/laws/modal_lines.rs` and `planar_modes.rs`.
-const OWN: [&str; 37] = [
+const OWN: [&str; 39] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
@@ -73,6 +74,8 @@ const OWN: [&str; 37] = [
     "joints{smooth}",
     "latches.",
     "inputs{latch}",
+    "inputs{friction}",
+    "loads{joint_friction}",
     "outputs{latch_force}",
     "outputs{latch_torque}",
     "outputs{latch_state}",

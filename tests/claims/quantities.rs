@@ -46,6 +46,8 @@ named! { label, LABELS, Quantity:
     Displacement(_) => "displacement", SlidingVelocity(_) => "sliding velocity", SlidingAcceleration(_) => "sliding acceleration",
     GearForce(_) => "gear force", GearTorque(_) => "gear torque", LatchState(_) => "latch state",
     LoadForce(_, 0) => "load force x", LoadForce(_, 1) => "load force y", LoadForce(..) => "load force z",
+    FrictionForce(_, 0) => "friction force x", FrictionForce(_, 1) => "friction force y", FrictionForce(..) => "friction force z",
+    FrictionMoment(_, 0) => "friction moment x", FrictionMoment(_, 1) => "friction moment y", FrictionMoment(..) => "friction moment",
     LoadMoment(_, 0) => "load moment x", LoadMoment(_, 1) => "load moment y", LoadMoment(..) => "load moment",
     Travel(_) => "travel", Reaction(_, 0, Along::Global) => "reaction x", Reaction(_, 1, Along::Global) => "reaction y", Reaction(_, _, Along::Global) => "reaction z",
     Reaction(_, 0, Along::Body) => "reaction x along the body", Reaction(_, 1, Along::Body) => "reaction y along the body", Reaction(_, _, Along::Body) => "reaction z along the body",

@@ -102,6 +102,8 @@ const LOADS: &[&str] = &[
     "damping s/m",
     "damping s/rad",
     "friction ",
+    "stribeck_speed m/s",
+    "stribeck_speed rad/s",
     "density kg/m3",
     "drag ",
     "tangential_drag ",
@@ -158,6 +160,8 @@ fn of_load(scene: &Value, variable: &str) -> (&'static str, String, &'static str
         (_, "damping" | "translational_damping", _) => "N.s/m",
         (_, "rotational_stiffness", _) => "N.m/rad",
         (_, "rotational_damping", _) => "N.m.s/rad",
+        (_, "stribeck_speed", true) => "rad/s",
+        (_, "stribeck_speed", false) => "m/s",
         (_, "density", _) => "kg/m3",
         _ => "",
     };

@@ -76,7 +76,7 @@ impl Frame {
         let drives: Vec<[f64; 3]> = (drives.iter())
             .map(|drive| match drive {
                 Drive::Function(function) => function.derivatives(t),
-                Drive::Input { .. } | Drive::Turned { .. } => [0.0; 3],
+                Drive::Input { .. } | Drive::Turned { .. } | Drive::Kept => [0.0; 3],
             })
             .collect();
         let travel = match &constraint.kind {

@@ -22,6 +22,7 @@ mod elements;
 mod files;
 mod fluids;
 mod frames;
+mod friction;
 mod latches;
 mod least;
 mod lengthened;

@@ -407,6 +407,22 @@ class LatchInput(Part):
     """
 
 
+class FrictionInput(Part):
+    """
+    Force of a joint friction against sliding, N on a displacement and N m on an angle.
+    """
+
+    kind: Literal["friction"] = "friction"
+    load: StrictStr
+    """
+    Name of the joint friction whose force is set.
+    """
+    start: list[StrictFloat] = []
+    """
+    Force before the master sets it, N or N m: one value; by default that of the load.
+    """
+
+
 class CurrentInput(Part):
     """
     Velocity of a fluid in global axes, m/s.
@@ -436,6 +452,7 @@ Input = TypeAliasType(
         | RestLengthInput
         | ReleaseInput
         | LatchInput
+        | FrictionInput
         | CurrentInput,
         Field(discriminator="kind"),
     ],
@@ -1502,7 +1519,7 @@ class LatchStateOutput(Part):
 
 class LoadForceOutput(Part):
     """
-    Force of a load on its second marker, N: of a `spring_damper`, a `table_spring`, a `bushing`, a `joint_spring` or `joint_limit` on a displacement; of a
+    Force of a load on its second marker, N: of a `spring_damper`, a `table_spring`, a `bushing`, a `joint_spring`, `joint_limit` or `joint_friction` on a displacement; of a
     `contact` on its marker or on the whole body.
     """
 
@@ -1515,7 +1532,7 @@ class LoadForceOutput(Part):
 
 class LoadMomentOutput(Part):
     """
-    Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `joint_limit` on an angle.
+    Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring`, `joint_limit` or `joint_friction` on an angle.
     """
 
     kind: Literal["load_moment"] = "load_moment"
@@ -2783,6 +2800,41 @@ class TableSpringLoad(Part):
     """
 
 
+class JointFrictionLoad(Part):
+    """
+    Dry friction on a coordinate of a joint: Coulomb's, with a larger force at rest and its fall by Stribeck where they are given. What
+    sticks stands still until a force overcomes it.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["joint_friction"] = "joint_friction"
+    joint: StrictStr
+    """
+    Name of the joint that has friction.
+    """
+    force: Value
+    """
+    Force against sliding, N for a displacement and N m for an angle. A number, an expression in `t` or a table; where it is negative
+    there is no friction.
+    """
+    coordinate: CoordinateKind | None = None
+    """
+    Coordinate of the joint with friction; by default the displacement of a joint that has one, else the angle.
+    """
+    static_ratio: Annotated[StrictFloat | None, Field(ge=1.0)] = None
+    """
+    Largest force while the coordinate sticks, in parts of that against sliding; 1 by default.
+    """
+    stribeck_speed: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Speed `w` of sliding over which the force falls from the largest one to that against sliding, m/s or rad/s: by `exp(-(v/w)^2)` (Stribeck); 0
+    by default, for at once.
+    """
+
+
 class FluidLoad(Part):
     """
     A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
@@ -3980,6 +4032,7 @@ Load = TypeAliasType(
         | JointSpringLoad
         | BushingLoad
         | JointLimitLoad
+        | JointFrictionLoad
         | FluidLoad
         | ContactLoad,
         Field(discriminator="kind"),

@@ -29,6 +29,8 @@ kinds! {
         Release(ReleaseInput),
         /// Whether a latch may close: above 0 it may, else it is open. Read at the start of each communication step.
         Latch(LatchInput),
+        /// Force of a joint friction against sliding, N on a displacement and N m on an angle.
+        Friction(FrictionInput),
         /// Velocity of a fluid in global axes, m/s.
         Current(CurrentInput),
     }
@@ -145,6 +147,16 @@ pub struct LatchInput {
     pub start: Vec<f64>,
 }
 
+/// A force of friction that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FrictionInput {
+    /// Name of the joint friction whose force is set.
+    pub load: String,
+    /// Force before the master sets it, N or N m: one value; by default that of the load.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
 /// A velocity of a fluid that the master sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CurrentInput {
@@ -166,7 +178,11 @@ impl Input {
             Self::DistributedMoment(of) => (ActionKind::DistributedMoment, &of.body, of.follower),
             Self::Pressure(of) => (ActionKind::Pressure, &of.body, false),
             Self::AreaForce(of) => (ActionKind::AreaForce, &of.body, false),
-            Self::RestLength(_) | Self::Release(_) | Self::Latch(_) | Self::Current(_) => {
+            Self::RestLength(_)
+            | Self::Release(_)
+            | Self::Latch(_)
+            | Self::Friction(_)
+            | Self::Current(_) => {
                 return None;
             }
         };
@@ -184,6 +200,7 @@ impl Input {
             Self::Pressure(of) => &of.start,
             Self::AreaForce(of) => &of.start,
             Self::RestLength(of) => &of.start,
+            Self::Friction(of) => &of.start,
             Self::Release(of) => &of.start,
             Self::Latch(of) => &of.start,
             Self::Current(of) => &of.start,

@@ -156,6 +156,7 @@ impl<const D: usize> Builder<'_, D> {
                 time: latch.release_time,
                 input: None,
                 latch: Some(latch.conditions),
+                friction: None,
             };
             let held = self.held(coordinate, offset, None);
             self.hold_until(Some(release), held, ends);

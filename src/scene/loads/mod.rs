@@ -5,6 +5,7 @@ mod action;
 mod bushing;
 mod contact;
 mod fluid;
+mod joint_friction;
 mod joint_limit;
 mod joint_spring;
 mod line;
@@ -270,6 +271,9 @@ loads! {
     /// One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
     /// force is continuous in time (Hunt and Crossley 1975).
     JointLimit(joint_limit::JointLimitLoad): joint_limit::ResolvedJointLimit<'a>,
+    /// Dry friction on a coordinate of a joint: Coulomb's, with a larger force at rest and its fall by Stribeck where they are given. What
+    /// sticks stands still until a force overcomes it.
+    JointFriction(joint_friction::JointFrictionLoad): joint_friction::ResolvedJointFriction<'a>,
     /// A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
     /// and others 1950). The added mass counts in all directions alike.
     Fluid(fluid::FluidLoad): ResolvedFluid<'a>,
@@ -317,7 +321,11 @@ impl<'a> Resolved<'a> {
     /// A missing key, a reference that does not exist, or a value out of range.
     pub(super) fn resolve_loads(&mut self) -> Result<(), Error> {
         for (index, load) in self.scene.loads.iter().enumerate() {
-            let resolved = load.resolve(&format!("loads[{index}]"), self)?;
+            let path = format!("loads[{index}]");
+            let resolved = load.resolve(&path, self)?;
+            if resolved.kind.is_friction() {
+                self.hold(&path, &load.name);
+            }
             self.loads.push(resolved);
         }
         Ok(())

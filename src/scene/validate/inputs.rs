@@ -45,6 +45,7 @@ impl<'a> Resolved<'a> {
                 resolved::InputKind::RestLength(name)
                 | resolved::InputKind::Release(name)
                 | resolved::InputKind::Latch(name)
+                | resolved::InputKind::Friction(name, _)
                 | resolved::InputKind::Current(name) => name,
             };
             let follower = input.action().is_some_and(|acting| acting.follower);
@@ -89,6 +90,15 @@ impl<'a> Resolved<'a> {
             Input::Latch(of) => {
                 self.set_latch(&at("latch"), &of.latch, first)?;
                 (resolved::InputKind::Latch(&of.latch), vec![1.0])
+            }
+            Input::Friction(of) => {
+                let start = self.set_friction(&at("load"), &of.load, first)?;
+                let load = self.loads.iter().find(|load| load.name == of.load);
+                let is_angle = load.is_some_and(|load| load.kind.place().is_angle());
+                (
+                    resolved::InputKind::Friction(&of.load, is_angle),
+                    vec![start],
+                )
             }
             Input::Current(of) => {
                 let start = self.set_current(&at("load"), &of.load, first)?;

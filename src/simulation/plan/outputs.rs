@@ -227,6 +227,8 @@ fn nature(source: Source) -> Option<Nature> {
         | Reaction(..)
         | ReactionMoment(..)
         | GearForce(_)
+        | FrictionForce(..)
+        | FrictionMoment(..)
         | GearTorque(_)
         | MotionForce(..)
         | MotionMoment(..) => (Measure::Elastic, true, true),

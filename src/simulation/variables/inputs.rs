@@ -113,6 +113,8 @@ const ALONG: [&str; 2] = [
     "along the direction there",
     "across, to the left of the direction",
 ];
+/// Meaning of an input that sets the force of friction.
+const FRICTIONS: &str = "Force against sliding of";
 /// Meaning of an input that releases a joint.
 const RELEASES: &str = "Releases a joint permanently if it is above 0 as a step begins:";
 
@@ -143,6 +145,10 @@ fn words(
         }
         InputKind::Release(_) => return ("release", RELEASES, None, &[""]),
         InputKind::Latch(_) => return ("armed", "Arming (above 0) of", None, &[""]),
+        InputKind::Friction(_, true) => {
+            return ("friction_torque", FRICTIONS, Some(NEWTON_METRE), &[""]);
+        }
+        InputKind::Friction(_, false) => return ("friction_force", FRICTIONS, Some(NEWTON), &[""]),
         InputKind::Current(_) => {
             return ("current", "Velocity of", Some(METRE_PER_SECOND), &AXES);
         }
@@ -202,6 +208,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
         InputKind::RestLength(of)
         | InputKind::Release(of)
         | InputKind::Latch(of)
+        | InputKind::Friction(of, _)
         | InputKind::Current(of) => of,
     };
     let (name, before) = (
@@ -241,7 +248,9 @@ fn add_motion(list: &mut List, driven: &Driven<'_>, name: &str, verb: &str) {
         for (axis, (drive, &start)) in coordinates.enumerate() {
             let first = match drive {
                 Drive::Input { first, derivatives } if order <= *derivatives => *first,
-                Drive::Input { .. } | Drive::Turned { .. } | Drive::Function(_) => continue,
+                Drive::Input { .. } | Drive::Turned { .. } | Drive::Kept | Drive::Function(_) => {
+                    continue;
+                }
             };
             let what = format!("{what} to which {name} {verb} {}", quantity.place.name());
             let name = format!("{name}.{key}");

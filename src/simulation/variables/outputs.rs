@@ -277,7 +277,7 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             ),
         };
         let label = OutputLabel { name, what, unit };
-        let source = |k| source(read, output, k);
+        let source = |k| of_friction(source(read, output, k), resolved);
         if let OutputTarget::Points(_, _, points) = output.of {
             list.at_points(&label, points, source);
             continue;
@@ -366,6 +366,20 @@ fn owner(of: &OutputTarget<'_>) -> String {
         OutputTarget::Reaction(reaction) => format!("the first body of {}", reaction.name),
         _ => "its body".into(),
     }
+}
+
+/// The force or moment of a load that is friction: where it sticks, a constraint exerts it.
+fn of_friction(source: Source, resolved: &Resolved<'_>) -> Source {
+    let is_friction = |of: LoadId| resolved.loads[of.index()].kind.is_friction();
+    Source::Output(match source {
+        Source::Output(Quantity::LoadForce(of, k)) if is_friction(of) => {
+            Quantity::FrictionForce(of, k)
+        }
+        Source::Output(Quantity::LoadMoment(of, k)) if is_friction(of) => {
+            Quantity::FrictionMoment(of, k)
+        }
+        other => return other,
+    })
 }
 
 fn source(read: Read, output: &Output<'_>, k: usize) -> Source {

@@ -51,19 +51,27 @@ pub struct LatchPlace {
     pub constraint: usize,
 }
 
-/// Coordinate of a latch less the value that it holds (m or rad), its rate, and the force on it (N or N m).
+/// Coordinate that a latch or friction may hold, less the value that it is held at (m or rad), its rate, and the force on it (N or N m).
 #[derive(Clone, Copy, Debug, Default)]
-pub struct LatchMotion {
+pub struct HeldMotion {
     /// Distance from the value that is held, m or rad.
     pub distance: f64,
     /// Rate of the distance, m/s or rad/s.
     pub rate: f64,
-    /// Force of the latch on the coordinate, N or N m; 0 while it is open.
+    /// Force that holds the coordinate, N or N m; 0 where nothing does.
     pub force: f64,
 }
 
-impl LatchMotion {
-    /// The motion of a latch by its constraint and the multiplier.
+impl HeldMotion {
+    /// Returns this motion with the force in parts of a limit (N or N m).
+    pub(in crate::system) fn over(self, limit: f64) -> Self {
+        Self {
+            force: self.force / limit.max(f64::MIN_POSITIVE),
+            ..self
+        }
+    }
+
+    /// The motion of a coordinate by the constraint that holds it and the multiplier.
     pub(in crate::system) fn of<const D: usize>(
         constraint: &Constraint<D>,
         view: &View<'_, D>,
@@ -93,7 +101,7 @@ pub enum Event {
 /// Part of a step of length `h` (s) after which a distance is zero for the first time: that of the cubic with the values and rates at
 /// both ends. Distances up to `tolerance` are none.
 pub(in crate::system) fn closing(
-    [before, after]: [LatchMotion; 2],
+    [before, after]: [HeldMotion; 2],
     h: f64,
     tolerance: f64,
 ) -> Event {
@@ -126,7 +134,7 @@ pub(in crate::system) fn closing(
 /// Part of a step after which a force leaves its range: that of the straight line between both forces. A force that is beyond by
 /// less than `share` of the larger one leaves it at the end.
 pub(in crate::system) fn opening(
-    [before, after]: [LatchMotion; 2],
+    [before, after]: [HeldMotion; 2],
     range: [f64; 2],
     share: f64,
 ) -> Event {
@@ -215,18 +223,18 @@ impl Cubic {
 mod tests {
     use super::*;
 
-    fn at(distance: f64, rate: f64) -> LatchMotion {
-        LatchMotion {
+    fn at(distance: f64, rate: f64) -> HeldMotion {
+        HeldMotion {
             distance,
             rate,
             force: 0.0,
         }
     }
 
-    fn under(force: f64) -> LatchMotion {
-        LatchMotion {
+    fn under(force: f64) -> HeldMotion {
+        HeldMotion {
             force,
-            ..LatchMotion::default()
+            ..HeldMotion::default()
         }
     }
 

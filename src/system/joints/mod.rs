@@ -9,6 +9,7 @@ mod driven_orientation;
 mod driven_rotation;
 mod edge;
 mod fold;
+pub(in crate::system) mod friction;
 mod homokinetic;
 pub(in crate::system) mod latch;
 mod line;

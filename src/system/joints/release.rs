@@ -4,9 +4,9 @@
 use super::Constraint;
 use super::latch::LatchConditions;
 use crate::math::switches::grain;
-use crate::system::{Kinematics, State};
+use crate::system::{FrictionState, Kinematics, State};
 
-/// Time and input of the permanent release of a joint or a latch.
+/// Release of a constraint: at a time or by an input for good, by a latch that opens, or by friction that slides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Release {
     /// At this time, s.
@@ -15,6 +15,8 @@ pub struct Release {
     pub input: Option<usize>,
     /// The latch that it belongs to: one that is open counts as released.
     pub latch: Option<LatchConditions>,
+    /// The friction that it belongs to: one that slides counts as released.
+    pub friction: Option<FrictionState>,
 }
 
 impl Release {

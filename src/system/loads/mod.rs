@@ -9,6 +9,7 @@ mod distributed;
 mod distributed_moment;
 mod fluid;
 mod force;
+mod joint_friction;
 mod joint_limit;
 mod joint_spring;
 mod line_load;
@@ -29,6 +30,7 @@ pub use distributed::DistributedForce;
 pub use distributed_moment::DistributedMoment;
 pub use fluid::{Fluid, FluidSegment};
 pub use force::Force;
+pub use joint_friction::JointFriction;
 pub use joint_limit::JointLimit;
 pub use joint_spring::JointSpring;
 pub use line_load::LineLoad;
@@ -301,6 +303,8 @@ loads! {
     JointSpring(JointSpring<D>): JointSpring<D>,
     /// Limits of a coordinate of a joint.
     JointLimit(JointLimit<D>): JointLimit<D>,
+    /// Dry friction on a coordinate of a joint.
+    JointFriction(JointFriction<D>): JointFriction<D>,
     /// Contact of a marker or a body with a surface.
     Contact(Box<Contact<D>>): Contact<D>,
     /// Contact of a plate or shell with a surface.

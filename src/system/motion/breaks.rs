@@ -80,7 +80,7 @@ impl<const D: usize> System<D> {
         let drives = self.drives.iter().enumerate();
         drives.filter_map(move |(index, drive)| match drive {
             Drive::Function(function) => Some((index, function.derivatives(clock))),
-            Drive::Input { .. } | Drive::Turned { .. } => None,
+            Drive::Input { .. } | Drive::Turned { .. } | Drive::Kept => None,
         })
     }
 }
@@ -105,7 +105,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
     /// slides and latches are followed from one communication point to the next.
     pub(in crate::system) fn goes_on_until(&self, from: f64, to: f64) -> f64 {
         let system = self.system;
-        let is_followed = !system.slides.is_empty() || !system.latches.is_empty();
+        let is_followed = !system.slides.is_empty() || system.awaits_events();
         if is_followed || system.trajectories().next().is_some() {
             return from;
         }

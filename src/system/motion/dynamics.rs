@@ -574,11 +574,11 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     }
 
     fn awaits_events(&self) -> bool {
-        !self.system.latches.is_empty()
+        self.system.awaits_events()
     }
 
     fn remember(&mut self, state: &State) -> bool {
-        self.remember_latches(state)
+        self.remember_start(state)
     }
 
     fn event(&mut self, state: &mut State, tolerance: f64, is_last: bool) -> Event {
@@ -586,7 +586,7 @@ impl<const D: usize> Dynamics for DrivenSystem<'_, D> {
     }
 
     fn switch(&mut self, state: &mut State) -> StepOutcome {
-        self.switch_latches(state)
+        self.switch_all(state)
     }
 
     fn is_exhausted(&self) -> bool {

@@ -25,7 +25,7 @@ impl<const D: usize> System<D> {
         for (value, (drive, recent)) in work.kinematics.drives.iter_mut().zip(drives) {
             *value = match drive {
                 Drive::Function(function) => recent.derivatives(function, clock),
-                Drive::Input { .. } | Drive::Turned { .. } => {
+                Drive::Input { .. } | Drive::Turned { .. } | Drive::Kept => {
                     let course = trajectories.next();
                     course.map_or([0.0; 3], |course| course.derivatives(time))
                 }

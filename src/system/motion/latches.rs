@@ -1,9 +1,9 @@
 //! Latches of a step: when they close or open within it, and what velocities are after it (`joints/latch.rs`).
 
-use super::dynamics::{DrivenSystem, Dynamics as _, StepOutcome};
+use super::dynamics::DrivenSystem;
 use crate::math::switches::grain;
 use crate::system::joints::Equation as _;
-use crate::system::joints::latch::{Event, LatchMotion, LatchPlace, closing, opening};
+use crate::system::joints::latch::{Event, HeldMotion, LatchPlace, closing, opening};
 use crate::system::{State, System};
 
 /// Distance of a coordinate from the value that a latch holds at which it closes, in parts of the relative tolerance and the size.
@@ -14,10 +14,12 @@ const ROUNDOFF: f64 = 1e-13;
 const BEYOND: f64 = 1e-6;
 
 impl<const D: usize> System<D> {
-    /// Tells of everything that can be released whether it is so before a motion begins: latches that are open.
+    /// Tells of everything that can be released whether it is so before a motion begins: latches that are open, and frictions.
     pub(in crate::system) fn starts_released(&self) -> impl Iterator<Item = bool> {
-        let latches = self.releases.iter().map(|release| release.latch);
-        latches.map(|latch| latch.is_some_and(|latch| !latch.is_closed))
+        self.releases.iter().map(|release| {
+            let is_open = release.latch.is_some_and(|latch| !latch.is_closed);
+            is_open || release.friction.is_some()
+        })
     }
 
     /// Latches with their constraints, without those whose coordinates cannot move.
@@ -45,55 +47,28 @@ impl<const D: usize> DrivenSystem<'_, D> {
         }
     }
 
-    /// Remembers a state that a step begins at. Whether a latch opens there.
-    pub(super) fn remember_latches(&mut self, state: &State) -> bool {
-        self.work.before.copy_from(state);
-        self.measure_latches(0, state);
-        let system = self.system;
+    /// Tells which latches open where a step begins. Whether any does.
+    pub(super) fn open_at_start(&mut self) -> bool {
         let mut is_due = false;
-        for (i, place) in system.latches.iter().enumerate() {
-            let now = self.work.latches[i].motions[0];
+        for (place, watch) in self.system.latches.iter().zip(&mut self.work.latches) {
+            let now = watch.motions[0];
             let is_closed = !self.work.kinematics.released[place.release];
             // What is hardly beyond has its moment in the step.
             let is_beyond = matches!(
                 opening([now; 2], place.latch.range, BEYOND),
                 Event::Within(_)
             );
-            let opens = is_closed && is_beyond;
-            self.work.latches[i].is_due = opens;
-            is_due |= opens;
+            watch.is_due = is_closed && is_beyond;
+            is_due |= watch.is_due;
         }
         is_due
     }
 
-    /// Finds the first latch that closes or opens in a step from the remembered state. A step may be cut short unless `is_last`.
-    pub(super) fn find_event(&mut self, state: &mut State, relative: f64, is_last: bool) -> Event {
-        self.measure_latches(1, state);
-        let (mut cut, mut is_due) = (None, false);
-        for (i, place) in self.system.latches.iter().enumerate() {
-            let happens = self.happening(place, self.work.latches[i].motions, state, relative);
-            let ends = happens == Event::AtEnd || is_last && happens != Event::None;
-            self.work.latches[i].is_due = ends;
-            is_due |= ends;
-            if let (Event::Within(part), false) = (happens, is_last) {
-                cut = Some(cut.map_or(part, |first: f64| first.min(part)));
-            }
-        }
-        match cut {
-            Some(part) => {
-                state.copy_from(&self.work.before);
-                Event::Within(part)
-            }
-            None if is_due => Event::AtEnd,
-            None => Event::None,
-        }
-    }
-
     /// Where a latch closes or opens in a step with these motions at both ends.
-    fn happening(
+    pub(super) fn latch_event(
         &self,
         place: &LatchPlace,
-        motions: [LatchMotion; 2],
+        motions: [HeldMotion; 2],
         state: &State,
         relative: f64,
     ) -> Event {
@@ -113,46 +88,16 @@ impl<const D: usize> DrivenSystem<'_, D> {
         closing(motions, time - self.work.before.time, tolerance)
     }
 
-    /// Coordinates, rates and forces of all latches at a state: that before a step (0) or after it (1).
-    fn measure_latches(&mut self, side: usize, state: &State) {
-        let system = self.system;
-        let released = &self.work.kinematics.released;
-        let mut places = system.latches.iter();
-        let is_forced = places.any(|of| of.latch.is_bounded() && !released[of.release]);
-        if is_forced {
-            self.accelerate(state.time, &state.coordinates, &state.rates);
-        } else {
-            self.place_state(state);
-        }
-        let view = system.view(&self.work.kinematics);
-        for (place, watch) in system.latches.iter().zip(&mut self.work.latches) {
-            let is_held = is_forced && !view.released[place.release];
-            let lambda = if is_held {
-                self.work.constraints.lambda[place.constraint]
-            } else {
-                0.0
-            };
-            let constraint = &system.constraints[place.constraint];
-            watch.motions[side] = LatchMotion::of(constraint, &view, lambda);
-        }
-    }
-
-    /// Closes and opens the latches that are due at a state. Velocities after it are those of a plastic impact.
-    pub(super) fn switch_latches(&mut self, state: &mut State) -> StepOutcome {
-        let system = self.system;
-        let before = self.kinetic(state);
+    /// Closes and opens the latches that are due. Whether any closes.
+    pub(super) fn switch_latches(&mut self) -> bool {
         let mut closes = false;
-        for (place, watch) in system.latches.iter().zip(&mut self.work.latches) {
+        for (place, watch) in self.system.latches.iter().zip(&mut self.work.latches) {
             if std::mem::replace(&mut watch.is_due, false) {
                 let released = &mut self.work.kinematics.released[place.release];
                 *released = !*released;
                 closes |= !*released;
             }
         }
-        let outcome = self.accepted(state);
-        if closes && system.tracks_work && outcome == StepOutcome::Moved {
-            state.work[1] += before - self.kinetic(state);
-        }
-        outcome
+        closes
     }
 }

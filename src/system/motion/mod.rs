@@ -2,8 +2,10 @@
 
 pub(in crate::system) mod breaks;
 pub(in crate::system) mod dynamics;
+mod events;
 mod followed;
 pub(in crate::system) mod forces;
+mod frictions;
 mod latches;
 pub(in crate::system) mod multipliers;
 pub(in crate::system) mod prices;

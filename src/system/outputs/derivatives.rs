@@ -90,7 +90,7 @@ impl<const D: usize> Derivatives<D> {
         {
             let [_, _, _, third, fourth] = match drive {
                 Drive::Function(function) => function.orders(time),
-                Drive::Input { .. } | Drive::Turned { .. } => {
+                Drive::Input { .. } | Drive::Turned { .. } | Drive::Kept => {
                     trajectories.next().map_or([0.0; 5], |(place, given)| {
                         let (known, mut orders) = (&state.driven[..], state.driven[place]);
                         if let Some(higher) = given.higher((place, known), &plain.inputs, slope) {

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::evaluation::Evaluation;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, moment, vector};
+use crate::system::joints::{Constraint, View};
 use crate::system::loads::{AppliedLoad, ForceElement as _};
 use crate::system::{Attachment, System};
 
@@ -32,12 +33,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (at, view) = (self.instant(system), self.view(system));
         for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
             if constraint.joint == Some(joint) {
-                constraint.for_each_pair(&view, |pair| {
-                    let (end, [position, direction]) = pair.ends[1];
-                    let u = end.direction(&self.x);
-                    force -= position * *lambda;
-                    turning -= Vector3::from(moment(&u, &(direction * *lambda)));
-                });
+                let (on, about) = self.held_by(constraint, *lambda, &view);
+                force += on;
+                turning += about;
             }
         }
         if let Some(load) = system.joints[joint].spring
@@ -49,6 +47,22 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             turning += Vector3::from(moment(&end.direction(&self.x), &on));
         }
         (force, turning.into())
+    }
+
+    /// Force (N) and moment (N m), in the plane its third component, of a constraint on its second end.
+    fn held_by(
+        &self,
+        constraint: &Constraint<D>,
+        lambda: N,
+        view: &View<'_, D, N>,
+    ) -> (Vector<D, N>, Vector3<N>) {
+        let (mut force, mut turning) = (Vector::zeros(), Vector3::zeros());
+        constraint.for_each_pair(view, |pair| {
+            let (end, [position, direction]) = pair.ends[1];
+            force -= position * lambda;
+            turning -= Vector3::from(moment(&end.direction(&self.x), &(direction * lambda)));
+        });
+        (force, turning)
     }
 
     /// Force (N) or torque (N m) of a gear on the coordinate of its second joint, or of a latch on that of its joint.
@@ -80,8 +94,14 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force (N) and moment (N m), in the plane its third component, of a load on its second end, or on the one that it has; of
     /// contact along or over a body the whole force, without a moment.
     pub fn exerted(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
+        let sticks = system.frictions.iter().find(|of| of.load == load);
         let (load, at) = (&system.loads[load], self.instant(system));
         let (mut force, mut turning) = (Vector::zeros(), Vector3::zeros());
+        if let Some(place) = sticks.filter(|of| !self.released[of.release]) {
+            let (constraint, view) = (&system.constraints[place.constraint], self.view(system));
+            let (force, turning) = self.held_by(constraint, self.lambda[place.constraint], &view);
+            return (force, turning.into());
+        }
         match load {
             AppliedLoad::Contact(contact) => return (contact.whole(at), turning.into()),
             AppliedLoad::SurfaceContact(contact) => return (contact.whole(at), turning.into()),

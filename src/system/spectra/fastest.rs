@@ -24,7 +24,8 @@ pub fn fastest<const D: usize>(
     let (tangent, elimination) = (&mut work.linearization.tangent, &system.elimination);
     let stiffest = largest_eigenvalue(n, |x| tangent.apply_stiffness(elimination, x));
     let decay = if system.is_damped {
-        largest_eigenvalue(n, |x| tangent.apply_damping(elimination, x))
+        // Dry friction alone has no decay, not even a negative zero.
+        largest_eigenvalue(n, |x| tangent.apply_damping(elimination, x)).max(0.0) + 0.0
     } else {
         0.0
     };

@@ -38,6 +38,8 @@ impl<const D: usize> System<D> {
         for (drive, [value, ..]) in held.drives.iter_mut().zip(&work.kinematics.drives) {
             *drive = Drive::Function(Function::constant(*value));
         }
+        // Directions of sliding are among the drives that stand still now.
+        held.frictions.clear();
         held.tracks_work = false;
         held
     }

@@ -120,6 +120,7 @@ impl<const D: usize> System<D> {
         let holds = model.project(state);
         if holds {
             model.accepted(state);
+            model.start_frictions(state);
         }
         holds
     }

@@ -35,6 +35,8 @@ pub fn all() -> Vec<Specimen> {
         screw_between(),
         gears(),
         latched(),
+        sticking(),
+        sticking_in_the_plane(),
         rack(),
         let_go(),
         let_go_between(),
@@ -443,6 +445,40 @@ fn let_go() -> Specimen {
         specimen = vector(specimen, &of, unit, value);
     }
     specimen
+}
+
+/// A torque on a rotor and a force on a slider that friction holds: it bears both.
+fn sticking() -> Specimen {
+    let (torque, force, n) = (0.9, 2.5, axis());
+    let [first, mut second] = ["u", "v"].map(body);
+    second.place = Vector3::new(2.0, 0.1, 0.3);
+    let friction = |name: &str, joint: &str| json!({"name": name, "kind": "joint_friction", "joint": joint, "force": 3.0});
+    let scene = json!({"name": "sticking", "dimension": 3,
+        "bodies": [first.described(Value::Null), second.described(Value::Null)],
+        "joints": [{"name": "a", "kind": "revolute", "markers": ["ground", "u.c"], "direction": AXIS},
+                   {"name": "b", "kind": "prismatic", "markers": ["ground", "v.c"], "direction": AXIS}],
+        "loads": [{"name": "motor", "kind": "torque", "joint": "a", "value": torque},
+                  {"name": "push", "kind": "force", "marker": "v.c", "value": [force * n.x, force * n.y, force * n.z]},
+                  friction("bearing", "a"), friction("guide", "b")],
+        "outputs": [{"kind": "load_moment", "load": "bearing"}, {"kind": "load_force", "load": "guide"}]});
+    let mut specimen = Specimen::new("sticking", scene);
+    for k in 0..3 {
+        specimen = specimen
+            .claim(&format!("bearing.moment[{}]", k + 1), "N.m", -torque * n[k])
+            .claim(&format!("guide.force[{}]", k + 1), "N", -force * n[k]);
+    }
+    specimen
+}
+
+/// The same in the plane.
+fn sticking_in_the_plane() -> Specimen {
+    let scene = json!({"name": "sticking_in_the_plane", "dimension": 2,
+        "bodies": [{"name": "wheel", "element": "rigid", "mass": 2, "inertia": 0.5, "position": [0, 0], "markers": {"c": [0, 0]}}],
+        "joints": [{"name": "axle", "kind": "revolute", "markers": ["ground", "wheel.c"]}],
+        "loads": [{"name": "motor", "kind": "torque", "joint": "axle", "value": 0.7},
+                  {"name": "brake", "kind": "joint_friction", "joint": "axle", "force": 1.0}],
+        "outputs": [{"kind": "load_moment", "load": "brake"}]});
+    Specimen::new("sticking_in_the_plane", scene).claim("brake.moment", "N.m", -0.7)
 }
 
 /// A torque on two rotors, one of which a latch holds: the latch bears the torque of the one, the other is accelerated.

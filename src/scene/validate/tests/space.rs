@@ -419,6 +419,12 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /loads/0 | {"name": "l", "kind": "joint_limit", "joint": "rail", "stiffness": 5} | loads[0]: expected a lower or an upper limit, found neither
         /loads/0 | {"name": "l", "kind": "joint_limit", "joint": "rail", "stiffness": 0, "lower": 1} | loads[0].stiffness: expected a positive number (N/m), found 0
         /loads/0 | {"name": "l", "kind": "joint_limit", "joint": "rail", "stiffness": 5, "lower": 1, "upper": 0} | loads[0].upper: expected a limit that is not below `lower`, 1, found 0
+        /loads/0 | {"name": "l", "kind": "joint_friction", "joint": "rail", "force": 5} | accepted
+        /loads/0 | {"name": "l", "kind": "joint_friction", "joint": "rail"} | loads[0].force: expected
+        /loads/0 | {"name": "l", "kind": "joint_friction", "joint": "ball", "force": 5} | loads[0].joint: expected a joint with an angle or along a line
+        /loads/0 | {"name": "l", "kind": "joint_friction", "joint": "rail", "force": 5, "static_ratio": 0.9} | loads[0].static_ratio: expected a number from 1 on, found 0.9
+        /loads/0 | {"name": "l", "kind": "joint_friction", "joint": "rail", "force": 5, "stribeck_speed": -1} | loads[0].stribeck_speed: expected zero or a positive number (m/s), found -1
+        /inputs | [{"kind": "friction", "load": "l"}] | inputs[0].load: expected a joint_friction of this scene
         /loads/0 | {"name": "l", "kind": "bushing", "markers": ["a.in", "b.out"]} | loads[0]: expected stiffnesses or dampings, found none
         /loads/0 | {"name": "l", "kind": "bushing", "markers": ["ground", "rope.tip"], "rotational_stiffness": [1, 1, 1]} | loads[0].markers[1]: expected a marker of a rigid body with inertia
         /loads/0 | {"name": "l", "kind": "bushing", "markers": ["a.in", "b.out"], "rotational_damping": [1, 1, -1]} | loads[0].rotational_damping[2]: expected zero or a positive number (N m s/rad), found -1
