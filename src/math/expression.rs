@@ -28,6 +28,8 @@ pub struct Expression {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Operation {
     Time,
+    /// Another variable, by its place among those given.
+    Variable(usize),
     Number(f64),
     /// Value where the variable is zero, and its constant rate.
     Line([f64; 2]),
@@ -72,6 +74,11 @@ impl Expression {
         Self::of(text, "t")
     }
 
+    /// The time itself.
+    pub fn time() -> Self {
+        Self::run_by(vec![Operation::Time])
+    }
+
     /// Reads an expression in another variable; the calls below take its value for the time.
     ///
     /// # Errors
@@ -85,8 +92,11 @@ impl Expression {
     /// # Errors
     /// What was expected in the text, and what was found.
     pub fn at(text: &str, place: &[(&'static str, f64)]) -> Result<Self, String> {
-        let numbers: Vec<_> = place.iter().map(|(name, at)| (*name, [*at, 0.0])).collect();
-        Self::read(text, "t", &numbers)
+        let given = place.iter();
+        let given: Vec<_> = given
+            .map(|(name, at)| (*name, Operation::Number(*at)))
+            .collect();
+        Self::read(text, "t", &given)
     }
 
     /// Value, derivatives by both variables and the mixed second derivative of an expression in two variables, at a place.
@@ -100,7 +110,7 @@ impl Expression {
     ) -> Result<[f64; 4], String> {
         // Along both diagonals: f' = f_1 + rate f_2 and f'' = f_11 + 2 rate f_12 + f_22.
         let along = |rate: f64| {
-            let line = [(second, [v - rate * u, rate])];
+            let line = [(second, Operation::Line([v - rate * u, rate]))];
             Self::read(text, first, &line).map(|of| of.derivatives(u))
         };
         let ([value, slope, bend], [_, other, unbend]) = (along(1.0)?, along(-1.0)?);
@@ -115,11 +125,15 @@ impl Expression {
     fn read(
         text: &str,
         variable: &'static str,
-        given: &[(&'static str, [f64; 2])],
+        given: &[(&'static str, Operation)],
     ) -> Result<Self, String> {
-        let program = grammar::program(text, variable, given)?;
+        grammar::program(text, variable, given).map(Self::run_by)
+    }
+
+    /// The expression that a program in the time computes.
+    pub(super) fn run_by(program: Vec<Operation>) -> Self {
         let switches = switches::any(&program);
-        Ok(Self { program, switches })
+        Self { program, switches }
     }
 
     /// The value if it is the same at all times.
@@ -164,14 +178,14 @@ impl Expression {
                 *phase = argument;
             }
         };
-        run_telling(&self.program, from, |_| {}, first);
+        run_telling(&self.program, (from, &[]), |_| {}, first);
         let (mut rest, mut most) = (phases.iter(), 0.0_f64);
         let last = |argument: f64| {
             if let Some(phase) = rest.next() {
                 most = most.max((argument - phase).abs() / TAU);
             }
         };
-        run_telling(&self.program, until, |_| {}, last);
+        run_telling(&self.program, (until, &[]), |_| {}, last);
         most
     }
 
@@ -197,7 +211,7 @@ impl Operation {
     /// Change of the height of the stack.
     pub(super) fn rise(self) -> isize {
         match self {
-            Self::Time | Self::Number(_) | Self::Line(_) => 1,
+            Self::Time | Self::Variable(_) | Self::Number(_) | Self::Line(_) => 1,
             Self::Negate | Self::PowerOf(_) | Self::Function(_) => 0,
             Self::Add | Self::Subtract | Self::Multiply | Self::Divide | Self::Power => -1,
             Self::Switch(switch) => 1 - switch.arity() as isize,
@@ -292,13 +306,18 @@ pub(super) fn run<N: ConstantPower>(program: &[Operation], t: N) -> N {
 /// Runs a program; `note` is told the branches that its switches take, and on which side of their poles
 /// quotients and tangents are, in order.
 pub(super) fn run_noting<N: ConstantPower>(program: &[Operation], t: N, note: impl FnMut(u8)) -> N {
-    run_telling(program, t, note, |_| {})
+    run_telling(program, (t, &[]), note, |_| {})
 }
 
-/// Runs a program; `tell` gets the arguments of sines, cosines and tangents as well, in order.
+/// Runs a program in the time and other variables.
+pub(super) fn run_in<N: ConstantPower>(program: &[Operation], t: N, others: &[N]) -> N {
+    run_telling(program, (t, others), |_| {}, |_| {})
+}
+
+/// Runs a program in the time and other variables; `tell` gets the arguments of sines, cosines and tangents as well, in order.
 fn run_telling<N: ConstantPower>(
     program: &[Operation],
-    t: N,
+    (t, others): (N, &[N]),
     mut note: impl FnMut(u8),
     mut tell: impl FnMut(f64),
 ) -> N {
@@ -309,6 +328,7 @@ fn run_telling<N: ConstantPower>(
         let top = height - 1;
         stack[top] = match *operation {
             Operation::Time => t,
+            Operation::Variable(place) => others[place],
             Operation::Number(number) => N::from(number),
             Operation::Line([at_zero, rate]) => N::from(at_zero) + t * N::from(rate),
             Operation::Negate => -stack[top],

@@ -31,6 +31,11 @@ impl Function {
         Self::Constant(value)
     }
 
+    /// The time itself.
+    pub fn time() -> Self {
+        Self::Expression(Box::new(Expression::time()))
+    }
+
     /// An expression in `t`, e.g. `0.1*sin(2*PI*t)`; [`Expression`] says what it may hold.
     ///
     /// # Errors

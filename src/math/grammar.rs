@@ -32,14 +32,14 @@ const CONSTANTS: [(&str, f64); 2] = [("PI", std::f64::consts::PI), ("E", std::f6
 /// Longest text, bytes.
 const LENGTH: usize = 10_000;
 
-/// The program of an expression in a variable, where names may stand for numbers: each a value where the variable is zero, and a constant rate.
+/// The program of an expression in a variable, where names may stand for other variables and for numbers.
 ///
 /// # Errors
 /// What was expected in the text, and what was found.
 pub(super) fn program(
     text: &str,
     variable: &'static str,
-    given: &[(&'static str, [f64; 2])],
+    given: &[(&'static str, Operation)],
 ) -> Result<Vec<Operation>, String> {
     if text.len() > LENGTH {
         let found = text.len();
@@ -134,8 +134,8 @@ const POWER: u8 = 5;
 struct TokenReader<'a> {
     /// Name of the variable.
     variable: &'static str,
-    /// Names and the numbers that they stand for: values where the variable is zero, and rates.
-    given: &'a [(&'static str, [f64; 2])],
+    /// Names and what puts the numbers that they stand for on the stack.
+    given: &'a [(&'static str, Operation)],
     program: Vec<Operation>,
     waiting: Vec<Waiting>,
     place: BeforeToken,
@@ -180,13 +180,8 @@ impl TokenReader<'_> {
         if let Some((_, number)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
             return self.operand(Operation::Number(*number), name);
         }
-        if let Some((_, [at_zero, rate])) = self.given.iter().find(|(known, _)| *known == name) {
-            let operation = if *rate == 0.0 {
-                Operation::Number(*at_zero)
-            } else {
-                Operation::Line([*at_zero, *rate])
-            };
-            return self.operand(operation, name);
+        if let Some((_, operation)) = self.given.iter().find(|(known, _)| *known == name) {
+            return self.operand(*operation, name);
         }
         let Some(function) = FUNCTIONS.iter().position(|(known, _)| *known == name) else {
             let constants = CONSTANTS.map(|(known, _)| known);

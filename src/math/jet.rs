@@ -5,6 +5,7 @@ use nalgebra::{ComplexField, RealField, convert};
 use num_dual::Dual2_64;
 
 use super::lanes::{AlignedPack, PACK, Real};
+use super::law::Law;
 use super::sums;
 
 /// A number with its first and second derivative by one variable.
@@ -26,6 +27,9 @@ pub trait Number: RealField + Real {
 
     /// A function of it: `value`, or from `derivatives`, value and first two derivatives.
     fn map(self, value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 3]) -> Self;
+
+    /// The value of a law at a time, for `[x, v, u]`.
+    fn law(law: &Law, t: Self, others: [Self; 3]) -> Self;
 
     /// `out += sum of factors times columns`, which stand one after the other. All are whole packs.
     fn add_columns(columns: &[AlignedPack], factors: &[Self], out: &mut [Self]) {
@@ -54,6 +58,10 @@ impl Number for f64 {
         value(self)
     }
 
+    fn law(law: &Law, t: Self, others: [Self; 3]) -> Self {
+        law.run(t, others)
+    }
+
     fn add_columns(columns: &[AlignedPack], factors: &[Self], out: &mut [Self]) {
         sums::add_columns(columns, factors, out);
     }
@@ -72,6 +80,10 @@ impl Number for Jet {
         let [value, first, second] = derivatives(self.re);
         let curved = first * self.v2 + second * self.v1 * self.v1;
         Self::new(value, first * self.v1, curved)
+    }
+
+    fn law(law: &Law, t: Self, others: [Self; 3]) -> Self {
+        law.run(t, others)
     }
 }
 

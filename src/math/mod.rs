@@ -12,6 +12,7 @@ mod interval;
 pub mod jet;
 pub mod krylov;
 pub mod lanes;
+pub mod law;
 pub mod least;
 pub mod quadrature;
 pub mod radau;

@@ -293,6 +293,8 @@ fn holds(program: &[Operation], a: f64, b: f64) -> bool {
         let x = stack[top];
         let mut found = match *operation {
             Operation::Time => time,
+            // Programs whose switches are looked for are in the time alone.
+            Operation::Variable(_) => return false,
             Operation::Line([at_zero, rate]) => {
                 Range::constant(at_zero).plus(time.times(Range::constant(rate)))
             }

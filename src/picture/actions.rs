@@ -33,6 +33,7 @@ pub fn known_actions<'a>(resolved: &'a Resolved<'a>) -> Vec<KnownAction<'a>> {
         | InputKind::Release(_)
         | InputKind::Latch(_)
         | InputKind::Friction(..)
+        | InputKind::Control(_)
         | InputKind::Current(_) => None,
     };
     let inputs = resolved.inputs.iter();

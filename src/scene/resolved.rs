@@ -336,6 +336,8 @@ pub enum InputKind<'a> {
     Latch(&'a str),
     /// Force against sliding of the friction of this name; whether it is on an angle.
     Friction(&'a str, bool),
+    /// Value `u` of the force law of this name.
+    Control(&'a str),
     /// Velocity of the fluid of this name, m/s.
     Current(&'a str),
 }

@@ -19,7 +19,7 @@ const SINGLE: [&str; 4] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 14] = [
+const REFUSED: [&str; 15] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -28,6 +28,7 @@ const REFUSED: [&str; 14] = [
     "initial.state=undeformed",
     "initial.loads{spring_damper}",
     "initial.loads{table_spring}",
+    "initial.loads{force_law}",
     "initial.loads{joint_spring}",
     "initial.loads{joint_friction}",
     "initial.loads{joint_limit}",

@@ -8,7 +8,8 @@ use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
     AppliedLoad, Bushing, BushingMeasure, Contact, ContactLaw, ContactPoint, ContactSurface,
-    ForceElement as _, FromAngle, FromPoint, JointLimit, JointSpring, OneSidedSpring, TableSpring,
+    ForceElement as _, FromAngle, FromPoint, JointLimit, JointSpring, Measure, OneSidedSpring,
+    TableSpring,
 };
 use flexbody::system::{Angle, Attachment, Coordinate, Direction, Signal, Translation};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -342,7 +343,7 @@ fn by_tables(frame: &Frame) -> Vec<Acted<'_>> {
             springs.push(Acted {
                 frame,
                 load: AppliedLoad::TableSpring(TableSpring {
-                    ends,
+                    measure: Measure::Length(ends),
                     spring: Curve::new(&spring).expect("a curve"),
                     damper,
                 }),

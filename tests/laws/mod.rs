@@ -21,6 +21,7 @@ mod driven_starts;
 mod elements;
 mod files;
 mod fluids;
+mod force_law;
 mod frames;
 mod friction;
 mod latches;

@@ -423,6 +423,22 @@ class FrictionInput(Part):
     """
 
 
+class ControlInput(Part):
+    """
+    Value `u` of a force law, in the unit that its expression gives it.
+    """
+
+    kind: Literal["control"] = "control"
+    load: StrictStr
+    """
+    Name of the force law whose `u` is set.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets it: one value; 0 by default.
+    """
+
+
 class CurrentInput(Part):
     """
     Velocity of a fluid in global axes, m/s.
@@ -453,6 +469,7 @@ Input = TypeAliasType(
         | ReleaseInput
         | LatchInput
         | FrictionInput
+        | ControlInput
         | CurrentInput,
         Field(discriminator="kind"),
     ],
@@ -1519,8 +1536,8 @@ class LatchStateOutput(Part):
 
 class LoadForceOutput(Part):
     """
-    Force of a load on its second marker, N: of a `spring_damper`, a `table_spring`, a `bushing`, a `joint_spring`, `joint_limit` or `joint_friction` on a displacement; of a
-    `contact` on its marker or on the whole body.
+    Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `table_spring` or `force_law` between markers or on a
+    displacement, a `joint_spring`, `joint_limit` or `joint_friction` on a displacement; of a `contact` on its marker or on the whole body.
     """
 
     kind: Literal["load_force"] = "load_force"
@@ -1532,7 +1549,8 @@ class LoadForceOutput(Part):
 
 class LoadMomentOutput(Part):
     """
-    Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring`, `joint_limit` or `joint_friction` on an angle.
+    Moment of a load on its second marker, N m: of a `bushing`, a `table_spring`, `force_law`, `joint_spring`, `joint_limit` or `joint_friction` on an
+    angle.
     """
 
     kind: Literal["load_moment"] = "load_moment"
@@ -2780,23 +2798,65 @@ class TableSpringLoad(Part):
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
     kind: Literal["table_spring"] = "table_spring"
-    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
-    """
-    Ends of the spring: `ground` or `body.marker`, then `body.marker`.
-    """
     spring: Annotated[list[SpringItem], Field(min_length=2)]
     """
-    Force with which the spring pulls, by its length: two points `[length in m, force in N]` or more, by increasing length. The curve
-    through them is cubic and monotone where they are, and straight outside.
+    Force of the spring against growth, by the length or the coordinate: two points `[m, N]` or more (`[rad, N m]` of an angle), in
+    increasing order. The curve through them is cubic and monotone where they are, and straight outside.
+    """
+    coordinate: CoordinateKind | None = None
+    """
+    Coordinate of the joint that the load acts on; by default the displacement of a joint that has one, else the angle.
     """
     damper: Annotated[list[DamperItem] | None, Field(min_length=2)] = None
     """
-    Force with which the damper pulls, by the rate of the length: points `[rate in m/s, force in N]` as of `spring`, one of them
-    `[0, 0]`; by default there is no damper.
+    Force of the damper against growth, by the rate: points `[m/s, N]` as of `spring` (`[rad/s, N m]` of an angle), one of them `[0, 0]`;
+    by default there is no damper.
+    """
+    joint: StrictStr | None = None
+    """
+    Name of the joint on whose coordinate the load acts.
+    """
+    markers: Annotated[list[StrictStr] | None, Field(max_length=2, min_length=2)] = None
+    """
+    Ends: `ground` or `body.marker`, then `body.marker`. The load acts along the line between them. Either these or `joint`.
     """
     point: Vector | None = None
     """
-    With `ground` only: end of the spring on the ground, m; by default the position of the second marker at the start.
+    With `ground` only: end on the ground, m; by default the position of the second marker at the start.
+    """
+
+
+class ForceLawLoad(Part):
+    """
+    A force by an expression in a length or a coordinate of a joint, in its rate, in the time and in a value that an input sets: drag
+    torques, bump stops, dampers with knees, actuators.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["force_law"] = "force_law"
+    force: StrictStr
+    """
+    Force against growth of the length or of the coordinate, N, or N m on an angle: an expression in the length or coordinate `x` (m or
+    rad), its rate `v` (m/s or rad/s), the time `t` (s) and the value `u` of an input `control`.
+    """
+    coordinate: CoordinateKind | None = None
+    """
+    Coordinate of the joint that the load acts on; by default the displacement of a joint that has one, else the angle.
+    """
+    joint: StrictStr | None = None
+    """
+    Name of the joint on whose coordinate the load acts.
+    """
+    markers: Annotated[list[StrictStr] | None, Field(max_length=2, min_length=2)] = None
+    """
+    Ends: `ground` or `body.marker`, then `body.marker`. The load acts along the line between them. Either these or `joint`.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: end on the ground, m; by default the position of the second marker at the start.
     """
 
 
@@ -4029,6 +4089,7 @@ Load = TypeAliasType(
         | AreaForceLoad
         | SpringDamperLoad
         | TableSpringLoad
+        | ForceLawLoad
         | JointSpringLoad
         | BushingLoad
         | JointLimitLoad

@@ -31,6 +31,8 @@ kinds! {
         Latch(LatchInput),
         /// Force of a joint friction against sliding, N on a displacement and N m on an angle.
         Friction(FrictionInput),
+        /// Value `u` of a force law, in the unit that its expression gives it.
+        Control(ControlInput),
         /// Velocity of a fluid in global axes, m/s.
         Current(CurrentInput),
     }
@@ -157,6 +159,16 @@ pub struct FrictionInput {
     pub start: Vec<f64>,
 }
 
+/// The value `u` of a force law that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ControlInput {
+    /// Name of the force law whose `u` is set.
+    pub load: String,
+    /// Value before the master sets it: one value; 0 by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
 /// A velocity of a fluid that the master sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CurrentInput {
@@ -182,6 +194,7 @@ impl Input {
             | Self::Release(_)
             | Self::Latch(_)
             | Self::Friction(_)
+            | Self::Control(_)
             | Self::Current(_) => {
                 return None;
             }
@@ -201,6 +214,7 @@ impl Input {
             Self::AreaForce(of) => &of.start,
             Self::RestLength(of) => &of.start,
             Self::Friction(of) => &of.start,
+            Self::Control(of) => &of.start,
             Self::Release(of) => &of.start,
             Self::Latch(of) => &of.start,
             Self::Current(of) => &of.start,

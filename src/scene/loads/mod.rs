@@ -5,10 +5,12 @@ mod action;
 mod bushing;
 mod contact;
 mod fluid;
+mod force_law;
 mod joint_friction;
 mod joint_limit;
 mod joint_spring;
 mod line;
+mod measure;
 mod number;
 mod place;
 mod spring_damper;
@@ -263,6 +265,9 @@ loads! {
     SpringDamper(spring_damper::SpringDamper): spring_damper::ResolvedSpring<'a>,
     /// Spring and damper side by side between two points, whose forces are tables over length and over its rate.
     TableSpring(table_spring::TableSpringLoad): table_spring::ResolvedTableSpring<'a>,
+    /// A force by an expression in a length or a coordinate of a joint, in its rate, in the time and in a value that an input sets: drag
+    /// torques, bump stops, dampers with knees, actuators.
+    ForceLaw(force_law::ForceLawLoad): force_law::ResolvedForceLaw<'a>,
     /// Spring and damper side by side on a coordinate of a joint.
     JointSpring(joint_spring::JointSpringLoad): joint_spring::ResolvedJointSpring<'a>,
     /// Springs and dampers between two bodies in space, three along and three about the axes of the first one's body (of ground: the

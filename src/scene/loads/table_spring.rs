@@ -1,49 +1,63 @@
-//! Springs with dampers between two points, by tables.
+//! Springs with dampers by tables, between two points or on coordinates of joints.
 
+use super::measure::{MeasureKeys, ResolvedMeasure};
 use super::*;
 use crate::math::curve::Curve;
 use crate::system::loads::TableSpring;
 
-/// A spring and a damper by tables between two points.
+/// A spring and a damper by tables, between two points or on a coordinate of a joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TableSpringLoad {
-    /// Ends of the spring: `ground` or `body.marker`, then `body.marker`.
-    pub markers: [String; 2],
-    /// With `ground` only: end of the spring on the ground, m; by default the position of the second marker at the start.
+    /// Ends: `ground` or `body.marker`, then `body.marker`. The load acts along the line between them. Either these or `joint`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub markers: Option<[String; 2]>,
+    /// With `ground` only: end on the ground, m; by default the position of the second marker at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<SceneVector>,
-    /// Force with which the spring pulls, by its length: two points `[length in m, force in N]` or more, by increasing length. The curve
-    /// through them is cubic and monotone where they are, and straight outside.
+    /// Name of the joint on whose coordinate the load acts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// Coordinate of the joint that the load acts on; by default the displacement of a joint that has one, else the angle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinate: Option<CoordinateKind>,
+    /// Force of the spring against growth, by the length or the coordinate: two points `[m, N]` or more (`[rad, N m]` of an angle), in
+    /// increasing order. The curve through them is cubic and monotone where they are, and straight outside.
     #[schemars(length(min = 2))]
     pub spring: Vec<[f64; 2]>,
-    /// Force with which the damper pulls, by the rate of the length: points `[rate in m/s, force in N]` as of `spring`, one of them
-    /// `[0, 0]`; by default there is no damper.
+    /// Force of the damper against growth, by the rate: points `[m/s, N]` as of `spring` (`[rad/s, N m]` of an angle), one of them `[0, 0]`;
+    /// by default there is no damper.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2))]
     pub damper: Option<Vec<[f64; 2]>>,
 }
 
-/// A spring and a damper between two ends, by tables.
+/// A spring and a damper by tables, between two ends or on a coordinate of a joint.
 #[derive(Clone, Debug)]
 pub struct ResolvedTableSpring<'a> {
-    /// Ends of the spring.
-    pub ends: Ends<'a>,
-    /// Force with which the spring pulls, N, over its length, m.
-    pub spring: Curve,
-    /// Force with which the damper pulls, N, over the rate of the length, m/s.
-    pub damper: Option<Curve>,
+    /// Length or coordinate.
+    on: ResolvedMeasure<'a>,
+    /// Force of the spring against growth, N or N m, over length or coordinate, m or rad.
+    spring: Curve,
+    /// Force of the damper against growth, N or N m, over the rate, m/s or rad/s.
+    damper: Option<Curve>,
 }
 
 impl SceneLoad for TableSpringLoad {
     type Acting<'a> = ResolvedTableSpring<'a>;
 
-    const EXERTS: Exerts = Exerts::Force;
+    const EXERTS: Exerts = Exerts::ByCoordinate;
 
     fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let curve = |key: &str, points: &[[f64; 2]]| {
             Curve::new(points).map_err(|message| Error::new(format!("{path}.{key}"), message))
         };
-        let ends = scene.require_pair(path, &self.markers, self.point)?;
+        let keys = MeasureKeys {
+            markers: self.markers.as_ref(),
+            point: self.point,
+            joint: self.joint.as_deref(),
+            coordinate: self.coordinate,
+        };
+        let on = scene.require_measure(path, keys)?;
         let spring = curve("spring", &self.spring)?;
         let damper = self.damper.as_ref();
         let damper = damper.map(|points| curve("damper", points)).transpose()?;
@@ -52,21 +66,17 @@ impl SceneLoad for TableSpringLoad {
             let wanted = "a point [0, 0], since a damper at rest has no force";
             return Err(expected(&format!("{path}.damper"), wanted, "none"));
         }
-        Ok(ResolvedTableSpring {
-            ends,
-            spring,
-            damper,
-        })
+        Ok(ResolvedTableSpring { on, spring, damper })
     }
 }
 
 impl<'a> ActingLoad<'a> for ResolvedTableSpring<'a> {
     fn place(&self) -> LoadPlace<'a> {
-        LoadPlace::Ends(self.ends)
+        self.on.place()
     }
 
     fn stiffness(&self) -> [f64; 2] {
-        [self.spring.steepest(), 0.0]
+        self.on.stiffness(self.spring.steepest())
     }
 
     fn assemble<const D: usize>(
@@ -75,19 +85,23 @@ impl<'a> ActingLoad<'a> for ResolvedTableSpring<'a> {
         _path: &str,
     ) -> AssembledLoad<D> {
         Ok(AppliedLoad::TableSpring(TableSpring {
-            ends: builder.ends(self.ends),
+            measure: builder.measure(&self.on),
             spring: self.spring.clone(),
             damper: self.damper.clone(),
         }))
     }
 
     fn words(&self, dimension: usize) -> LoadWords {
-        let point = words::at_point(dimension, &self.ends);
         let damper = self.damper.as_ref().map(|_| ", and over its rate");
+        let over = if matches!(self.on, ResolvedMeasure::Length(_)) {
+            "length"
+        } else {
+            "coordinate"
+        };
         LoadWords {
             kind: "spring and damper by tables".into(),
-            on: format!("{}{point}", words::ends(&self.ends)),
-            size: format!("force over length{}", damper.unwrap_or_default()),
+            on: self.on.words(dimension),
+            size: format!("force over {over}{}", damper.unwrap_or_default()),
         }
     }
 }

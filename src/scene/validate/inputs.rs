@@ -34,7 +34,8 @@ impl<'a> Resolved<'a> {
     /// Resolves the inputs without those of ports.
     ///
     /// # Errors
-    /// A missing key, a reference that does not exist, a name that is used twice, or start values out of range.
+    /// A missing key, a reference that does not exist, a name that is used twice, start values out of range, or a force law whose `u` no
+    /// input sets.
     pub(super) fn resolve_inputs(&mut self) -> Result<(), Error> {
         let (mut seen, mut first) = (HashSet::new(), 0);
         for (index, input) in self.scene.inputs.iter().enumerate() {
@@ -46,6 +47,7 @@ impl<'a> Resolved<'a> {
                 | resolved::InputKind::Release(name)
                 | resolved::InputKind::Latch(name)
                 | resolved::InputKind::Friction(name, _)
+                | resolved::InputKind::Control(name)
                 | resolved::InputKind::Current(name) => name,
             };
             let follower = input.action().is_some_and(|acting| acting.follower);
@@ -61,7 +63,7 @@ impl<'a> Resolved<'a> {
             self.inputs.push(resolved::Input { kind, first, start });
             first += input.components(self.scene.dimension);
         }
-        Ok(())
+        self.require_controls()
     }
 
     /// Resolves the quantity of an input, with its default start values.
@@ -99,6 +101,10 @@ impl<'a> Resolved<'a> {
                     resolved::InputKind::Friction(&of.load, is_angle),
                     vec![start],
                 )
+            }
+            Input::Control(of) => {
+                self.set_control(&at("load"), &of.load, first)?;
+                (resolved::InputKind::Control(&of.load), vec![0.0])
             }
             Input::Current(of) => {
                 let start = self.set_current(&at("load"), &of.load, first)?;

@@ -160,6 +160,14 @@ fn types_and_keys_keep_their_places() {
         /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "spring": [[0, 1]]} | loads[4].spring: expected two points or more, found 1
         /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "spring": [[0, 1], [0, 2]]} | loads[4].spring: expected points in increasing order, found 0 after 0
         /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "spring": [[0, 1], [1, 2]], "damper": [[-1, -1], [1, 1]]} | loads[4].damper: expected a point [0, 0], since a damper at rest has no force
+        /loads/4 | {"name": "hoist", "kind": "table_spring", "spring": [[0, 1], [1, 2]]} | loads[4]: expected `markers` or `joint`, found neither
+        /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "joint": "knee", "spring": [[0, 1], [1, 2]]} | loads[4]: expected `markers` or `joint`, found both
+        /loads/4 | {"name": "hoist", "kind": "table_spring", "joint": "knee", "point": [0, 0], "spring": [[0, 1], [1, 2]]} | loads[4].point: expected nothing beside a joint
+        /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "coordinate": "angle", "spring": [[0, 1], [1, 2]]} | loads[4].coordinate: expected nothing between markers
+        /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "force": "2*y"} | loads[4].force: expected one of the names t, x, v, u, PI
+        /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "force": "2*u"} | loads[4].force: expected an input of kind `control` for this load, which sets `u`, found none
+        /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "coordinate": "displacement", "force": "2*x"} | loads[4].coordinate: expected
+        /inputs/5 | {"kind": "control", "load": "tie"} | inputs[5].load: expected a force_law of this scene
         /loads/4/length | [1, 2] | loads[4].length: expected a number
         /motions/0/value | {"table": 1} | motions[0].value.table: expected a list, found 1
         /motions/0/value | {"table": [[0, 1]], "input": 1} | motions[0].value: expected a number

@@ -149,6 +149,7 @@ fn words(
             return ("friction_torque", FRICTIONS, Some(NEWTON_METRE), &[""]);
         }
         InputKind::Friction(_, false) => return ("friction_force", FRICTIONS, Some(NEWTON), &[""]),
+        InputKind::Control(_) => return ("control", "Value `u` of", None, &[""]),
         InputKind::Current(_) => {
             return ("current", "Velocity of", Some(METRE_PER_SECOND), &AXES);
         }
@@ -209,6 +210,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
         | InputKind::Release(of)
         | InputKind::Latch(of)
         | InputKind::Friction(of, _)
+        | InputKind::Control(of)
         | InputKind::Current(of) => of,
     };
     let (name, before) = (

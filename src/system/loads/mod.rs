@@ -9,11 +9,13 @@ mod distributed;
 mod distributed_moment;
 mod fluid;
 mod force;
+mod force_law;
 mod joint_friction;
 mod joint_limit;
 mod joint_spring;
 mod line_load;
 mod loaded_surface;
+mod measure;
 mod moment;
 mod one_sided_spring;
 mod spatial_moment;
@@ -30,11 +32,13 @@ pub use distributed::DistributedForce;
 pub use distributed_moment::DistributedMoment;
 pub use fluid::{Fluid, FluidSegment};
 pub use force::Force;
+pub use force_law::ForceLaw;
 pub use joint_friction::JointFriction;
 pub use joint_limit::JointLimit;
 pub use joint_spring::JointSpring;
 pub use line_load::LineLoad;
 pub use loaded_surface::LoadedSurface;
+pub use measure::Measure;
 pub use moment::Moment;
 pub use one_sided_spring::OneSidedSpring;
 pub use spatial_moment::SpatialMoment;
@@ -297,7 +301,9 @@ loads! {
     SurfaceFluid(Box<SurfaceFluid>): SurfaceFluid,
     /// A spring with a damper between two ends.
     Spring(Spring<D>): Spring<D>,
-    /// A spring with a damper between two ends, by tables.
+    /// A force by an expression, between two ends or on a coordinate of a joint.
+    ForceLaw(Box<ForceLaw<D>>): ForceLaw<D>,
+    /// A spring with a damper by tables, between two ends or on a coordinate of a joint.
     TableSpring(TableSpring<D>): TableSpring<D>,
     /// A spring with a damper on a coordinate of a joint.
     JointSpring(JointSpring<D>): JointSpring<D>,

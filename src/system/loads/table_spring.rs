@@ -1,35 +1,33 @@
-//! A spring with a damper between two points whose forces are curves over length and over its rate.
+//! A spring with a damper whose forces are curves over a length or a coordinate of a joint, and over its rate.
 
-use nalgebra::SMatrix;
-
-use super::spring::Span;
+use super::measure::Measure;
 use super::{Add, ForceElement, Instant};
 use crate::math::curve::Curve;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::end::{Attachment, between};
+use crate::system::end::Attachment;
 
-/// A spring and a damper in parallel between two points.
+/// A spring and a damper in parallel.
 #[derive(Clone, Debug)]
 pub struct TableSpring<const D: usize = 2> {
-    /// Ends of the spring.
-    pub ends: [Attachment<D>; 2],
-    /// Force with which the spring pulls, N, over the length, m.
+    /// Length or coordinate that they act against.
+    pub measure: Measure<D>,
+    /// Force of the spring against growth, N or N m, over the length or coordinate, m or rad.
     pub spring: Curve,
-    /// Force with which the damper pulls, N, over the rate of the length, m/s; zero at rest.
+    /// Force of the damper against growth, N or N m, over the rate, m/s or rad/s; zero at rest.
     pub damper: Option<Curve>,
 }
 
 impl<const D: usize> TableSpring<D> {
-    /// Force of the damper, N.
-    fn damping<N: Number>(&self, span: &Span<D, N>) -> N {
+    /// Force of the damper, N or N m.
+    fn damping<N: Number>(&self, rate: N) -> N {
         let damper = self.damper.as_ref();
-        damper.map_or(N::of(0.0), |damper| damper.value(span.speed))
+        damper.map_or(N::of(0.0), |damper| damper.value(rate))
     }
 
-    /// Force with which it pulls, N.
-    fn tension<N: Number>(&self, span: &Span<D, N>) -> N {
-        self.spring.value(span.length) + self.damping(span)
+    /// Force against growth, N or N m.
+    fn force<N: Number>(&self, [value, rate]: [N; 2]) -> N {
+        self.spring.value(value) + self.damping(rate)
     }
 }
 
@@ -37,39 +35,31 @@ impl<const D: usize> ForceElement<D> for TableSpring<D> {
     fn act<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let (span, none) = (Span::new(&self.ends, at), Vector::zeros());
-        let pull = span.unit * self.tension(&span);
-        let [first, second] = self.ends.map(|end| end.lift());
-        call(&first, [pull, none]);
-        call(&second, [-pull, none]);
+        let force = self.force(self.measure.read(at, true));
+        self.measure.act(force, at, call);
     }
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let span = Span::new(&self.ends, at);
-        let along: SMatrix<f64, D, D> = span.unit * span.unit.transpose();
-        // The part that turns stays out where it has no direction.
-        let turn = if span.length > 0.0 {
-            self.tension(&span) / span.length
-        } else {
-            0.0
-        };
-        let across = SMatrix::identity() - along;
-        let k = along * self.spring.slope(span.length) + across * turn;
-        between(&self.ends, k, 0, stiffness);
-        if let Some(damper) = &self.damper {
-            between(&self.ends, along * damper.slope(span.speed), 0, damping);
-        }
+        let read = self.measure.read(at, true);
+        let by_value = self.spring.slope(read[0]);
+        let by_rate = (self.damper.as_ref()).map_or(0.0, |damper| damper.slope(read[1]));
+        let slopes = [by_value, by_rate];
+        (self.measure).add_tangent(at, self.force(read), slopes, (stiffness, damping));
     }
 
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
-        let span = Span::new(&self.ends, at);
-        [N::of(0.0), self.damping(&span) * span.speed]
+        let [_, rate] = self.measure.read(at, true);
+        [N::of(0.0), self.damping(rate) * rate]
     }
 
     fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.spring.integral(Span::new(&self.ends, at).length)
+        self.spring.integral(self.measure.read(at, true)[0])
+    }
+
+    fn is_moment(&self) -> bool {
+        self.measure.is_angle()
     }
 
     fn is_damped(&self) -> bool {
@@ -77,10 +67,10 @@ impl<const D: usize> ForceElement<D> for TableSpring<D> {
     }
 
     fn ends(&self) -> Vec<Attachment<D>> {
-        self.ends.to_vec()
+        self.measure.ends()
     }
 
     fn is_grounded(&self) -> bool {
-        self.ends.iter().any(|end| end.marker().is_none())
+        self.measure.is_grounded()
     }
 }

@@ -24,8 +24,7 @@ pub fn fastest<const D: usize>(
     let (tangent, elimination) = (&mut work.linearization.tangent, &system.elimination);
     let stiffest = largest_eigenvalue(n, |x| tangent.apply_stiffness(elimination, x));
     let decay = if system.is_damped {
-        // Dry friction alone has no decay, not even a negative zero.
-        largest_eigenvalue(n, |x| tangent.apply_damping(elimination, x)).max(0.0) + 0.0
+        largest_eigenvalue(n, |x| tangent.apply_damping(elimination, x))
     } else {
         0.0
     };
@@ -74,7 +73,7 @@ pub(super) fn largest_eigenvalue(n: usize, mut apply: impl FnMut(&mut [f64])) ->
         _ => 0.0,
     };
     let values = symmetric_eigenvalues(diagonal.len(), entry).unwrap_or_default();
-    values
-        .last()
-        .map_or(0.0, |largest| MARGIN * largest.max(0.0))
+    let largest = values.last().copied().unwrap_or(0.0);
+    // A limit of a step is a quotient by it: a negative zero would make one of minus infinity.
+    if largest > 0.0 { MARGIN * largest } else { 0.0 }
 }

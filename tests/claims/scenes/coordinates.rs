@@ -37,6 +37,7 @@ pub fn all() -> Vec<Specimen> {
         latched(),
         sticking(),
         sticking_in_the_plane(),
+        sliding(),
         rack(),
         let_go(),
         let_go_between(),
@@ -479,6 +480,25 @@ fn sticking_in_the_plane() -> Specimen {
                   {"name": "brake", "kind": "joint_friction", "joint": "axle", "force": 1.0}],
         "outputs": [{"kind": "load_moment", "load": "brake"}]});
     Specimen::new("sticking_in_the_plane", scene).claim("brake.moment", "N.m", -0.7)
+}
+
+/// A rotor and a slider under friction that falls with the speed (Stribeck).
+fn sliding() -> Specimen {
+    let (force, ratio, fall) = (3.0, 1.4, 0.8);
+    let friction = |name: &str, joint: &str| json!({"name": name, "kind": "joint_friction", "joint": joint, "force": force, "static_ratio": ratio, "stribeck_speed": fall});
+    let scene = json!({"name": "sliding", "dimension": 2,
+        "bodies": [{"name": "wheel", "element": "rigid", "mass": 2, "inertia": 0.5, "position": [0, 0], "motion": {"spin": 0.5},
+                    "markers": {"c": [0, 0]}},
+                   {"name": "block", "element": "rigid", "mass": 2, "inertia": 0.5, "position": [1, 0], "motion": {"velocity": [-0.7, 0]},
+                    "markers": {"c": [0, 0]}}],
+        "joints": [{"name": "axle", "kind": "revolute", "markers": ["ground", "wheel.c"]},
+                   {"name": "guide", "kind": "prismatic", "markers": ["ground", "block.c"], "direction": [1, 0]}],
+        "loads": [friction("bearing", "axle"), friction("shoe", "guide")],
+        "outputs": [{"kind": "angular_acceleration", "marker": "wheel.c"}, {"kind": "acceleration", "marker": "block.c"}]});
+    let at = |speed: f64| force * (1.0 + (ratio - 1.0) * (-(speed / fall).powi(2)).exp());
+    Specimen::new("sliding", scene)
+        .claim("wheel.c.angular_acceleration", "rad/s2", -at(0.5) / 0.5)
+        .claim("block.c.acceleration[1]", "m/s2", at(0.7) / 2.0)
 }
 
 /// A torque on two rotors, one of which a latch holds: the latch bears the torque of the one, the other is accelerated.

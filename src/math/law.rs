@@ -1,0 +1,209 @@
+//! Laws of a force: expressions in a coordinate `x`, its rate `v`, a control `u` and the time `t`.
+
+use num_dual::Dual2_64;
+
+use super::expression::{Expression, Operation, run_in};
+use super::grammar;
+use super::jet::Number;
+use super::switches::Switch;
+
+/// Names of the variables beside the time.
+const NAMES: [&str; 3] = ["x", "v", "u"];
+
+/// An expression in `x`, `v`, `u` and `t`; [`Expression`] says what it may hold.
+#[derive(Clone, Debug)]
+pub struct Law {
+    program: Vec<Operation>,
+    /// Largest parts of it that are in the time alone and have kinks, jumps or waves.
+    clocks: Vec<Expression>,
+    /// Whether it depends on `x`, on `v` and on `u`.
+    depends: [bool; 3],
+    /// Whether it depends on the time.
+    is_timed: bool,
+    /// Whether it has switches that the state decides.
+    has_switches: bool,
+}
+
+/// A number that waits while the parts of a program are found.
+#[derive(Clone, Copy)]
+struct Part {
+    /// Index of its first operation.
+    first: usize,
+    /// Whether it depends on the time.
+    is_timed: bool,
+    /// Whether it depends on another variable.
+    is_given: bool,
+}
+
+impl Law {
+    /// Reads a law.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn new(text: &str) -> Result<Self, String> {
+        let given = [0, 1, 2].map(|place| (NAMES[place], Operation::Variable(place)));
+        let program = grammar::program(text, "t", &given)?;
+        if let [Operation::Number(number)] = program[..]
+            && !number.is_finite()
+        {
+            return Err(format!("expected a finite number, found {number}"));
+        }
+        let depends = [0, 1, 2].map(|place| program.contains(&Operation::Variable(place)));
+        let mut law = Self {
+            is_timed: program.contains(&Operation::Time),
+            clocks: Vec::new(),
+            has_switches: false,
+            depends,
+            program,
+        };
+        law.find_switches();
+        Ok(law)
+    }
+
+    /// Finds the switches, those of the time alone apart from those that the state decides.
+    fn find_switches(&mut self) {
+        let mut stack: Vec<Part> = Vec::new();
+        for (at, operation) in self.program.iter().enumerate() {
+            let operands = 1_usize.wrapping_add_signed(-operation.rise());
+            let parts = stack.split_off(stack.len() - operands);
+            let whole = Part {
+                first: parts.first().map_or(at, |part| part.first),
+                is_timed: parts.iter().any(|part| part.is_timed) || *operation == Operation::Time,
+                is_given: parts.iter().any(|part| part.is_given)
+                    || matches!(operation, Operation::Variable(_)),
+            };
+            if let Operation::Switch(switch) = operation {
+                // The numbers between which an `if` chooses decide nothing.
+                let deciding = if *switch == Switch::If { 1 } else { operands };
+                self.has_switches |= parts[..deciding].iter().any(|part| part.is_given);
+            }
+            if whole.is_given {
+                let ends = parts.iter().skip(1).map(|part| part.first).chain([at]);
+                for (place, (part, end)) in parts.iter().zip(ends).enumerate() {
+                    let decides = *operation == Operation::Switch(Switch::If) && place == 0;
+                    self.clocks
+                        .extend(clock(&self.program[part.first..end], part, decides));
+                }
+            }
+            stack.push(whole);
+        }
+        if let Some(whole) = stack.pop() {
+            self.clocks.extend(clock(&self.program, &whole, false));
+        }
+    }
+
+    /// Value, for `[x, v, u]`.
+    pub fn value<N: Number>(&self, t: N, others: [N; 3]) -> N {
+        N::law(self, t, others)
+    }
+
+    /// Value in numbers that an expression runs on.
+    pub(super) fn run<N: super::expression::ConstantPower>(&self, t: N, others: [N; 3]) -> N {
+        run_in(&self.program, t, &others)
+    }
+
+    /// Derivative by `x` (0) or `v` (1), for `[x, v, u]`.
+    pub fn slope(&self, t: f64, others: [f64; 3], by: usize) -> f64 {
+        let mut others = others.map(Dual2_64::from_re);
+        others[by].v1 = 1.0;
+        self.run(Dual2_64::from_re(t), others).v1
+    }
+
+    /// Whether it depends on `x`, on `v` and on `u`.
+    pub fn depends(&self) -> [bool; 3] {
+        self.depends
+    }
+
+    /// Whether it depends on the time.
+    pub fn is_timed(&self) -> bool {
+        self.is_timed
+    }
+
+    /// Whether it has kinks or jumps at times that the state decides.
+    pub fn has_switches(&self) -> bool {
+        self.has_switches
+    }
+
+    /// Returns its largest parts that are in the time alone and have kinks, jumps or waves.
+    pub fn clocks(&self) -> &[Expression] {
+        &self.clocks
+    }
+}
+
+/// A part of a program as an expression, if it is in the time alone and has kinks, jumps or waves. A number that decides an `if` has a kink
+/// where its sign changes.
+fn clock(program: &[Operation], part: &Part, decides: bool) -> Option<Expression> {
+    if part.is_given || !part.is_timed {
+        return None;
+    }
+    let mut program = program.to_vec();
+    if decides {
+        program.extend([Operation::Number(0.0), Operation::Switch(Switch::Greater)]);
+    }
+    let clock = Expression::run_by(program);
+    (clock.has_breaks() || clock.is_periodic()).then_some(clock)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Times of all kinks and jumps of the clocks of a law.
+    fn breaks(text: &str) -> Vec<f64> {
+        let law = Law::new(text).expect(text);
+        let mut found: Vec<f64> = (law.clocks().iter())
+            .filter_map(|clock| clock.next_break(0.0, 10.0))
+            .collect();
+        found.sort_by(f64::total_cmp);
+        found
+    }
+
+    #[test]
+    fn values_and_slopes_are_those_of_calculus() {
+        let law = Law::new("3*x^2 + v*abs(v)*t - u*x").expect("a law");
+        let (t, others) = (2.0, [0.5, -1.5, 4.0]);
+        assert_eq!(law.value(t, others), 0.75 - 4.5 - 2.0);
+        assert_eq!(law.slope(t, others, 0), 3.0 - 4.0);
+        assert_eq!(law.slope(t, others, 1), 6.0);
+        assert_eq!(law.depends(), [true; 3]);
+        assert!(law.is_timed() && law.has_switches());
+        let law = Law::new("10*x").expect("a law");
+        assert_eq!(law.depends(), [true, false, false]);
+        assert!(!law.is_timed() && !law.has_switches());
+    }
+
+    #[test]
+    fn switches_of_time_are_found_among_others() {
+        for (text, wanted) in [
+            ("if(t < 1, 10*x, 20*x)", &[1.0][..]),
+            ("if(t - 1, 10*x, 20*x)", &[1.0]),
+            ("x*abs(t - 2) + step(t - 3)*v", &[2.0, 3.0]),
+            ("max(0, t - 4)", &[4.0]),
+            ("max(x, t - 4)", &[]),
+            ("x*t", &[]),
+            ("x*if(t < 5, min(t, 2), 3)", &[2.0]),
+        ] {
+            let found = breaks(text);
+            assert_eq!(found.len(), wanted.len(), "{text}: {found:?}");
+            for (found, wanted) in found.iter().zip(wanted) {
+                assert!((found - wanted).abs() < 1e-12, "{text}: {found}");
+            }
+        }
+        let state = |text: &str| Law::new(text).expect(text).has_switches();
+        assert!(state("max(0, x)") && state("max(x, t - 4)") && state("if(v, t, 1)"));
+        assert!(!state("if(t < 1, 10*x, 20*x)") && !state("abs(t)*x"));
+    }
+
+    #[test]
+    fn what_is_wrong_is_told() {
+        let told = Law::new("3*q").expect_err("no name");
+        assert!(
+            told.starts_with("expected one of the names t, x, v, u, PI"),
+            "{told}"
+        );
+        assert_eq!(
+            Law::new("1/0").expect_err("not finite"),
+            "expected a finite number, found inf"
+        );
+    }
+}
