@@ -11,6 +11,7 @@ use crate::system::end::{Attachment, between};
 
 /// A length between two ends, or a coordinate of a joint.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there are few")]
 pub enum Measure<const D: usize = 2> {
     /// Length between two ends, m.
     Length([Attachment<D>; 2]),
