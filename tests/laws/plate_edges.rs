@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::{Rotation3, Vector3};
 use serde_json::{Value, json};
 
 use super::runs::Run;
@@ -294,7 +295,13 @@ fn a_body_holds_an_edge_as_the_ground_does() {
             let list = joints.as_array_mut().expect("joints");
             list.push(joint("edge", kind, first, "p.s1=0"));
             let mut bodies = json!([body()]);
+            let mut outputs = outputs.clone();
             if let Some(hub) = hub {
+                let read = outputs.as_array_mut().expect("outputs");
+                read.extend(
+                    ["reaction", "reaction_moment"]
+                        .map(|kind| json!({"kind": kind, "joint": "edge", "axes": "body"})),
+                );
                 list.push(
                     json!({"name": "weld", "kind": "weld", "markers": ["ground", "hub.far"]}),
                 );
@@ -307,6 +314,17 @@ fn a_body_holds_an_edge_as_the_ground_does() {
         for name in ["p.c.position", "edge.reaction", "edge.reaction_moment"] {
             let found: [[f64; 3]; 2] = [&mut on_ground, &mut on_body].map(|run| run.read_all(name));
             assert!(off(&found[0], &found[1]) < 1e-7, "{kind} {name} {found:?}");
+        }
+        // Along the axes of the hub.
+        let axes = Rotation3::new(Vector3::new(0.2, 0.4, 0.6));
+        for name in ["edge.reaction", "edge.reaction_moment"] {
+            let global: [f64; 3] = on_body.read_all(name);
+            let found: [f64; 3] = on_body.read_all(&format!("{name}_body"));
+            let wanted: [f64; 3] = (axes.inverse() * Vector3::from(global)).into();
+            assert!(
+                off(&found, &wanted) < 1e-9,
+                "{kind} {name} {found:?} {wanted:?}"
+            );
         }
     }
 }
