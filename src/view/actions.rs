@@ -3,12 +3,16 @@
 use crate::math::function::Function;
 use crate::math::space::spins;
 use crate::picture::known_actions;
-use crate::scene::{self, Along, ConstraintOwnerId, LoadId, LoadPlace, MarkerId, Resolved};
-use crate::simulation::{Error, Quantity, Simulation};
+use crate::scene::{
+    self, ActionKind, Along, ConstraintOwnerId, LoadId, LoadPlace, MarkerId, PatchBody, Resolved,
+};
+use crate::simulation::{Error, Pose, Quantity, Simulation};
 use crate::system::Signal;
 
 /// Arrows that stand for what acts all along a body.
 const ARROWS: u32 = 9;
+/// Arrows along each coordinate of a plate or shell.
+const RASTER: usize = 5;
 
 /// Something that acts.
 pub(super) struct MovingAction<'a> {
@@ -22,20 +26,24 @@ pub(super) struct MovingAction<'a> {
     pub follower: bool,
     /// Components of every arrow.
     pub components: usize,
+    /// Whether the one component that is given is along the normal of a surface.
+    is_normal: bool,
     /// Where it acts.
-    pub on: Where,
+    pub on: Where<'a>,
     of: Origin<'a>,
 }
 
 /// Where something acts.
 #[derive(Clone, Copy)]
-pub(super) enum Where {
+pub(super) enum Where<'a> {
     /// At a marker.
     Marker(MarkerId),
     /// At a marker about the axis of a joint, by its place among the joints.
     Joint(MarkerId, usize),
     /// All along a body, by its place.
     Body(usize),
+    /// All over a plate or shell, by its place.
+    Surface(usize, &'a PatchBody),
 }
 
 /// Source of the components.
@@ -54,8 +62,6 @@ enum Origin<'a> {
 pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<MovingAction<'a>> {
     let dimension = resolved.scene.dimension;
     let known = known_actions(resolved).into_iter();
-    // Loads over a surface have no place for an arrow.
-    let known = known.filter(|known| !matches!(known.action.on, LoadPlace::Surface(_)));
     let known = known.map(|known| of_action(known.name, known.action, dimension));
     let fluids = resolved.loads.iter();
     let fluids = fluids.filter_map(|load| of_fluid(load.name, load.kind.fluid()?));
@@ -138,6 +144,7 @@ fn exerted<'a>(
                 is_moment,
                 follower: false,
                 components: axes.len(),
+                is_normal: false,
                 on: Where::Marker(marker),
                 of: of(axes.map(|axis| quantity(is_moment, axis)).collect()),
             }
@@ -175,20 +182,27 @@ fn of_spring<'a>(
         is_moment: false,
         follower: false,
         components: dimension,
+        is_normal: false,
         on: Where::Body(on.id.body_index()),
         of: Origin::Contact(id),
     }]
 }
 
-/// The current of a fluid along a line.
+/// The current of a fluid along a line or over a surface.
 fn of_fluid<'a>(name: &'a str, fluid: &'a scene::ResolvedFluid<'a>) -> Option<MovingAction<'a>> {
-    Some(MovingAction {
+    let on = match fluid.on {
+        LoadPlace::Line(line) => Where::Body(line.id.body_index()),
+        LoadPlace::Surface(plate) => Where::Surface(plate.id.index(), plate.body),
+        _ => return None,
+    };
+    (!fluid.current.is_empty()).then_some(MovingAction {
         name,
         unit: "m/s",
         is_moment: false,
         follower: false,
         components: fluid.current.len(),
-        on: Where::Body(fluid.line()?.id.body_index()),
+        is_normal: false,
+        on,
         of: Origin::Components(&fluid.current, &fluid.varying),
     })
 }
@@ -198,18 +212,24 @@ fn of_action<'a>(
     action: &'a scene::Action<'a>,
     dimension: usize,
 ) -> MovingAction<'a> {
+    let is_normal = action.kind == ActionKind::Pressure;
     MovingAction {
         name,
         unit: action.kind.words()[1],
-        is_moment: !action.kind.is_force(),
+        is_moment: !(action.kind.is_force() || is_normal),
         follower: action.follower,
-        components: action.kind.components(dimension),
+        components: if is_normal {
+            dimension
+        } else {
+            action.kind.components(dimension)
+        },
+        is_normal,
         on: match action.on {
             LoadPlace::Marker(marker) => Where::Marker(marker.id),
             LoadPlace::Ends(ends) => Where::Marker(ends.second.id),
             LoadPlace::Coordinate(on) => Where::Joint(on.ends().second.id, on.joint().index()),
             LoadPlace::Line(cable) => Where::Body(cable.id.body_index()),
-            LoadPlace::Surface(plate) => Where::Body(plate.id.index()),
+            LoadPlace::Surface(plate) => Where::Surface(plate.id.index(), plate.body),
         },
         of: Origin::Components(&action.components, &action.along),
     }
@@ -228,11 +248,19 @@ impl MovingAction<'_> {
         matches!(self.of, Origin::Reaction(_))
     }
 
-    /// Returns the components now, arrow by arrow.
+    /// Points of the drawn surface at which arrows stand; none of what acts elsewhere.
+    pub fn points(&self) -> Vec<usize> {
+        match self.on {
+            Where::Surface(_, patch) => patch.grid().raster(RASTER),
+            Where::Marker(_) | Where::Joint(..) | Where::Body(_) => Vec::new(),
+        }
+    }
+
+    /// Returns the components now, arrow by arrow, where bodies stand so.
     ///
     /// # Errors
     /// A quantity that cannot be computed in the present state.
-    pub fn values(&self, simulation: &mut Simulation) -> Result<Vec<f64>, Error> {
+    pub fn values(&self, simulation: &mut Simulation, poses: &[Pose]) -> Result<Vec<f64>, Error> {
         let (components, along) = match &self.of {
             Origin::Reaction(quantities) | Origin::Load(quantities) => {
                 let values = quantities.iter().map(|of| simulation.read(*of));
@@ -252,18 +280,36 @@ impl MovingAction<'_> {
                 Signal::Input(place) => inputs[*place],
             })
             .collect();
-        if !matches!(self.on, Where::Body(_)) {
-            return Ok(same);
-        }
-        let mut values = Vec::new();
-        for s in places() {
+        let at = |place: &[(&'static str, f64)]| {
             let mut at = same.clone();
             for (axis, text) in *along {
-                let function = Function::at(text, &[("s", s)]);
+                let function = Function::at(text, place);
                 at[*axis] = function.map_or(0.0, |function| function.value(time));
             }
-            values.extend(at);
-        }
-        Ok(values)
+            at
+        };
+        Ok(match self.on {
+            Where::Marker(_) | Where::Joint(..) => same,
+            Where::Body(_) => (places().into_iter())
+                .flat_map(|s| at(&[("s", s)]))
+                .collect(),
+            Where::Surface(body, patch) => {
+                let (grid, points) = (patch.grid(), self.points());
+                let places: Vec<[f64; 2]> = grid.places().collect();
+                let values = |point: &usize| {
+                    let [s1, s2] = places[*point];
+                    at(&[("s1", s1), ("s2", s2)])
+                };
+                if !self.is_normal {
+                    return Ok(points.iter().flat_map(values).collect());
+                }
+                let normals = grid.normals(&poses[body].surface, &points);
+                let along_normal = |(point, normal): (&usize, [f64; 3])| {
+                    let pressure = values(point)[0];
+                    normal.map(|part| pressure * part)
+                };
+                points.iter().zip(normals).flat_map(along_normal).collect()
+            }
+        })
     }
 }

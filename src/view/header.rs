@@ -378,6 +378,14 @@ fn of_action(
         Where::Marker(marker) => format!("\"marker\":{}", marker.index()),
         Where::Joint(marker, joint) => format!("\"marker\":{},\"joint\":{joint}", marker.index()),
         Where::Body(body) => format!("\"body\":{body}"),
+        Where::Surface(body, _) => {
+            let sheet = recording.sheets[body].as_ref();
+            let place = |point: &usize| sheet.map(|sheet| sheet.point_to_json(*point));
+            let places: Vec<String> = (action.points().iter().filter_map(place))
+                .map(|place| format!("{{{place}}}"))
+                .collect();
+            format!("\"body\":{body},\"points\":[{}]", places.join(","))
+        }
     };
     format!(
         "{{\"name\":{},\"unit\":\"{}\",\"is_moment\":{},\"is_reaction\":{},\"follower\":{},\"components\":{},\"track\":{track},\"symbol\":{symbol},{on}}}",

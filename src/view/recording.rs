@@ -291,7 +291,7 @@ impl UnfinishedRecording {
         let stresses = self.simulation.face_stresses();
         let values = actions
             .iter()
-            .map(|action| action.values(&mut self.simulation));
+            .map(|action| action.values(&mut self.simulation, &poses));
         let values: Result<Vec<Vec<f64>>, _> = values.collect();
         self.recording.times.push(self.simulation.time());
         self.recording.poses.push(poses);

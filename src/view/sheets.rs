@@ -158,9 +158,14 @@ impl SheetModes {
         let nearest = places
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .map_or(0, |(point, _)| point);
-        let point = <[f64; 3]>::from(self.points[nearest]);
-        let modes = at_point(&self.modes, nearest);
-        format!("\"point\":{point:?},\"modes\":{modes:?}")
+        self.point_to_json(nearest)
+    }
+
+    /// Place of a point of the surface and how modes move it, as JSON.
+    pub fn point_to_json(&self, point: usize) -> String {
+        let at = <[f64; 3]>::from(self.points[point]);
+        let modes = at_point(&self.modes, point);
+        format!("\"point\":{at:?},\"modes\":{modes:?}")
     }
 }
 

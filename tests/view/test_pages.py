@@ -175,6 +175,23 @@ def test_loads_are_drawn_as_they_are_at_their_time(browser, pages):
         assert force == pytest.approx([0, 0.1 * math.sin(7 * time), -math.sin(10 * time)], abs=1e-4)
 
 
+def test_pressure_is_drawn_along_the_normals_of_a_surface(browser, pages):
+    """Arrows all over a tube, out of it and as long as the pressure is large."""
+    browser.load(pages("cylinder_shell"))
+    script = """
+    const { motion } = flexbody;
+    const number = motion.actions.findIndex((action) => action.name === "inside");
+    motion.seek(motion.end);
+    return motion.vectors(number).map(({ at, vector }) => [at.toArray(), vector.toArray()]);
+    """
+    arrows = browser.run(script)
+    assert len(arrows) == 25
+    for at, pressure in arrows:
+        assert math.hypot(*pressure) == pytest.approx(5000, rel=1e-3)
+        radius = math.hypot(at[1], at[2])
+        assert (at[1] * pressure[1] + at[2] * pressure[2]) / radius == pytest.approx(5000, rel=0.02)
+
+
 def test_a_browser_that_cannot_draw_says_so_and_shows_the_scene(blind_browser, pages):
     ready = "return document.querySelector('.fallback p').textContent.includes('WebGL')"
     blind_browser.load(pages("crane"), ready)

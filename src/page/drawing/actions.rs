@@ -1,16 +1,21 @@
 //! Loads and inputs: what acts, where and which way.
 
+use super::bodies::outline;
 use super::picture::{Picture, seen};
 use crate::math::function::Function;
 use crate::page::canvas::{Point, direction, moved};
 use crate::picture::palette::LOAD;
 use crate::picture::symbols;
 use crate::picture::{KnownAction, known_actions};
-use crate::scene::{self, Cable, InputKind, LoadPlace, Resolved, ResolvedMarker};
+use crate::scene::{
+    self, ActionKind, BodyReference, Cable, InputKind, LoadPlace, Plate, Resolved, ResolvedMarker,
+};
 use crate::system::Signal;
 
 /// Arrows at most that stand for a distributed force: on a short body as many as have room.
 const ARROWS: u32 = 7;
+/// Arrows along each coordinate of a plate or shell.
+const RASTER: usize = 3;
 
 /// A load or an input that is drawn as an arrow.
 pub(super) struct DrawnAction<'a> {
@@ -41,7 +46,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<DrawnAction<'a>> {
 /// Components of a force at the start, from those of an input; moments have none.
 /// Values that change along a body are taken in the middle.
 fn at_start(action: &scene::Action<'_>, inputs: &[f64]) -> Vec<f64> {
-    if !action.kind.is_force() {
+    if !action.kind.is_force() && action.kind != ActionKind::Pressure {
         return Vec::new();
     }
     in_middle(&action.components, &action.along, inputs)
@@ -97,6 +102,18 @@ impl<'a> Picture<'a> {
                     let along = action.way([1.0, 0.0]);
                     self.distributed(action.label, cable, along, is_force);
                 }
+                (LoadPlace::Surface(plate), _) => {
+                    let size = &action.components;
+                    let is_normal = action.action.kind == ActionKind::Pressure;
+                    self.over(action.label, plate, |normal| {
+                        if is_normal {
+                            let sign = if size[0] < 0.0 { -1.0 } else { 1.0 };
+                            way(&normal.map(|part| sign * part))
+                        } else {
+                            way(size)
+                        }
+                    });
+                }
                 (_, Some(marker)) if is_force => self.force(&action, marker),
                 (_, Some(marker)) => self.turn(marker),
                 (_, None) => {}
@@ -111,16 +128,18 @@ impl<'a> Picture<'a> {
             let Some(fluid) = load.kind.fluid() else {
                 continue;
             };
-            let Some(line) = fluid.line() else {
-                continue;
-            };
             let mut inputs = self.resolved.inputs.iter();
             let input = inputs
                 .find(|input| matches!(input.kind, InputKind::Current(name) if name == load.name));
             let start = input.map_or(&[][..], |input| &input.start);
             let current = in_middle(&fluid.current, &fluid.varying, start);
             if input.is_some() || current.iter().any(|part| *part != 0.0) {
-                self.distributed(load.name, line, way(&current), true);
+                let along = way(&current);
+                match fluid.on {
+                    LoadPlace::Line(line) => self.distributed(load.name, line, along, true),
+                    LoadPlace::Surface(plate) => self.over(load.name, plate, |_| along),
+                    _ => {}
+                }
             }
         }
     }
@@ -166,6 +185,21 @@ impl<'a> Picture<'a> {
                 moved(at, along.map(|part| -part), self.unit)
             };
             if arrow == arrows / 2 {
+                self.name_force(tail, along, label);
+            }
+        }
+    }
+
+    /// Arrows all over a plate or shell, by its unit normal where each stands.
+    fn over(&mut self, label: &str, plate: Plate<'_>, way: impl Fn([f64; 3]) -> Point) {
+        let grid = plate.body.grid();
+        let points = outline(BodyReference::Plate(plate), 3);
+        let raster = grid.raster(RASTER);
+        let normals = grid.normals(&points, &raster);
+        for (number, (point, normal)) in raster.iter().zip(normals).enumerate() {
+            let along = way(normal);
+            let tail = self.arrow(self.at(points[*point]), along, 0.6 * self.unit);
+            if number == raster.len() / 2 {
                 self.name_force(tail, along, label);
             }
         }

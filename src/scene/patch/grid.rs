@@ -1,5 +1,7 @@
 //! Grid of points that a plate or shell is drawn with.
 
+use nalgebra::Vector3;
+
 use crate::scene::description::PatchBody;
 
 /// Most parts of an element, and parts of a body along a coordinate up to which there are more than one.
@@ -36,6 +38,39 @@ impl PatchGrid {
 
     fn index(&self, i: usize, j: usize) -> usize {
         i * (self.cells()[1] + 1) + j
+    }
+
+    /// Points near the middles of the fields of a raster with so many fields along each coordinate, where there are as many cells.
+    pub fn raster(&self, fields: usize) -> Vec<usize> {
+        let at = self.cells().map(|cells| {
+            let fields = fields.min(cells);
+            let middle = move |k: usize| ((2 * k + 1) * cells + fields) / (2 * fields);
+            (0..fields).map(move |k| middle(k).min(cells))
+        });
+        let [first, second] = at;
+        first
+            .flat_map(|i| second.clone().map(move |j| self.index(i, j)))
+            .collect()
+    }
+
+    /// Unit normals at some of the points, from the positions of all, by differences.
+    pub fn normals(&self, points: &[[f64; 3]], of: &[usize]) -> Vec<[f64; 3]> {
+        let [n, m] = self.cells();
+        let normal = |point: &usize| {
+            let (i, j) = (point / (m + 1), point % (m + 1));
+            let between = |a: usize, b: usize| Vector3::from(points[b]) - Vector3::from(points[a]);
+            let first = between(
+                self.index(i.saturating_sub(1), j),
+                self.index((i + 1).min(n), j),
+            );
+            let second = between(
+                self.index(i, j.saturating_sub(1)),
+                self.index(i, (j + 1).min(m)),
+            );
+            let normal = first.cross(&second);
+            <[f64; 3]>::from(normal.try_normalize(0.0).unwrap_or_default())
+        };
+        of.iter().map(normal).collect()
     }
 
     /// Number of points.
@@ -117,7 +152,20 @@ mod tests {
         let by_element = grid
             .in_elements()
             .map(|([i, j], [p, q])| [(i as f64 + p) / 8.0, (j as f64 + q) / 30.0]);
-        for (a, b) in grid.places().zip(by_element) {
+        let places: Vec<_> = grid.places().collect();
+        let raster: Vec<_> = grid.raster(3).iter().map(|point| places[*point]).collect();
+        assert_eq!(raster[0], [4.0 / 24.0, 5.0 / 30.0]);
+        assert_eq!((raster.len(), raster[8]), (9, [20.0 / 24.0, 25.0 / 30.0]));
+        assert_eq!(PatchGrid::new([30, 2]).raster(5).len(), 25);
+        let tilted: Vec<_> = places.iter().map(|[a, b]| [*a, *b, -a]).collect();
+        for normal in grid.normals(&tilted, &[0, 40, grid.count() - 1]) {
+            let [x, y, z] = normal.map(|part| part * 2.0_f64.sqrt());
+            assert!(
+                (x - 1.0).abs() + y.abs() + (z - 1.0).abs() < 1e-12,
+                "{normal:?}"
+            );
+        }
+        for (a, b) in places.iter().zip(by_element) {
             assert!((a[0] - b[0]).abs() + (a[1] - b[1]).abs() < 1e-14);
         }
     }

@@ -247,12 +247,14 @@ export class Motion {
       return new Vector3(...[0, 1, 2].map((k) => (k < marker.columns.length ? this.row[marker.columns[k]] : 0)));
     }
     const body = this.bodies[marker.body];
-    if (marker.point) {
-      const point = new Vector3(...marker.point);
-      if (marker.modes) point.add(body.deformed(marker.modes));
-      return point.applyQuaternion(body.stance(0)).add(body.vector(0, 0));
-    }
-    return body.line(marker.element, marker.xi)[0];
+    return marker.point ? this.pointOf(body, marker) : body.line(marker.element, marker.xi)[0];
+  }
+
+  /** Where a point of a body is, which modes may move. */
+  pointOf(body, { point: at, modes }) {
+    const point = new Vector3(...at);
+    if (modes) point.add(body.deformed(modes));
+    return point.applyQuaternion(body.stance(0)).add(body.vector(0, 0));
   }
 
   /** How what a marker belongs to stands there. */
@@ -290,7 +292,7 @@ export class Motion {
     return first === undefined ? mark.along.clone() : mark.along.clone().applyQuaternion(this.stanceAt(first));
   }
 
-  /** What a force or moment is now, in global axes: one vector, or several along a body, each where it acts. */
+  /** What a force or moment is now, in global axes: one vector, or several along or over a body, each where it acts. */
   vectors(number) {
     const [action, values] = [this.actions[number], this.acting[number]];
     const each = action.components;
@@ -306,6 +308,7 @@ export class Motion {
       return [{ at: this.place(action.marker), vector: vector(0, this.stanceAt(action.marker)) }];
     }
     const body = this.bodies[action.body];
+    if (action.points) return action.points.map((point, k) => ({ at: this.pointOf(body, point), vector: vector(k) }));
     const count = values.length / each;
     const [whole, found] = [body.starts.at(-1), []];
     for (let k = 0; k < count; k += 1) {
