@@ -76,6 +76,7 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
             LoadPlace::Coordinate(JointCoordinate::Displacement(slider)) => {
                 (slider.ends, Some(slider.direction))
             }
+            LoadPlace::Ends(ends) => (ends, None),
             place => {
                 let marker = place.second()?;
                 (between(marker, marker), None)

@@ -331,10 +331,39 @@ fn drives(points: FramePoints, dimension: usize) -> Vec<Stroke> {
 pub fn motion(quantity: &DrivenQuantity<'_>, dimension: usize) -> Vec<Stroke> {
     let [has_force, _] = quantity.exerts;
     match quantity.place {
+        LoadPlace::Ends(ends) => cylinder(ends.is_grounded()),
         LoadPlace::Coordinate(_) if has_force => drive(FramePoints::Second, FrameAxes::Axis),
         _ if has_force => drives(FramePoints::Second, dimension),
         _ => vec![rotation(FramePoints::Second, MOTION)],
     }
+}
+
+/// A driven distance: a cylinder and its rod between the ends; on a foot where the first is the ground.
+fn cylinder(is_grounded: bool) -> Vec<Stroke> {
+    let side = |of: f64, across: f64| [of, 0.0, 0.0, across];
+    let barrel = [
+        side(0.1, -0.5),
+        side(0.65, -0.5),
+        side(0.65, 0.5),
+        side(0.1, 0.5),
+    ];
+    let line = Style::line(MOTION, 0.16);
+    let mut found = vec![
+        SPAN.line([part(0.0), part(0.1)], line),
+        SPAN.line(
+            barrel,
+            Style {
+                fill: PAPER,
+                ..line
+            },
+        ),
+        SPAN.line([side(0.4, -0.5), side(0.4, 0.5)], line),
+        SPAN.line([part(0.4), part(1.0)], line),
+    ];
+    if is_grounded {
+        found.extend(support(FIRST));
+    }
+    found
 }
 
 /// A latch: a hook above the second marker.

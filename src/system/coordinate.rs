@@ -1,22 +1,24 @@
-//! Coordinates of joints: the way of the second end along a direction of the first, `s = d . (r2 - r1)`, and the angle between
-//! both, counted on over full turns. What drives, couples or springs them, and what is read of them, stands on
+//! Coordinates: the way of the second end of a joint along a direction of the first, `s = d . (r2 - r1)`, the angle between both, counted
+//! on over full turns, and the length between two points, `|r2 - r1|`. What drives, couples or springs them, and what is read of them, stands on
 //! their values and first and second derivatives.
 
 use nalgebra::SMatrix;
 
 use super::direction::Direction;
-use super::end::{Add, Angle, Attachment, bilinear, coupling};
+use super::end::{Add, Angle, Attachment, between, bilinear, coupling};
 use super::gradient::Gradient;
 use crate::bodies::Node;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, turned};
 
-/// A coordinate of a joint.
+/// A coordinate of a joint, or a length.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there are few")]
 pub enum Coordinate<const D: usize> {
     /// A way, m.
     Translation(Translation<D>),
+    /// A length between two ends, m. Where it is zero no direction is better than another, and none is taken.
+    Length([Attachment<D>; 2]),
     /// An angle, rad, and its index among those that the system counts.
     Angle(Angle<D>, usize),
 }
@@ -134,11 +136,28 @@ impl<const D: usize> Angle<D> {
     }
 }
 
+/// Unit vector from the first end to the second, and the length, m.
+fn line<const D: usize, N: Number>(
+    ends: &[Attachment<D>; 2],
+    x: &[Node<D, N>],
+) -> (Vector<D, N>, N) {
+    let [a, b] = ends.map(|end| end.lift());
+    let way = b.position(x) - a.position(x);
+    let square = way.norm_squared();
+    if square > N::of(0.0) {
+        let length = square.sqrt();
+        (way / length, length)
+    } else {
+        (Vector::zeros(), square)
+    }
+}
+
 impl<const D: usize> Coordinate<D> {
     /// Returns the value, m or rad. An angle is the one nearest to its entry in `angles`.
     pub fn value<N: Number>(&self, x: &[Node<D, N>], angles: &[N]) -> N {
         match self {
             Self::Translation(way) => way.value(x),
+            Self::Length(ends) => line(ends, x).1,
             Self::Angle(angle, counted) => angle.value(x, angles[*counted]),
         }
     }
@@ -149,6 +168,13 @@ impl<const D: usize> Coordinate<D> {
     pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
         match self {
             Self::Translation(way) => way.gradient(x),
+            Self::Length(ends) => {
+                let (none, (along, _)) = (Vector::zeros(), line(ends, x));
+                let [first, second] = ends.map(|end| end.lift());
+                Gradient {
+                    ends: [(first, [-along, none]), (second, [along, none])],
+                }
+            }
             Self::Angle(angle, _) => angle.gradient(x),
         }
     }
@@ -163,6 +189,16 @@ impl<const D: usize> Coordinate<D> {
     pub fn bend<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         match self {
             Self::Translation(way) => way.bend(v),
+            Self::Length(ends) => {
+                let (along, length) = line(ends, x);
+                let [a, b] = ends.map(|end| end.lift().velocity(v));
+                let (velocity, rate) = (b - a, along.dot(&(b - a)));
+                if length > N::of(0.0) {
+                    (velocity.norm_squared() - rate * rate) / length
+                } else {
+                    N::of(0.0)
+                }
+            }
             Self::Angle(angle, _) => angle.bend(x, v),
         }
     }
@@ -171,6 +207,13 @@ impl<const D: usize> Coordinate<D> {
     pub fn add_hessian(&self, factor: f64, x: &[Node<D>], add: Add<'_, D>) {
         match self {
             Self::Translation(way) => way.add_hessian(factor, add),
+            Self::Length(ends) => {
+                let (along, length) = line(ends, x);
+                if length > 0.0 {
+                    let across = SMatrix::identity() - along * along.transpose();
+                    between(ends, across * (factor / length), 0, add);
+                }
+            }
             Self::Angle(angle, _) => angle.add_hessian(factor, x, add),
         }
     }
@@ -197,6 +240,7 @@ impl<const D: usize> Coordinate<D> {
     pub fn ends(&self) -> [Attachment<D>; 2] {
         match self {
             Self::Translation(way) => way.ends,
+            Self::Length(ends) => *ends,
             Self::Angle(angle, _) => angle.ends,
         }
     }
@@ -204,5 +248,13 @@ impl<const D: usize> Coordinate<D> {
     /// Whether it is an angle.
     pub fn is_angle(&self) -> bool {
         matches!(self, Self::Angle(..))
+    }
+
+    /// Whether it is the length from a point of the ground.
+    pub fn is_grounded_length(&self) -> bool {
+        match self {
+            Self::Length(ends) => ends.iter().any(|end| end.marker().is_none()),
+            Self::Translation(_) | Self::Angle(..) => false,
+        }
     }
 }

@@ -5,10 +5,11 @@ use flexbody::bodies::{Marker, Node, NodeBlock};
 use flexbody::elements::Element;
 use flexbody::math::curve::Curve;
 use flexbody::math::function::Function;
+use flexbody::math::law::Law;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
     AppliedLoad, Bushing, BushingMeasure, Contact, ContactLaw, ContactPoint, ContactSurface,
-    ForceElement as _, FromAngle, FromPoint, JointLimit, JointSpring, Measure, OneSidedSpring,
+    ForceElement as _, ForceLaw, FromAngle, FromPoint, JointLimit, JointSpring, OneSidedSpring,
     TableSpring,
 };
 use flexbody::system::{Angle, Attachment, Coordinate, Direction, Signal, Translation};
@@ -343,13 +344,24 @@ fn by_tables(frame: &Frame) -> Vec<Acted<'_>> {
             springs.push(Acted {
                 frame,
                 load: AppliedLoad::TableSpring(TableSpring {
-                    measure: Measure::Length(ends),
+                    on: Box::new(Coordinate::Length(ends)),
                     spring: Curve::new(&spring).expect("a curve"),
                     damper,
                 }),
                 angles: Vec::new(),
             });
         }
+        let law = Law::new("x^2 - sin(2*x)*t + 0.5*v*(1 + x) + u").expect("a law");
+        let control = Signal::Function(Function::constant(made.noise[34]));
+        springs.push(Acted {
+            frame,
+            load: AppliedLoad::ForceLaw(Box::new(ForceLaw::new(
+                Coordinate::Length(ends),
+                law,
+                control,
+            ))),
+            angles: Vec::new(),
+        });
     }
     springs
 }

@@ -15,6 +15,7 @@ mod crosses;
 mod dense;
 mod differences;
 mod driven;
+mod driven_distance;
 mod driven_orientation;
 mod driven_signs;
 mod driven_starts;

@@ -4214,6 +4214,30 @@ class DisplacementMotion(Part):
     """
 
 
+class DistanceMotion(Part):
+    """
+    Distance between two markers, or of a marker from a point of the ground, m: a hydraulic cylinder, a screw jack.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["distance"] = "distance"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    Markers whose distance is driven: `ground` or `body.marker`, then `body.marker`.
+    """
+    value: MotionValue
+    """
+    Course of the distance in time, m: above 0.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: end on the ground, m; by default the position of the second marker at the start.
+    """
+
+
 class WinchMotion(Part):
     """
     Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
@@ -4239,7 +4263,7 @@ class WinchMotion(Part):
 Motion = TypeAliasType(
     "Motion",
     Annotated[
-        AngleMotion | PositionMotion | OrientationMotion | DisplacementMotion | WinchMotion,
+        AngleMotion | PositionMotion | OrientationMotion | DisplacementMotion | DistanceMotion | WinchMotion,
         Field(discriminator="kind"),
     ],
 )

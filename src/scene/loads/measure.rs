@@ -1,7 +1,7 @@
 //! What a load is over: the length between two markers, or a coordinate of a joint.
 
 use super::*;
-use crate::system::loads::Measure;
+use crate::system::Coordinate;
 
 /// Keys that name a length or a coordinate, as they are given.
 pub(super) struct MeasureKeys<'a> {
@@ -97,10 +97,10 @@ impl<'a> Resolved<'a> {
 
 impl<const D: usize> Builder<'_, D> {
     /// Builds a length or a coordinate.
-    pub(super) fn measure(&mut self, measure: &ResolvedMeasure<'_>) -> Measure<D> {
+    pub(super) fn measure(&mut self, measure: &ResolvedMeasure<'_>) -> Coordinate<D> {
         match measure {
-            ResolvedMeasure::Length(ends) => Measure::Length(self.ends(*ends)),
-            ResolvedMeasure::Coordinate(on) => Measure::Coordinate(Box::new(self.coordinate(on))),
+            ResolvedMeasure::Length(ends) => Coordinate::Length(self.ends(*ends)),
+            ResolvedMeasure::Coordinate(on) => self.coordinate(on),
         }
     }
 }

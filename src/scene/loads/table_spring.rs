@@ -85,7 +85,7 @@ impl<'a> ActingLoad<'a> for ResolvedTableSpring<'a> {
         _path: &str,
     ) -> AssembledLoad<D> {
         Ok(AppliedLoad::TableSpring(TableSpring {
-            measure: builder.measure(&self.on),
+            on: Box::new(builder.measure(&self.on)),
             spring: self.spring.clone(),
             damper: self.damper.clone(),
         }))

@@ -3,6 +3,7 @@
 
 mod angle;
 mod displacement;
+mod distance;
 mod drives;
 mod orientation;
 mod position;
@@ -17,10 +18,10 @@ use serde::{Deserialize, Serialize};
 // What follows is there for the files of the kinds too.
 use super::assemble::{Builder, unit};
 use super::description::tagged::{kinds, part};
-use super::description::{MotionValue, Value};
+use super::description::{MotionValue, SceneVector, Value};
 use super::loads::LoadPlace;
 use super::resolved::{
-    Cable, ConstraintOwnerId, DirectionSource, JointCoordinate, Place, PortKind, Resolved,
+    Cable, ConstraintOwnerId, DirectionSource, Ends, JointCoordinate, Place, PortKind, Resolved,
     ResolvedMarker, Slider,
 };
 use super::unit::*;
@@ -199,6 +200,8 @@ motions! {
     /// Displacement along the line of a point on a line, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
     /// that line belongs to a cable.
     Displacement(displacement::DisplacementMotion): Slider<'a>,
+    /// Distance between two markers, or of a marker from a point of the ground, m: a hydraulic cylinder, a screw jack.
+    Distance(distance::DistanceMotion): Ends<'a>,
     /// Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
     /// cable changes with it. What is on the winch has no part in the scene; what acts between its ends acts all along it: `distributed_force`
     /// (where `s` is the share of the length now), `contact`, `fluid` without added mass.
@@ -231,8 +234,16 @@ impl<'a> Resolved<'a> {
         for (index, Motion { name, kind }) in self.scene.motions.iter().enumerate() {
             let path = format!("motions[{index}]");
             let driven = kind.resolve(&path, self)?;
-            let of = driven.quantity().place.name();
-            if !seen.insert((discriminant(kind), of)) {
+            let place = driven.quantity().place;
+            let of = place.name();
+            // Many distances may end at one marker.
+            let from = place.ends().map(|ends| {
+                (
+                    ends.first_name(),
+                    ends.point().map(|at| at.map(f64::to_bits)),
+                )
+            });
+            if !seen.insert((discriminant(kind), of, from)) {
                 let wanted = "a motion of what is not driven yet";
                 return Err(expected(&path, wanted, quoted(of)));
             }
@@ -261,7 +272,8 @@ impl<const D: usize> Builder<'_, D> {
             let ends = match motion.driven.quantity().place {
                 LoadPlace::Marker(marker) => self.on_marker(marker),
                 LoadPlace::Coordinate(of) => self.ends(of.ends()),
-                LoadPlace::Ends(_) | LoadPlace::Line(_) | LoadPlace::Surface(_) => continue,
+                LoadPlace::Ends(ends) => self.ends(ends),
+                LoadPlace::Line(_) | LoadPlace::Surface(_) => continue,
             };
             self.hold(primitive, ends);
         }

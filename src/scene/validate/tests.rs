@@ -169,6 +169,9 @@ fn types_and_keys_keep_their_places() {
         /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "coordinate": "displacement", "force": "2*x"} | loads[4].joint: expected a joint along a line
         /inputs/5 | {"kind": "control", "load": "tie"} | inputs[5].load: expected a force_law of this scene
         /loads/4/length | [1, 2] | loads[4].length: expected a number
+        /motions/0 | {"name": "leg", "kind": "distance", "markers": ["rope.mid", "rope.mid"], "value": 1} | motions[0].markers: expected markers of two bodies
+        /motions/0 | {"name": "leg", "kind": "distance", "markers": ["ground", "rope.mid"], "value": 1} | motions[0].markers: expected markers that are not at the same place
+        /motions/0 | {"name": "leg", "kind": "distance", "markers": ["rope.mid", "load.eye"], "value": "t - 1"} | motions[0].value: expected a distance above 0 m, found -1
         /motions/0/value | {"table": 1} | motions[0].value.table: expected a list, found 1
         /motions/0/value | {"table": [[0, 1]], "input": 1} | motions[0].value: expected a number
         /motions/0/value | {"spline": 1} | motions[0].value.spline: expected one of the keys table, interpolation, slopes, input

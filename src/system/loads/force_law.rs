@@ -1,19 +1,19 @@
 //! A force by an expression in a length or a coordinate of a joint, its rate, a control and the time.
 
-use super::measure::Measure;
 use super::{Add, ForceElement, Instant};
 use crate::math::function::Function;
 use crate::math::jet::Number;
 use crate::math::law::Law;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
+use crate::system::coordinate::Coordinate;
 use crate::system::end::Attachment;
 use crate::system::signal::Signal;
 
 /// A force against the growth of a length or of a coordinate of a joint.
 #[derive(Clone, Debug)]
 pub struct ForceLaw<const D: usize = 2> {
-    measure: Measure<D>,
+    on: Coordinate<D>,
     law: Law,
     control: Signal,
     time: Signal,
@@ -22,8 +22,8 @@ pub struct ForceLaw<const D: usize = 2> {
 }
 
 impl<const D: usize> ForceLaw<D> {
-    /// A force against the growth of a measure, by a law whose control is a signal.
-    pub fn new(measure: Measure<D>, law: Law, control: Signal) -> Self {
+    /// A force against the growth of a length or coordinate, by a law whose control is a signal.
+    pub fn new(on: Coordinate<D>, law: Law, control: Signal) -> Self {
         let clocks = law.clocks().iter().cloned();
         let clocks = clocks.map(|clock| Signal::Function(Function::Expression(Box::new(clock))));
         let time = if law.is_timed() {
@@ -32,7 +32,7 @@ impl<const D: usize> ForceLaw<D> {
             Function::constant(0.0)
         };
         Self {
-            measure,
+            on,
             control,
             time: Signal::Function(time),
             clocks: clocks.collect(),
@@ -40,12 +40,17 @@ impl<const D: usize> ForceLaw<D> {
         }
     }
 
-    /// Value and rate of the measure.
+    /// Length or coordinate, and its rate. The turns of an angle that the law does not depend on are not counted.
     fn read<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
-        self.measure.read(at, self.law.depends()[0])
+        let rate = self.on.rate(at.x, at.v);
+        if self.law.depends()[0] {
+            [self.on.value(at.x, at.angles.1), rate]
+        } else {
+            [N::of(0.0), rate]
+        }
     }
 
-    /// Force against growth at a value and rate of the measure, N or N m.
+    /// Force against growth at a value and a rate, N or N m.
     fn force<N: Number>(&self, at: Instant<'_, D, N>, [value, rate]: [N; 2]) -> N {
         let others = [value, rate, self.control.value(at)];
         self.law.value(self.time.value(at), others)
@@ -59,23 +64,27 @@ impl<const D: usize> ForceElement<D> for ForceLaw<D> {
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
         let force = self.force(at, self.read(at));
-        self.measure.act(force, at, call);
+        self.on.act(-force, at.x, call);
     }
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let read = self.read(at);
         let others = [read[0], read[1], self.control.value(at)];
         let t = self.time.value(at);
-        let slopes = [0, 1].map(|by| {
+        let slope = |by: usize| {
             if self.law.depends()[by] {
                 self.law.slope(t, others, by)
             } else {
                 0.0
             }
-        });
+        };
+        self.on.add_square(slope(0), at.x, &mut *stiffness);
+        (self.on).add_hessian(self.force(at, read), at.x, stiffness);
         // A force that falls with the rate is negative damping, which no factor of the tangent has.
-        let slopes = [slopes[0], slopes[1].max(0.0)];
-        (self.measure).add_tangent(at, self.force(at, read), slopes, (stiffness, damping));
+        let grows = slope(1);
+        if grows > 0.0 {
+            self.on.add_square(grows, at.x, damping);
+        }
     }
 
     /// The part of the force that is there without a rate is supplied, the rest dissipates.
@@ -87,7 +96,7 @@ impl<const D: usize> ForceElement<D> for ForceLaw<D> {
     }
 
     fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
-        let [from, to] = [before, after].map(|at| self.measure.read(at, true)[0]);
+        let [from, to] = [before, after].map(|at| self.on.value(at.x, at.angles.1));
         let points = GAUSS_5.iter();
         let work = points.map(|point| {
             let value = from + point.at * (to - from);
@@ -108,7 +117,7 @@ impl<const D: usize> ForceElement<D> for ForceLaw<D> {
     }
 
     fn is_moment(&self) -> bool {
-        self.measure.is_angle()
+        self.on.is_angle()
     }
 
     fn has_contact(&self) -> bool {
@@ -120,10 +129,10 @@ impl<const D: usize> ForceElement<D> for ForceLaw<D> {
     }
 
     fn ends(&self) -> Vec<Attachment<D>> {
-        self.measure.ends()
+        self.on.ends().to_vec()
     }
 
     fn is_grounded(&self) -> bool {
-        self.measure.is_grounded()
+        self.on.is_grounded_length()
     }
 }

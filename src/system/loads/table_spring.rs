@@ -1,17 +1,17 @@
 //! A spring with a damper whose forces are curves over a length or a coordinate of a joint, and over its rate.
 
-use super::measure::Measure;
 use super::{Add, ForceElement, Instant};
 use crate::math::curve::Curve;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
+use crate::system::coordinate::Coordinate;
 use crate::system::end::Attachment;
 
 /// A spring and a damper in parallel.
 #[derive(Clone, Debug)]
 pub struct TableSpring<const D: usize = 2> {
     /// Length or coordinate that they act against.
-    pub measure: Measure<D>,
+    pub on: Box<Coordinate<D>>,
     /// Force of the spring against growth, N or N m, over the length or coordinate, m or rad.
     pub spring: Curve,
     /// Force of the damper against growth, N or N m, over the rate, m/s or rad/s; zero at rest.
@@ -19,6 +19,14 @@ pub struct TableSpring<const D: usize = 2> {
 }
 
 impl<const D: usize> TableSpring<D> {
+    fn rate<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.on.rate(at.x, at.v)
+    }
+
+    fn value<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.on.value(at.x, at.angles.1)
+    }
+
     /// Force of the damper, N or N m.
     fn damping<N: Number>(&self, rate: N) -> N {
         let damper = self.damper.as_ref();
@@ -26,8 +34,8 @@ impl<const D: usize> TableSpring<D> {
     }
 
     /// Force against growth, N or N m.
-    fn force<N: Number>(&self, [value, rate]: [N; 2]) -> N {
-        self.spring.value(value) + self.damping(rate)
+    fn force<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.spring.value(self.value(at)) + self.damping(self.rate(at))
     }
 }
 
@@ -37,29 +45,30 @@ impl<const D: usize> ForceElement<D> for TableSpring<D> {
         at: Instant<'_, D, N>,
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let force = self.force(self.measure.read(at, true));
-        self.measure.act(force, at, call);
+        self.on.act(-self.force(at), at.x, call);
     }
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let read = self.measure.read(at, true);
-        let by_value = self.spring.slope(read[0]);
-        let by_rate = (self.damper.as_ref()).map_or(0.0, |damper| damper.slope(read[1]));
-        let slopes = [by_value, by_rate];
-        (self.measure).add_tangent(at, self.force(read), slopes, (stiffness, damping));
+        let slope = self.spring.slope(self.value(at));
+        self.on.add_square(slope, at.x, &mut *stiffness);
+        self.on.add_hessian(self.force(at), at.x, stiffness);
+        if let Some(damper) = &self.damper {
+            let slope = damper.slope(self.rate(at));
+            self.on.add_square(slope, at.x, damping);
+        }
     }
 
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
-        let [_, rate] = self.measure.read(at, true);
+        let rate = self.rate(at);
         [N::of(0.0), self.damping(rate) * rate]
     }
 
     fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.spring.integral(self.measure.read(at, true)[0])
+        self.spring.integral(self.value(at))
     }
 
     fn is_moment(&self) -> bool {
-        self.measure.is_angle()
+        self.on.is_angle()
     }
 
     fn is_damped(&self) -> bool {
@@ -67,10 +76,10 @@ impl<const D: usize> ForceElement<D> for TableSpring<D> {
     }
 
     fn ends(&self) -> Vec<Attachment<D>> {
-        self.measure.ends()
+        self.on.ends().to_vec()
     }
 
     fn is_grounded(&self) -> bool {
-        self.measure.is_grounded()
+        self.on.is_grounded_length()
     }
 }

@@ -33,6 +33,7 @@ pub fn all() -> Vec<Specimen> {
         angles(),
         positions(),
         displacements(),
+        distances(),
         mastered(),
         described(),
         steps(),
@@ -195,6 +196,56 @@ fn displacements() -> Specimen {
         specimen = specimen.vector(&format!("drive{n}.reaction"), "N", times(force, along));
     }
     specimen
+}
+
+/// Distances from the ground and from another body along lines that guides keep: the force is that of the accelerated mass.
+fn distances() -> Specimen {
+    let (along, point) = ([0.6, 0.8], [0.2, -0.1]);
+    let values = [
+        (
+            json!("0.5+0.2*sin(t)"),
+            [0.5 + 0.2 * T.sin(), 0.2 * T.cos(), -0.2 * T.sin()],
+        ),
+        (table(), spline(T)),
+    ];
+    let (mut bodies, mut joints, mut motions) = (Vec::new(), Vec::new(), Vec::new());
+    let mut read = Vec::new();
+    for (n, (value, _)) in values.iter().enumerate() {
+        bodies.push(wheel(&format!("m{n}"), sum(point, times(0.4, along)), 0.0));
+        joints.push(json!({"name": format!("guide{n}"), "kind": "point_on_line", "markers": ["ground", format!("m{n}.c")],
+                           "point": point, "direction": [3.0, 4.0]}));
+        motions.push(json!({"name": format!("drive{n}"), "kind": "distance", "markers": ["ground", format!("m{n}.c")], "point": point,
+                            "value": value}));
+        read.extend(outputs(&MOVES, &format!("m{n}.c")));
+        read.push(json!({"kind": "reaction", "motion": format!("drive{n}")}));
+    }
+    // Two free wheels: each moves half of the distance.
+    let course = values[0].1;
+    bodies.push(wheel("a", [4.0, 0.0], 0.0));
+    bodies.push(wheel("b", [4.5, 0.0], 0.0));
+    motions.push(json!({"name": "between", "kind": "distance", "markers": ["a.c", "b.c"], "value": values[0].0}));
+    read.extend(outputs(&MOVES[2..], "a.c"));
+    read.extend(outputs(&MOVES[2..], "b.c"));
+    read.push(json!({"kind": "reaction", "motion": "between"}));
+    let scene = json!({"name": "distances", "dimension": 2, "bodies": bodies, "joints": joints, "motions": motions, "outputs": read});
+    let mut specimen = Specimen::new("distances", scene).from(T);
+    for (n, (_, course)) in values.into_iter().enumerate() {
+        let ways = [
+            sum(point, times(course[0], along)),
+            times(course[1], along),
+            times(course[2], along),
+        ];
+        for k in 0..3 {
+            specimen = specimen.vector(&format!("m{n}.c.{}", MOVES[k]), METRES[k], ways[k]);
+        }
+        let force = times(1.6 * course[2], along);
+        specimen = specimen.vector(&format!("drive{n}.reaction"), "N", force);
+    }
+    let half = [0.5 * course[2], 0.0];
+    specimen
+        .vector("a.c.acceleration", "m/s2", times(-1.0, half))
+        .vector("b.c.acceleration", "m/s2", half)
+        .vector("between.reaction", "N", times(1.6, half))
 }
 
 /// Wheels whose motions the master sets, with 0, 1 and 2 derivatives: a point, a direction, the angle of a
