@@ -5,7 +5,7 @@ use nalgebra::{ComplexField, RealField, convert};
 use num_dual::Dual2_64;
 
 use super::lanes::{AlignedPack, PACK, Real};
-use super::law::Law;
+use super::state_expression::StateExpression;
 use super::sums;
 
 /// A number with its first and second derivative by one variable.
@@ -28,8 +28,8 @@ pub trait Number: RealField + Real {
     /// A function of it: `value`, or from `derivatives`, value and first two derivatives.
     fn map(self, value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 3]) -> Self;
 
-    /// The value of a law at a time, for `[x, v, u]`.
-    fn law(law: &Law, t: Self, others: [Self; 3]) -> Self;
+    /// The value of an expression at a time, for `[x, v, u]`.
+    fn of_state(expression: &StateExpression, t: Self, others: [Self; 3]) -> Self;
 
     /// `out += sum of factors times columns`, which stand one after the other. All are whole packs.
     fn add_columns(columns: &[AlignedPack], factors: &[Self], out: &mut [Self]) {
@@ -58,8 +58,8 @@ impl Number for f64 {
         value(self)
     }
 
-    fn law(law: &Law, t: Self, others: [Self; 3]) -> Self {
-        law.run(t, others)
+    fn of_state(expression: &StateExpression, t: Self, others: [Self; 3]) -> Self {
+        expression.run(t, others)
     }
 
     fn add_columns(columns: &[AlignedPack], factors: &[Self], out: &mut [Self]) {
@@ -82,8 +82,8 @@ impl Number for Jet {
         Self::new(value, first * self.v1, curved)
     }
 
-    fn law(law: &Law, t: Self, others: [Self; 3]) -> Self {
-        law.run(t, others)
+    fn of_state(expression: &StateExpression, t: Self, others: [Self; 3]) -> Self {
+        expression.run(t, others)
     }
 }
 

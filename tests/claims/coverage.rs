@@ -12,7 +12,8 @@ use crate::claims::schema::{Place, Schema, Sort};
 use crate::claims::specimen::{Outcome, Specimen, units};
 
 /// Keys of which one value only is accepted: the others are refused, and say so.
-const SINGLE: [&str; 4] = [
+const SINGLE: [&str; 5] = [
+    "inputs{control}.load",
     "dimension",
     "motions{winch}.value#number",
     "outputs{natural_frequency}.body",

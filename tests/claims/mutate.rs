@@ -125,7 +125,11 @@ pub fn changes(scene: &Value, place: &Place) -> Vec<Mutant> {
                 is_renamed: true,
             }]
         }
-        Sort::Text if place.key.ends_with("#expression") || place.key.contains(".deformation") => {
+        Sort::Text
+            if place.key.ends_with("#expression")
+                || place.key.contains(".deformation")
+                || place.key == "loads{force_law}.force" =>
+        {
             let text = found.as_str().expect("an expression");
             // What a winch has paid out begins at nothing.
             let shift = if place.key.starts_with("motions{winch}") {

@@ -5,7 +5,7 @@ use flexbody::bodies::{Marker, Node, NodeBlock};
 use flexbody::elements::Element;
 use flexbody::math::curve::Curve;
 use flexbody::math::function::Function;
-use flexbody::math::law::Law;
+use flexbody::math::state_expression::StateExpression;
 use flexbody::system::Instant;
 use flexbody::system::loads::{
     AppliedLoad, Bushing, BushingMeasure, Contact, ContactLaw, ContactPoint, ContactSurface,
@@ -351,7 +351,7 @@ fn by_tables(frame: &Frame) -> Vec<Acted<'_>> {
                 angles: Vec::new(),
             });
         }
-        let law = Law::new("x^2 - sin(2*x)*t + 0.5*v*(1 + x) + u").expect("a law");
+        let law = StateExpression::new("x^2 - sin(2*x)*t + 0.5*v*(1 + x) + u").expect("a law");
         let control = Signal::Function(Function::constant(made.noise[34]));
         springs.push(Acted {
             frame,

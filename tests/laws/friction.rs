@@ -77,6 +77,32 @@ fn a_block_stops_and_stands() {
     }
 }
 
+/// The ready scene of a brake on a beam: the disc slows evenly, sticks to the caliper, and both swing on.
+#[test]
+fn a_disc_sticks_to_its_caliper() {
+    let text = include_str!("../../scenes/brake.json");
+    let mut scene: Value = serde_json::from_str(text).expect("a scene");
+    scene["bodies"][2]["elements"] = json!(2);
+    scene["accuracy"] = json!({"relative_tolerance": 1e-8});
+    let mut run = Run::started(&scene);
+    // From half of the rise of the torque on; what Stribeck's fall adds is less than 1e-8 there.
+    run.step(0.1);
+    is_near(
+        run.read("bearing.angular_velocity"),
+        40.0 - 25.0 / 0.06 * 0.075,
+        1e-5,
+    );
+    run.step(0.13);
+    let mut fastest = 0.0_f64;
+    for k in 0..60 {
+        run.step(0.13 + 0.002 * f64::from(k + 1));
+        is_near(run.read("pivot.angular_velocity"), 0.0, 1e-9);
+        assert!(run.read("pads.moment").abs() < 1.3 * 25.0);
+        fastest = fastest.max(run.read("bearing.angular_velocity").abs());
+    }
+    assert!(fastest > 0.5, "{fastest}");
+}
+
 /// Friction that holds more than the weight along an incline keeps a block where it came to rest, for an hour and to the last bit;
 /// friction that holds less lets it slide down again.
 #[test]

@@ -3,7 +3,7 @@
 use super::measure::{MeasureKeys, ResolvedMeasure};
 use super::*;
 use crate::math::function::Function;
-use crate::math::law::Law;
+use crate::math::state_expression::StateExpression;
 use crate::system::loads::ForceLaw;
 
 /// A force by an expression, between two points or on a coordinate of a joint.
@@ -34,7 +34,7 @@ pub struct ResolvedForceLaw<'a> {
     /// Length or coordinate.
     on: ResolvedMeasure<'a>,
     /// Force against growth, N or N m.
-    law: Law,
+    law: StateExpression,
     /// Value of `u`, if an input sets it.
     control: Option<Signal>,
 }
@@ -52,7 +52,7 @@ impl SceneLoad for ForceLawLoad {
             coordinate: self.coordinate,
         };
         let on = scene.require_measure(path, keys)?;
-        let law = Law::new(&self.force);
+        let law = StateExpression::new(&self.force);
         let law = law.map_err(|message| Error::new(format!("{path}.force"), message))?;
         Ok(ResolvedForceLaw {
             given: self,

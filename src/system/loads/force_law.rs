@@ -3,9 +3,9 @@
 use super::{Add, ForceElement, Instant};
 use crate::math::function::Function;
 use crate::math::jet::Number;
-use crate::math::law::Law;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
+use crate::math::state_expression::StateExpression;
 use crate::system::coordinate::Coordinate;
 use crate::system::end::Attachment;
 use crate::system::signal::Signal;
@@ -14,7 +14,7 @@ use crate::system::signal::Signal;
 #[derive(Clone, Debug)]
 pub struct ForceLaw<const D: usize = 2> {
     on: Coordinate<D>,
-    law: Law,
+    law: StateExpression,
     control: Signal,
     time: Signal,
     /// Parts of the law in the time alone, whose kinks and waves steps mind.
@@ -23,7 +23,7 @@ pub struct ForceLaw<const D: usize = 2> {
 
 impl<const D: usize> ForceLaw<D> {
     /// A force against the growth of a length or coordinate, by a law whose control is a signal.
-    pub fn new(on: Coordinate<D>, law: Law, control: Signal) -> Self {
+    pub fn new(on: Coordinate<D>, law: StateExpression, control: Signal) -> Self {
         let clocks = law.clocks().iter().cloned();
         let clocks = clocks.map(|clock| Signal::Function(Function::Expression(Box::new(clock))));
         let time = if law.is_timed() {

@@ -38,6 +38,8 @@ pub fn all() -> Vec<Specimen> {
         sticking(),
         sticking_in_the_plane(),
         sliding(),
+        laws(false),
+        laws(true),
         rack(),
         let_go(),
         let_go_between(),
@@ -127,6 +129,50 @@ fn sprung(is_read: bool) -> Specimen {
     let stored =
         k * (0.3 - rest) * (0.3 - rest) + 2.0 * 0.01 + turning_k * turning_rest * turning_rest;
     specimen.claim("energy.spring", "J", 0.5 * stored)
+}
+
+/// Forces by expressions and by tables along and about the axis of a cylindrical joint.
+fn laws(is_read: bool) -> Specimen {
+    let ([speed, rate], n) = ([0.7, -1.2], axis());
+    let (bar, point) = on_axis(speed, rate);
+    let (spring, damper) = (
+        json!([[-1.0, -6.0], [1.0, 8.0]]),
+        json!([[-2.0, -6.0], [0.0, 0.0], [2.0, 6.0]]),
+    );
+    let law = |name: &str, coordinate: &str| json!({"name": name, "kind": "force_law", "joint": "guide", "coordinate": coordinate, "force": "1 + 4*x + 2*v^2"});
+    let table = |name: &str, coordinate: &str| json!({"name": name, "kind": "table_spring", "joint": "guide", "coordinate": coordinate, "spring": spring, "damper": damper});
+    let mut scene = json!({"name": "laws", "dimension": 3, "bodies": [bar.described(Value::Null)],
+        "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point}],
+        "loads": [law("pull", "displacement"), law("twist", "angle"), table("coil", "displacement"), table("spiral", "angle"),
+                  {"name": "by_default", "kind": "force_law", "joint": "guide", "force": "2 + x"}],
+        "outputs": joined([read(WAY, "guide"), read(TURN, "guide")])});
+    let (pull, twist) = (1.0 + 1.2 + 2.0 * speed * speed, 1.0 + 2.0 * rate * rate);
+    let (coil, spiral) = (1.0 + 7.0 * 0.3 + 3.0 * speed, 1.0 + 3.0 * rate);
+    let inertia = n.dot(&(bar.tensor() * n));
+    if is_read {
+        read_too(&mut scene, "pull", "twist");
+        read_too(&mut scene, "coil", "spiral");
+    }
+    let mut specimen = Specimen::new(if is_read { "laws, read" } else { "laws" }, scene);
+    specimen = claimed(
+        specimen,
+        WAY,
+        "guide",
+        [0.3, speed, -(pull + coil + 2.3) / bar.mass],
+    );
+    specimen = claimed(
+        specimen,
+        TURN,
+        "guide",
+        [0.0, rate, -(twist + spiral) / inertia],
+    );
+    if is_read {
+        specimen = vector(specimen, "pull.force", "N", -n * pull);
+        specimen = vector(specimen, "twist.moment", "N.m", -n * twist);
+        specimen = vector(specimen, "coil.force", "N", -n * coil);
+        specimen = vector(specimen, "spiral.moment", "N.m", -n * spiral);
+    }
+    specimen
 }
 
 /// Limits of both coordinates: `k d (1 + a d')`, two on each side; and one that is left too fast to push.

@@ -17,7 +17,6 @@ pub fn all() -> Vec<Specimen> {
         table_springs(),
         straight_tables(),
         force_laws(),
-        laws_in_joints(),
         spring_forms(),
         kinks(),
         works(),
@@ -290,57 +289,6 @@ fn force_laws() -> Specimen {
         .vector("d.c.acceleration", "m/s2", [0.0, 0.0])
         .vector("full.force", "N", times(-pull(1.5), unit))
         .vector("pair.force", "N", times(-pull(0.0), unit))
-}
-
-/// Forces by expressions and by tables on coordinates of joints: an angle, and one displacement and one angle of a joint that has both.
-fn laws_in_joints() -> Specimen {
-    let rotor = |name: &str, x: f64| {
-        json!({"element": "rigid", "name": name, "mass": 1.6, "inertia": 0.4, "position": [x, 0.0],
-               "motion": {"spin": 0.5, "velocity": [0.0, 0.0]}, "markers": {"c": [0.0, 0.0]}})
-    };
-    let slider = |name: &str, x: f64| {
-        json!({"element": "rigid", "name": name, "mass": 1.6, "inertia": 0.4, "position": [x, 0.0],
-               "motion": {"spin": 0.5, "velocity": [0.7, 0.0]}, "markers": {"c": [0.0, 0.0]}})
-    };
-    let joint = |name: &str, kind: &str| json!({"name": format!("{name}_joint"), "kind": kind, "markers": ["ground", format!("{name}.c")]});
-    let line = |name: &str| {
-        let mut line = joint(name, "point_on_line");
-        line["direction"] = json!([1.0, 0.0]);
-        line
-    };
-    let (spring, damper) = (
-        json!([[-1.0, -6.0], [1.0, 8.0]]),
-        json!([[-1.0, -3.0], [0.0, 0.0], [2.0, 6.0]]),
-    );
-    let outputs =
-        ["a", "b"].map(|of| json!({"kind": "angular_acceleration", "marker": format!("{of}.c")}));
-    let moved = ["c", "d"].map(|of| json!({"kind": "acceleration", "marker": format!("{of}.c")}));
-    let [moments, forces] = [
-        ("load_moment", ["turning", "bent"]),
-        ("load_force", ["moving", "pulled"]),
-    ]
-    .map(|(kind, loads)| loads.map(|load| json!({"kind": kind, "load": load})));
-    let read = [outputs, moved, moments, forces].concat();
-    let scene = json!({
-        "name": "laws_in_joints", "dimension": 2,
-        "bodies": [rotor("a", 0.0), rotor("b", 1.0), slider("c", 2.0), slider("d", 3.0), extra()],
-        "joints": [joint("a", "revolute"), joint("b", "revolute"), line("c"), line("d")],
-        "loads": [{"name": "turning", "kind": "force_law", "joint": "a_joint", "coordinate": "angle", "force": "1 + 4*x + 2*v^2"},
-                  {"name": "bent", "kind": "table_spring", "joint": "b_joint", "coordinate": "angle", "spring": spring, "damper": damper},
-                  {"name": "moving", "kind": "force_law", "joint": "c_joint", "coordinate": "displacement", "force": "1 + 4*x + 2*v^2"},
-                  {"name": "pulled", "kind": "table_spring", "joint": "d_joint", "coordinate": "displacement", "spring": spring, "damper": damper}],
-        "outputs": read});
-    let (turning, bent, moving, pulled) =
-        (-1.0 - 2.0 * 0.25, -1.0 - 1.5, -1.0 - 2.0 * 0.49, -1.0 - 2.1);
-    Specimen::new("laws_in_joints", scene)
-        .claim("a.c.angular_acceleration", "rad/s2", turning / 0.4)
-        .claim("b.c.angular_acceleration", "rad/s2", bent / 0.4)
-        .vector("c.c.acceleration", "m/s2", [moving / 1.6, 0.0])
-        .vector("d.c.acceleration", "m/s2", [pulled / 1.6, 0.0])
-        .claim("turning.moment", "N.m", turning)
-        .claim("bent.moment", "N.m", bent)
-        .vector("moving.force", "N", [moving, 0.0])
-        .vector("pulled.force", "N", [pulled, 0.0])
 }
 
 /// Lengths at rest that change in time.

@@ -1,10 +1,8 @@
-//! Laws of a force: expressions in a coordinate `x`, its rate `v`, a control `u` and the time `t`.
-
-use num_dual::Dual2_64;
+//! Expressions in a coordinate `x`, its rate `v`, a control `u` and the time `t`.
 
 use super::expression::{Expression, Operation, run_in};
 use super::grammar;
-use super::jet::Number;
+use super::jet::{Jet, Number};
 use super::switches::Switch;
 
 /// Names of the variables beside the time.
@@ -12,7 +10,7 @@ const NAMES: [&str; 3] = ["x", "v", "u"];
 
 /// An expression in `x`, `v`, `u` and `t`; [`Expression`] says what it may hold.
 #[derive(Clone, Debug)]
-pub struct Law {
+pub struct StateExpression {
     program: Vec<Operation>,
     /// Largest parts of it that are in the time alone and have kinks, jumps or waves.
     clocks: Vec<Expression>,
@@ -35,8 +33,8 @@ struct Part {
     is_given: bool,
 }
 
-impl Law {
-    /// Reads a law.
+impl StateExpression {
+    /// Reads an expression.
     ///
     /// # Errors
     /// What was expected in the text, and what was found.
@@ -49,15 +47,15 @@ impl Law {
             return Err(format!("expected a finite number, found {number}"));
         }
         let depends = [0, 1, 2].map(|place| program.contains(&Operation::Variable(place)));
-        let mut law = Self {
+        let mut of = Self {
             is_timed: program.contains(&Operation::Time),
             clocks: Vec::new(),
             has_switches: false,
             depends,
             program,
         };
-        law.find_switches();
-        Ok(law)
+        of.find_switches();
+        Ok(of)
     }
 
     /// Finds the switches, those of the time alone apart from those that the state decides.
@@ -94,7 +92,7 @@ impl Law {
 
     /// Value, for `[x, v, u]`.
     pub fn value<N: Number>(&self, t: N, others: [N; 3]) -> N {
-        N::law(self, t, others)
+        N::of_state(self, t, others)
     }
 
     /// Value in numbers that an expression runs on.
@@ -104,9 +102,9 @@ impl Law {
 
     /// Derivative by `x` (0) or `v` (1), for `[x, v, u]`.
     pub fn slope(&self, t: f64, others: [f64; 3], by: usize) -> f64 {
-        let mut others = others.map(Dual2_64::from_re);
+        let mut others = others.map(Jet::from_re);
         others[by].v1 = 1.0;
-        self.run(Dual2_64::from_re(t), others).v1
+        self.run(Jet::from_re(t), others).v1
     }
 
     /// Whether it depends on `x`, on `v` and on `u`.
@@ -148,10 +146,10 @@ fn clock(program: &[Operation], part: &Part, decides: bool) -> Option<Expression
 mod tests {
     use super::*;
 
-    /// Times of all kinks and jumps of the clocks of a law.
+    /// Times of all kinks and jumps of the clocks of an expression.
     fn breaks(text: &str) -> Vec<f64> {
-        let law = Law::new(text).expect(text);
-        let mut found: Vec<f64> = (law.clocks().iter())
+        let of = StateExpression::new(text).expect(text);
+        let mut found: Vec<f64> = (of.clocks().iter())
             .filter_map(|clock| clock.next_break(0.0, 10.0))
             .collect();
         found.sort_by(f64::total_cmp);
@@ -160,16 +158,16 @@ mod tests {
 
     #[test]
     fn values_and_slopes_are_those_of_calculus() {
-        let law = Law::new("3*x^2 + v*abs(v)*t - u*x").expect("a law");
+        let of = StateExpression::new("3*x^2 + v*abs(v)*t - u*x").expect("an expression");
         let (t, others) = (2.0, [0.5, -1.5, 4.0]);
-        assert_eq!(law.value(t, others), 0.75 - 4.5 - 2.0);
-        assert_eq!(law.slope(t, others, 0), 3.0 - 4.0);
-        assert_eq!(law.slope(t, others, 1), 6.0);
-        assert_eq!(law.depends(), [true; 3]);
-        assert!(law.is_timed() && law.has_switches());
-        let law = Law::new("10*x").expect("a law");
-        assert_eq!(law.depends(), [true, false, false]);
-        assert!(!law.is_timed() && !law.has_switches());
+        assert_eq!(of.value(t, others), 0.75 - 4.5 - 2.0);
+        assert_eq!(of.slope(t, others, 0), 3.0 - 4.0);
+        assert_eq!(of.slope(t, others, 1), 6.0);
+        assert_eq!(of.depends(), [true; 3]);
+        assert!(of.is_timed() && of.has_switches());
+        let of = StateExpression::new("10*x").expect("an expression");
+        assert_eq!(of.depends(), [true, false, false]);
+        assert!(!of.is_timed() && !of.has_switches());
     }
 
     #[test]
@@ -189,20 +187,20 @@ mod tests {
                 assert!((found - wanted).abs() < 1e-12, "{text}: {found}");
             }
         }
-        let state = |text: &str| Law::new(text).expect(text).has_switches();
+        let state = |text: &str| StateExpression::new(text).expect(text).has_switches();
         assert!(state("max(0, x)") && state("max(x, t - 4)") && state("if(v, t, 1)"));
         assert!(!state("if(t < 1, 10*x, 20*x)") && !state("abs(t)*x"));
     }
 
     #[test]
     fn what_is_wrong_is_told() {
-        let told = Law::new("3*q").expect_err("no name");
+        let told = StateExpression::new("3*q").expect_err("no name");
         assert!(
             told.starts_with("expected one of the names t, x, v, u, PI"),
             "{told}"
         );
         assert_eq!(
-            Law::new("1/0").expect_err("not finite"),
+            StateExpression::new("1/0").expect_err("not finite"),
             "expected a finite number, found inf"
         );
     }
