@@ -200,7 +200,7 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 98] = [
+const INPUTS: [(&str, &str); 99] = [
     ("inputs.release", ""),
     ("inputs.distributed_moment[1]", "N.m/m"),
     ("inputs.distributed_moment[2]", "N.m/m"),
@@ -236,6 +236,7 @@ const INPUTS: [(&str, &str); 98] = [
     ("inputs.distributed_force[2]", "N/m"),
     ("inputs.rest_length", "m"),
     ("inputs.control", ""),
+    ("motions.distance", "m"),
     ("inputs.current[1]", "m/s"),
     ("inputs.current[2]", "m/s"),
     ("motions.position[1]", "m"),

@@ -52,7 +52,9 @@ pub(in crate::system) fn stopping(
     // The rate times the step is `a + 2 b t + 3 c t^2`.
     let [a, b, c] = hermite(way, slopes);
     let slows = 2.0 * b + 6.0 * c < 0.0;
-    if slows && (last.abs() <= SLOW * first.abs() || last.abs() * h <= LEFT * size) {
+    // What moves on almost as before does not stop, however short the step is.
+    let is_left = last.abs() * h <= LEFT * size && last <= 0.5 * first;
+    if slows && (last.abs() <= SLOW * first.abs() || is_left) {
         return Event::AtEnd;
     }
     // Zeros of the rate, without cancellation.
@@ -108,6 +110,12 @@ mod tests {
             panic!("not found");
         };
         assert!((part - 0.25).abs() < 1e-14, "{part}");
+        // A step of next to nothing, whose way is roundoff, stops nothing.
+        let quick =
+            |way: f64| stopping([at(1.0, 40.0), at(1.0 + way, 40.0 - 1e-9)], 1.0, 1e-13, 0.1);
+        for way in [-1e-15, 0.0, 4e-12, 1e-11] {
+            assert_eq!(quick(way), Event::None);
+        }
         // From rest forwards nothing happens, backwards the step is shortened until the coordinate has hardly moved.
         let rest = at(0.0, 0.0);
         assert_eq!(stopping([rest, at(0.5, 1.0)], 1.0, 1.0, 1.0), Event::None);

@@ -135,14 +135,18 @@ fn sprung(is_read: bool) -> Specimen {
 fn laws(is_read: bool) -> Specimen {
     let ([speed, rate], n) = ([0.7, -1.2], axis());
     let (bar, point) = on_axis(speed, rate);
+    // Of its joint nothing is read.
+    let idle = body("idle");
     let (spring, damper) = (
         json!([[-1.0, -6.0], [1.0, 8.0]]),
         json!([[-2.0, -6.0], [0.0, 0.0], [2.0, 6.0]]),
     );
     let law = |name: &str, coordinate: &str| json!({"name": name, "kind": "force_law", "joint": "guide", "coordinate": coordinate, "force": "1 + 4*x + 2*v^2"});
     let table = |name: &str, coordinate: &str| json!({"name": name, "kind": "table_spring", "joint": "guide", "coordinate": coordinate, "spring": spring, "damper": damper});
-    let mut scene = json!({"name": "laws", "dimension": 3, "bodies": [bar.described(Value::Null)],
-        "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point}],
+    let mut scene = json!({"name": "laws", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
+        "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point},
+                   {"name": "other", "kind": "cylindrical", "markers": ["ground", "idle.c"], "direction": AXIS,
+                    "point": array(idle.place)}],
         "loads": [law("pull", "displacement"), law("twist", "angle"), table("coil", "displacement"), table("spiral", "angle"),
                   {"name": "by_default", "kind": "force_law", "joint": "guide", "force": "2 + x"}],
         "outputs": joined([read(WAY, "guide"), read(TURN, "guide")])});

@@ -206,6 +206,7 @@ fn distances() -> Specimen {
             json!("0.5+0.2*sin(t)"),
             [0.5 + 0.2 * T.sin(), 0.2 * T.cos(), -0.2 * T.sin()],
         ),
+        (json!(0.45), [0.45, 0.0, 0.0]),
         (table(), spline(T)),
     ];
     let (mut bodies, mut joints, mut motions) = (Vec::new(), Vec::new(), Vec::new());
@@ -272,6 +273,12 @@ fn mastered_scene(name: &str) -> Value {
         read.extend(outputs(&TURNS, &format!("m{n}.c")));
         read.extend(TURNS.map(|kind| json!({"kind": kind, "joint": format!("pin{n}")})));
         read.extend(outputs(&MOVES, &format!("s{n}.c")));
+        bodies.push(wheel(&format!("d{n}"), [6.2, y + 1.6], 0.0));
+        joints.push(json!({"name": format!("rail{n}"), "kind": "point_on_line", "markers": ["ground", format!("d{n}.c")],
+                           "point": [5.0, y], "direction": [0.6, 0.8]}));
+        motions.push(json!({"name": format!("reach{n}"), "kind": "distance", "markers": ["ground", format!("d{n}.c")], "point": [5.0, y],
+                            "value": value}));
+        read.extend(outputs(&MOVES, &format!("d{n}.c")));
     }
     json!({"name": name, "dimension": 2, "bodies": bodies, "joints": joints, "motions": motions, "outputs": read})
 }
@@ -282,12 +289,19 @@ fn set(mut specimen: Specimen, course: [f64; 3]) -> Specimen {
         for (k, value) in course.into_iter().enumerate().take(n + 1) {
             let (moves, turns) = (MOVES[k], TURNS[k]);
             let shift = if k == 0 { "displacement" } else { moves };
+            // A distance is positive.
+            let (reach, least) = if k == 0 {
+                ("distance", 2.0)
+            } else {
+                (moves, 0.0)
+            };
             specimen = specimen
                 .set(&format!("place{n}.{moves}[1]"), value)
                 .set(&format!("place{n}.{moves}[2]"), -2.0 * value)
                 .set(&format!("turn{n}.{turns}"), value)
                 .set(&format!("bend{n}.{turns}"), value)
-                .set(&format!("shift{n}.{shift}"), value);
+                .set(&format!("shift{n}.{shift}"), value)
+                .set(&format!("reach{n}.{reach}"), least + value);
         }
     }
     specimen
@@ -298,6 +312,11 @@ fn claimed(mut specimen: Specimen, n: usize, course: [f64; 3], to: usize) -> Spe
     let along = [0.6, 0.8];
     for (k, value) in course.into_iter().enumerate().take(to + 1) {
         let origin = if k == 0 { [4.0, n as f64] } else { [0.0; 2] };
+        let foot = if k == 0 {
+            [6.2, n as f64 + 1.6]
+        } else {
+            [0.0; 2]
+        };
         specimen = specimen
             .vector(
                 &format!("p{n}.c.{}", MOVES[k]),
@@ -310,6 +329,11 @@ fn claimed(mut specimen: Specimen, n: usize, course: [f64; 3], to: usize) -> Spe
                 &format!("s{n}.c.{}", MOVES[k]),
                 METRES[k],
                 sum(origin, times(value, along)),
+            )
+            .vector(
+                &format!("d{n}.c.{}", MOVES[k]),
+                METRES[k],
+                sum(foot, times(value, along)),
             );
     }
     specimen
@@ -339,6 +363,7 @@ fn described() -> Specimen {
             .claim(&format!("turn{n}.angle"), "rad", 0.4)
             .claim(&format!("bend{n}.angle"), "rad", 0.5)
             .claim(&format!("shift{n}.displacement"), "m", 1.0)
+            .claim(&format!("reach{n}.distance"), "m", 2.0)
             .vector(&format!("p{n}.c.position"), "m", [0.4, y])
             .claim(&format!("pin{n}.angle"), "rad", 0.5)
             .vector(&format!("s{n}.c.velocity"), "m/s", [0.0, 0.0]);
