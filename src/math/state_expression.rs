@@ -107,6 +107,21 @@ impl StateExpression {
         self.run(Jet::from_re(t), others).v1
     }
 
+    /// Jump of the value where `v` changes its sign, and an `x` at which it is, if it jumps at one of some: what a force that does so moves cannot
+    /// stay at rest, nor leave it.
+    pub fn jump_at_rest(&self) -> Option<(f64, f64)> {
+        const PLACES: [f64; 7] = [0.0, 0.1, -0.1, 1.0, -1.0, 10.0, -10.0];
+        let jump = |x: f64, u: f64| {
+            // So slow that no slope shows.
+            let [back, forth] = [-1e-300, 1e-300].map(|v| self.value(0.0, [x, v, u]));
+            let jump = forth - back;
+            let is_one = jump.abs() > 1e-9 * (back.abs() + forth.abs()) && jump.abs() > 1e-30;
+            (is_one && jump.is_finite()).then_some((x, jump))
+        };
+        let controls = PLACES.into_iter().flat_map(|x| [0.0, 1.0].map(|u| (x, u)));
+        { controls }.find_map(|(x, u)| jump(x, u))
+    }
+
     /// Whether it depends on `x`, on `v` and on `u`.
     pub fn depends(&self) -> [bool; 3] {
         self.depends
@@ -190,6 +205,25 @@ mod tests {
         let state = |text: &str| StateExpression::new(text).expect(text).has_switches();
         assert!(state("max(0, x)") && state("max(x, t - 4)") && state("if(v, t, 1)"));
         assert!(!state("if(t < 1, 10*x, 20*x)") && !state("abs(t)*x"));
+    }
+
+    #[test]
+    fn jumps_at_rest_are_found() {
+        let jump = |text: &str| StateExpression::new(text).expect(text).jump_at_rest();
+        assert_eq!(jump("3*sign(v)"), Some((0.0, 6.0)));
+        assert_eq!(jump("u*v/abs(v)"), Some((0.0, 2.0)));
+        assert_eq!(jump("if(v > 0, x, 0)"), Some((0.1, 0.1)));
+        for text in [
+            "1e9*v + x",
+            "v*abs(v)",
+            "sign(v)*sqrt(abs(v))",
+            "if(v > 0, 2400*v, 1300*v)",
+            "tanh(v/1e-6)",
+            "sign(x)",
+            "sqrt(x - 20)",
+        ] {
+            assert_eq!(jump(text), None, "{text}");
+        }
     }
 
     #[test]

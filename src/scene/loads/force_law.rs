@@ -54,6 +54,12 @@ impl SceneLoad for ForceLawLoad {
         let on = scene.require_measure(path, keys)?;
         let law = StateExpression::new(&self.force);
         let law = law.map_err(|message| Error::new(format!("{path}.force"), message))?;
+        if let Some((x, jump)) = law.jump_at_rest() {
+            let wanted = "a force that does not jump where `v` changes its sign, since nothing could come to rest there (dry friction is a \
+                          `joint_friction`)";
+            let found = format!("a jump by {jump} at x = {x}");
+            return Err(expected(&format!("{path}.force"), wanted, found));
+        }
         Ok(ResolvedForceLaw {
             given: self,
             on,

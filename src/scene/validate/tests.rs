@@ -165,6 +165,7 @@ fn types_and_keys_keep_their_places() {
         /loads/4 | {"name": "hoist", "kind": "table_spring", "joint": "knee", "point": [0, 0], "spring": [[0, 1], [1, 2]]} | loads[4].point: expected nothing beside a joint
         /loads/4 | {"name": "hoist", "kind": "table_spring", "markers": ["rope.mid", "load.eye"], "coordinate": "angle", "spring": [[0, 1], [1, 2]]} | loads[4].coordinate: expected nothing between markers
         /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "force": "2*y"} | loads[4].force: expected one of the names t, x, v, u, PI
+        /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "force": "3*sign(v)"} | loads[4].force: expected a force that does not jump where `v` changes its sign
         /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "force": "2*u"} | loads[4].force: expected an input of kind `control` for this load, which sets `u`, found none
         /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "coordinate": "displacement", "force": "2*x"} | loads[4].joint: expected a joint along a line
         /inputs/5 | {"kind": "control", "load": "tie"} | inputs[5].load: expected a force_law of this scene

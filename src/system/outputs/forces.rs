@@ -107,11 +107,14 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             AppliedLoad::SurfaceContact(contact) => return (contact.whole(at), turning.into()),
             _ => {}
         }
-        let Some(Attachment::Body(second)) = load.ends().last().copied() else {
+        // Loads act on their second end last.
+        let mut last = None;
+        load.act(at, |end, _| last = Some(*end));
+        let Some(Attachment::Body(second)) = last else {
             return (force, turning.into());
         };
         load.act(at, |end, [position, direction]| {
-            if *end == Attachment::Body(second.lift()) {
+            if *end == Attachment::Body(second) {
                 force += position;
             }
             // Along other axes of the same body too.
