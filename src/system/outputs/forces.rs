@@ -107,10 +107,15 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             AppliedLoad::SurfaceContact(contact) => return (contact.whole(at), turning.into()),
             _ => {}
         }
-        // Loads act on their second end last.
-        let mut last = None;
-        load.act(at, |end, _| last = Some(*end));
-        let Some(Attachment::Body(second)) = last else {
+        // Loads call with their first end, then with their second one if there is one, then with what else they act on.
+        let (mut calls, mut second) = (0, None);
+        load.act(at, |end, _| {
+            calls += 1;
+            if calls <= 2 {
+                second = Some(*end);
+            }
+        });
+        let Some(Attachment::Body(second)) = second else {
             return (force, turning.into());
         };
         load.act(at, |end, [position, direction]| {
