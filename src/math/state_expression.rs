@@ -1,6 +1,6 @@
 //! Expressions in a coordinate `x`, its rate `v`, a control `u` and the time `t`.
 
-use super::expression::{Expression, Operation, run_in};
+use super::expression::{ConstantPower, Expression, Operation, run_in};
 use super::grammar;
 use super::jet::{Jet, Number};
 use super::switches::Switch;
@@ -96,7 +96,7 @@ impl StateExpression {
     }
 
     /// Value in numbers that an expression runs on.
-    pub(super) fn run<N: super::expression::ConstantPower>(&self, t: N, others: [N; 3]) -> N {
+    pub(super) fn run<N: ConstantPower>(&self, t: N, others: [N; 3]) -> N {
         run_in(&self.program, t, &others)
     }
 
@@ -107,8 +107,8 @@ impl StateExpression {
         self.run(Jet::from_re(t), others).v1
     }
 
-    /// Jump of the value where `v` changes its sign, and an `x` at which it is, if it jumps at one of some: what a force that does so moves cannot
-    /// stay at rest, nor leave it.
+    /// Jump of the value where `v` changes its sign, after an `x` at which it is, if it jumps at one of some. A body under such a force can
+    /// neither stay at rest nor leave it.
     pub fn jump_at_rest(&self) -> Option<(f64, f64)> {
         const PLACES: [f64; 7] = [0.0, 0.1, -0.1, 1.0, -1.0, 10.0, -10.0];
         let jump = |x: f64, u: f64| {

@@ -17,7 +17,7 @@ use crate::math::space::{Vector, axis, cross, turned};
 pub enum Coordinate<const D: usize> {
     /// A way, m.
     Translation(Translation<D>),
-    /// A length between two ends, m. Where it is zero no direction is better than another, and none is taken.
+    /// A length between two ends, m.
     Length([Attachment<D>; 2]),
     /// An angle, rad, and its index among those that the system counts.
     Angle(Angle<D>, usize),
@@ -136,8 +136,8 @@ impl<const D: usize> Angle<D> {
     }
 }
 
-/// Unit vector from the first end to the second, and the length, m.
-fn line<const D: usize, N: Number>(
+/// Unit vector from the first end to the second, and the length, m. At length zero no direction is better than another, and none is taken.
+pub(super) fn line<const D: usize, N: Number>(
     ends: &[Attachment<D>; 2],
     x: &[Node<D, N>],
 ) -> (Vector<D, N>, N) {

@@ -26,8 +26,6 @@ pub(super) struct MovingAction<'a> {
     pub follower: bool,
     /// Components of every arrow.
     pub components: usize,
-    /// Whether the one component that is given is along the normal of a surface.
-    is_normal: bool,
     /// Where it acts.
     pub on: Where<'a>,
     of: Origin<'a>,
@@ -50,6 +48,8 @@ pub(super) enum Where<'a> {
 enum Origin<'a> {
     /// Components, and expressions of those that change along a body.
     Components(&'a [Signal], &'a [(usize, &'a str)]),
+    /// One component along the normal of a surface, in the same way.
+    Pressure(&'a [Signal], &'a [(usize, &'a str)]),
     /// Quantities of a joint or a motion, one an axis.
     Reaction(Vec<Quantity>),
     /// Quantities of a spring, a joint limit or a contact, one an axis.
@@ -144,7 +144,6 @@ fn exerted<'a>(
                 is_moment,
                 follower: false,
                 components: axes.len(),
-                is_normal: false,
                 on: Where::Marker(marker),
                 of: of(axes.map(|axis| quantity(is_moment, axis)).collect()),
             }
@@ -182,7 +181,6 @@ fn of_spring<'a>(
         is_moment: false,
         follower: false,
         components: dimension,
-        is_normal: false,
         on: Where::Body(on.id.body_index()),
         of: Origin::Contact(id),
     }]
@@ -201,7 +199,6 @@ fn of_fluid<'a>(name: &'a str, fluid: &'a scene::ResolvedFluid<'a>) -> Option<Mo
         is_moment: false,
         follower: false,
         components: fluid.current.len(),
-        is_normal: false,
         on,
         of: Origin::Components(&fluid.current, &fluid.varying),
     })
@@ -212,18 +209,22 @@ fn of_action<'a>(
     action: &'a scene::Action<'a>,
     dimension: usize,
 ) -> MovingAction<'a> {
-    let is_normal = action.kind == ActionKind::Pressure;
+    let is_pressure = action.kind == ActionKind::Pressure;
+    let of = if is_pressure {
+        Origin::Pressure
+    } else {
+        Origin::Components
+    };
     MovingAction {
         name,
         unit: action.kind.words()[1],
-        is_moment: !(action.kind.is_force() || is_normal),
+        is_moment: !(action.kind.is_force() || is_pressure),
         follower: action.follower,
-        components: if is_normal {
+        components: if is_pressure {
             dimension
         } else {
             action.kind.components(dimension)
         },
-        is_normal,
         on: match action.on {
             LoadPlace::Marker(marker) => Where::Marker(marker.id),
             LoadPlace::Ends(ends) => Where::Marker(ends.second.id),
@@ -231,7 +232,7 @@ fn of_action<'a>(
             LoadPlace::Line(cable) => Where::Body(cable.id.body_index()),
             LoadPlace::Surface(plate) => Where::Surface(plate.id.index(), plate.body),
         },
-        of: Origin::Components(&action.components, &action.along),
+        of: of(&action.components, &action.along),
     }
 }
 
@@ -271,7 +272,9 @@ impl MovingAction<'_> {
                 let forces = forces.iter().flat_map(|force| &force[..self.components]);
                 return Ok(forces.copied().collect());
             }
-            Origin::Components(components, along) => (components, along),
+            Origin::Components(components, along) | Origin::Pressure(components, along) => {
+                (components, along)
+            }
         };
         let (time, inputs) = (simulation.time(), simulation.inputs());
         let same: Vec<f64> = (components.iter())
@@ -300,7 +303,7 @@ impl MovingAction<'_> {
                     let [s1, s2] = places[*point];
                     at(&[("s1", s1), ("s2", s2)])
                 };
-                if !self.is_normal {
+                if !matches!(self.of, Origin::Pressure(..)) {
                     return Ok(points.iter().flat_map(values).collect());
                 }
                 let normals = grid.normals(&poses[body].surface, &points);

@@ -2,20 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::runs::Run;
-
-const METHODS: [&str; 2] = ["radau", "dopri853"];
-
-fn is_near(found: f64, exact: f64, off: f64) {
-    assert!((found - exact).abs() <= off, "{found} for {exact}");
-}
-
-fn vector(dimension: usize, [x, y]: [f64; 2]) -> Value {
-    match dimension {
-        2 => json!([x, y]),
-        _ => json!([x, y, 0.0]),
-    }
-}
+use super::runs::{METHODS, Run, is_near, settings, vector};
 
 /// A body of 2 kg that moves around a point of the ground at a driven distance, 1 m at the start, with 3 m/s across.
 fn swung((dimension, method): (usize, &str), value: Value) -> Value {
@@ -32,12 +19,6 @@ fn swung((dimension, method): (usize, &str), value: Value) -> Value {
         "outputs": [{"kind": "position", "marker": "body.c"}, {"kind": "velocity", "marker": "body.c"}, {"kind": "reaction", "motion": "rope"},
             {"kind": "work"}, {"kind": "energy"}],
         "method": {"integrator": method}, "accuracy": {"relative_tolerance": 1e-9}})
-}
-
-fn settings() -> impl Iterator<Item = (usize, &'static str)> {
-    [2, 3]
-        .into_iter()
-        .flat_map(|dimension| METHODS.map(|method| (dimension, method)))
 }
 
 /// A mass that is hauled in at 0.5 m/s keeps its angular momentum: `r^2 w = 3 m^2/s`, so that it turns by `6 t / r` and is pulled by

@@ -4,21 +4,7 @@ use std::f64::consts::PI;
 
 use serde_json::{Value, json};
 
-use super::runs::Run;
-
-const METHODS: [&str; 2] = ["radau", "dopri853"];
-
-fn is_near(found: f64, exact: f64, off: f64) {
-    assert!((found - exact).abs() <= off, "{found} for {exact}");
-}
-
-/// Parts of a vector in the plane, or in space with a zero.
-fn vector(dimension: usize, [x, y]: [f64; 2]) -> Value {
-    match dimension {
-        2 => json!([x, y]),
-        _ => json!([x, y, 0.0]),
-    }
-}
+use super::runs::{Run, is_near, settings, vector};
 
 /// A body of 2 kg and 0.5 kg m^2 that moves at a velocity and spins, with a load and an input that sets its `u`, if it has one.
 fn scene(
@@ -62,13 +48,6 @@ fn axle(dimension: usize) -> Value {
 
 fn guide(dimension: usize) -> Value {
     json!({"kind": "prismatic", "direction": vector(dimension, [1.0, 0.0])})
-}
-
-/// All settings of a test.
-fn settings() -> impl Iterator<Item = (usize, &'static str)> {
-    [2, 3]
-        .into_iter()
-        .flat_map(|dimension| METHODS.map(|method| (dimension, method)))
 }
 
 /// A rotor under a torque `c w^2` against it: `w = w0 / (1 + c w0 t / J)`; what it loses is dissipated.

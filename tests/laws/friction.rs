@@ -4,14 +4,9 @@ use std::f64::consts::PI;
 
 use serde_json::{Value, json};
 
-use super::runs::Run;
+use super::runs::{METHODS, Run, is_near};
 
-const METHODS: [&str; 2] = ["radau", "dopri853"];
 const GRAVITY: f64 = 9.81;
-
-fn is_near(found: f64, exact: f64, off: f64) {
-    assert!((found - exact).abs() <= off, "{found} for {exact}");
-}
 
 /// A block of 2 kg on a guide along a direction, with friction and other loads.
 fn block(

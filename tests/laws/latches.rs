@@ -2,14 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::runs::Run;
+use super::runs::{METHODS, Run, is_near};
 
-const METHODS: [&str; 2] = ["radau", "dopri853"];
 const GRAVITY: f64 = 9.81;
-
-fn is_near(found: f64, exact: f64, off: f64) {
-    assert!((found - exact).abs() <= off, "{found} for {exact}");
-}
 
 /// Energies of all kinds with what was dissipated, J.
 fn balance(run: &mut Run) -> f64 {

@@ -9,7 +9,7 @@ use flexbody::scene::{Error, Scene, beside};
 use flexbody::simulation::Simulation;
 use serde_json::{Value, json};
 
-use super::runs::Run;
+use super::runs::{Run, vector};
 
 const STRIP: &str = "docs/book/examples/bodies";
 const BRACKET: &str = "tests/cases/reduced_bracket";
@@ -24,15 +24,6 @@ fn started(folder: &str, scene: &Value) -> Run {
     let mut run = Run(Simulation::new(scene));
     run.start();
     run
-}
-
-/// A vector in the plane, with a third component of zero in space.
-fn vector(dimension: usize, [x, y]: [f64; 2]) -> Value {
-    if dimension == 2 {
-        json!([x, y])
-    } else {
-        json!([x, y, 0.0])
-    }
 }
 
 /// The strip, with these keys more; what it is told of the plane holds in space too.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::runs::Run;
+use super::runs::{Run, is_near};
 
 /// Sides, m, thickness, m, and density of the plate, kg/m^3.
 const SIDES: [f64; 2] = [1.0, 0.5];
@@ -23,10 +23,6 @@ fn plate(mesh: [u32; 2], load: &Value) -> Value {
             "markers": {"middle": [0.5, 0.5], "corner": [1, 1]}}],
         "loads": [load],
         "outputs": [{"kind": "position", "marker": "p.middle"}, {"kind": "velocity", "marker": "p.middle"}, {"kind": "energy"}, {"kind": "work"}]})
-}
-
-fn is_near(found: f64, exact: f64, off: f64) {
-    assert!((found - exact).abs() <= off, "{found} for {exact}");
 }
 
 /// Kinetic, strain and potential energy with what was dissipated, less the work of the fluid, J.

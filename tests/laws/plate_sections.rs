@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use serde_json::{Value, json};
 
 use super::plates::ALL;
-use super::runs::Run;
+use super::runs::{Run, is_near};
 
 /// A rectangular plate along the first two axes with keys of its section, and all outputs of sections at some markers.
 fn plate(sides: [f64; 2], mesh: [u32; 2], keys: &Value, markers: &Value) -> Value {
@@ -49,10 +49,6 @@ fn moments(sides: [f64; 2], mesh: [u32; 2], kind: &str, markers: &Value) -> Vec<
         .map(read)
         .map(|m| m.map(|m: f64| m / 1e-4))
         .collect()
-}
-
-fn is_near(found: f64, exact: f64, off: f64) {
-    assert!((found - exact).abs() <= off, "{found} for {exact}");
 }
 
 /// S. P. Timoshenko, S. Woinowsky-Krieger, Theory of Plates and Shells (1959), articles 30 (moments in the middle of a supported square,

@@ -4,6 +4,29 @@ use flexbody::scene::Scene;
 use flexbody::simulation::{Causality, Simulation, Snapshot};
 use serde_json::{Value, json};
 
+/// An implicit and an explicit method.
+pub const METHODS: [&str; 2] = ["radau", "dopri853"];
+
+/// Dimension and method of all runs of a law.
+pub fn settings() -> impl Iterator<Item = (usize, &'static str)> {
+    let dimensions = [2, 3].into_iter();
+    dimensions.flat_map(|dimension| METHODS.map(|method| (dimension, method)))
+}
+
+/// A number is as far off at most.
+pub fn is_near(found: f64, exact: f64, off: f64) {
+    assert!((found - exact).abs() <= off, "{found} for {exact}");
+}
+
+/// A vector in the plane, with a third component of zero in space.
+pub fn vector(dimension: usize, [x, y]: [f64; 2]) -> Value {
+    if dimension == 2 {
+        json!([x, y])
+    } else {
+        json!([x, y, 0.0])
+    }
+}
+
 /// A simulation of a scene, started.
 pub struct Run(pub Simulation);
 

@@ -365,16 +365,11 @@ impl Resolved<'_> {
         name: &str,
         first: usize,
     ) -> Result<Vec<f64>, Error> {
-        let fluid = self.loads.iter_mut().find_map(|load| match &mut load.kind {
-            ResolvedLoadKind::Fluid(fluid) if load.name == name => Some(fluid),
+        let wanted = "a fluid of this scene";
+        let fluid = self.require_load(path, name, wanted, |load| match load {
+            ResolvedLoadKind::Fluid(fluid) => Some(fluid),
             _ => None,
-        });
-        let Some(fluid) = fluid else {
-            let fluids = self.loads.iter();
-            let fluids = fluids.filter(|load| load.kind.fluid().is_some());
-            let known = fluids.map(|load| load.name);
-            return Err(unknown(path, "a fluid of this scene", name, known));
-        };
+        })?;
         let mut start = vec![0.0; fluid.current.len()];
         for (start, value) in start.iter_mut().zip(fluid.given.components()) {
             let Value::Number(value) = value else {

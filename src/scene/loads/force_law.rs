@@ -1,6 +1,6 @@
 //! Forces by expressions in a length or a coordinate of a joint, its rate, a control and the time.
 
-use super::measure::{MeasureKeys, ResolvedMeasure};
+use super::measure::ResolvedMeasure;
 use super::*;
 use crate::math::function::Function;
 use crate::math::state_expression::StateExpression;
@@ -45,13 +45,8 @@ impl SceneLoad for ForceLawLoad {
     const EXERTS: Exerts = Exerts::ByCoordinate;
 
     fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
-        let keys = MeasureKeys {
-            markers: self.markers.as_ref(),
-            point: self.point,
-            joint: self.joint.as_deref(),
-            coordinate: self.coordinate,
-        };
-        let on = scene.require_measure(path, keys)?;
+        let between = (self.markers.as_ref(), self.point);
+        let on = scene.require_measure(path, between, (self.joint.as_deref(), self.coordinate))?;
         let law = StateExpression::new(&self.force);
         let law = law.map_err(|message| Error::new(format!("{path}.force"), message))?;
         if let Some((x, jump)) = law.jump_at_rest() {
@@ -120,27 +115,18 @@ impl<'a> Resolved<'a> {
         name: &str,
         first: usize,
     ) -> Result<(), Error> {
-        let laws = self
-            .loads
-            .iter_mut()
-            .filter_map(|load| match &mut load.kind {
-                ResolvedLoadKind::ForceLaw(law) => Some((load.name, law)),
-                _ => None,
-            });
-        let mut known = Vec::new();
-        for (of, law) in laws {
-            if of == name {
-                if !law.law.depends()[2] {
-                    let wanted = "a force_law whose `force` depends on `u`";
-                    let found = format!("{}, whose `force` is {:?}", quoted(name), law.given.force);
-                    return Err(expected(path, wanted, found));
-                }
-                law.control = Some(Signal::Input(first));
-                return Ok(());
-            }
-            known.push(of);
+        let wanted = "a force_law of this scene";
+        let law = self.require_load(path, name, wanted, |load| match load {
+            ResolvedLoadKind::ForceLaw(law) => Some(law),
+            _ => None,
+        })?;
+        if !law.law.depends()[2] {
+            let wanted = "a force_law whose `force` depends on `u`";
+            let found = format!("{}, whose `force` is {:?}", quoted(name), law.given.force);
+            return Err(expected(path, wanted, found));
         }
-        Err(unknown(path, "a force_law of this scene", name, known))
+        law.control = Some(Signal::Input(first));
+        Ok(())
     }
 
     /// Checks that inputs set `u` of all force laws that depend on it.

@@ -146,27 +146,18 @@ impl<'a> Resolved<'a> {
         name: &str,
         first: usize,
     ) -> Result<f64, Error> {
-        let frictions = self
-            .loads
-            .iter_mut()
-            .filter_map(|load| match &mut load.kind {
-                ResolvedLoadKind::JointFriction(friction) => Some((load.name, friction)),
-                _ => None,
-            });
-        let mut known = Vec::new();
-        for (of, friction) in frictions {
-            if of == name {
-                let Value::Number(force) = friction.given.force else {
-                    let wanted = "friction whose force is a number";
-                    let found = format!("{}, whose force changes in time", quoted(name));
-                    return Err(expected(path, wanted, found));
-                };
-                friction.force = Signal::Input(first);
-                return Ok(force);
-            }
-            known.push(of);
-        }
-        Err(unknown(path, "a joint_friction of this scene", name, known))
+        let wanted = "a joint_friction of this scene";
+        let friction = self.require_load(path, name, wanted, |load| match load {
+            ResolvedLoadKind::JointFriction(friction) => Some(friction),
+            _ => None,
+        })?;
+        let Value::Number(force) = friction.given.force else {
+            let wanted = "friction whose force is a number";
+            let found = format!("{}, whose force changes in time", quoted(name));
+            return Err(expected(path, wanted, found));
+        };
+        friction.force = Signal::Input(first);
+        Ok(force)
     }
 }
 

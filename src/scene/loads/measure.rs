@@ -3,18 +3,6 @@
 use super::*;
 use crate::system::Coordinate;
 
-/// Keys that name a length or a coordinate, as they are given.
-pub(super) struct MeasureKeys<'a> {
-    /// Ends of the length.
-    pub markers: Option<&'a [String; 2]>,
-    /// End on the ground.
-    pub point: Option<SceneVector>,
-    /// Name of a joint.
-    pub joint: Option<&'a str>,
-    /// Coordinate of the joint.
-    pub coordinate: Option<CoordinateKind>,
-}
-
 /// A length between two ends, or a coordinate of a joint.
 #[derive(Clone, Copy, Debug)]
 pub enum ResolvedMeasure<'a> {
@@ -62,31 +50,32 @@ impl<'a> ResolvedMeasure<'a> {
 }
 
 impl<'a> Resolved<'a> {
-    /// Finds the length or the coordinate that a load is over.
+    /// Finds what a load is over: the length between markers, the first of which may be a point of the ground, or the coordinate of a joint.
     ///
     /// # Errors
     /// Both markers and a joint, or neither; a key of the other; a reference that does not exist.
     pub(super) fn require_measure(
         &self,
         path: &str,
-        keys: MeasureKeys<'a>,
+        (markers, point): (Option<&'a [String; 2]>, Option<SceneVector>),
+        (joint, coordinate): (Option<&'a str>, Option<CoordinateKind>),
     ) -> Result<ResolvedMeasure<'a>, Error> {
         let at = |key: &str| format!("{path}.{key}");
-        match (keys.markers, keys.joint) {
+        match (markers, joint) {
             (Some(markers), None) => {
-                if keys.coordinate.is_some() {
+                if coordinate.is_some() {
                     let wanted = "nothing between markers, or a `joint` in place of them";
                     return Err(expected(&at("coordinate"), wanted, "a coordinate"));
                 }
-                let ends = self.require_pair(path, markers, keys.point)?;
+                let ends = self.require_pair(path, markers, point)?;
                 Ok(ResolvedMeasure::Length(ends))
             }
             (None, Some(joint)) => {
-                if keys.point.is_some() {
+                if point.is_some() {
                     let wanted = "nothing beside a joint, or `markers` in place of it";
                     return Err(expected(&at("point"), wanted, "a point"));
                 }
-                let on = self.require_loaded(path, joint, keys.coordinate)?;
+                let on = self.require_loaded(path, joint, coordinate)?;
                 Ok(ResolvedMeasure::Coordinate(on))
             }
             (Some(_), Some(_)) => Err(expected(path, "`markers` or `joint`", "both")),

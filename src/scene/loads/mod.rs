@@ -320,6 +320,29 @@ impl<'a> Resolved<'a> {
         loads.map(|(place, load)| (LoadId(place), load))
     }
 
+    /// Finds the load with a name among those of one kind, which `of` tells, to make an input of a number of it.
+    ///
+    /// # Errors
+    /// No load of this kind has the name.
+    pub(super) fn require_load<'s, T>(
+        &'s mut self,
+        path: &str,
+        name: &str,
+        wanted: &str,
+        of: impl Fn(&'s mut ResolvedLoadKind<'a>) -> Option<&'s mut T>,
+    ) -> Result<&'s mut T, Error> {
+        let mut known = Vec::new();
+        for load in &mut self.loads {
+            if let Some(found) = of(&mut load.kind) {
+                if load.name == name {
+                    return Ok(found);
+                }
+                known.push(load.name);
+            }
+        }
+        Err(unknown(path, wanted, name, known))
+    }
+
     /// Resolves the loads.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! Springs with dampers by tables, between two points or on coordinates of joints.
 
-use super::measure::{MeasureKeys, ResolvedMeasure};
+use super::measure::ResolvedMeasure;
 use super::*;
 use crate::math::curve::Curve;
 use crate::system::loads::TableSpring;
@@ -51,13 +51,8 @@ impl SceneLoad for TableSpringLoad {
         let curve = |key: &str, points: &[[f64; 2]]| {
             Curve::new(points).map_err(|message| Error::new(format!("{path}.{key}"), message))
         };
-        let keys = MeasureKeys {
-            markers: self.markers.as_ref(),
-            point: self.point,
-            joint: self.joint.as_deref(),
-            coordinate: self.coordinate,
-        };
-        let on = scene.require_measure(path, keys)?;
+        let between = (self.markers.as_ref(), self.point);
+        let on = scene.require_measure(path, between, (self.joint.as_deref(), self.coordinate))?;
         let spring = curve("spring", &self.spring)?;
         let damper = self.damper.as_ref();
         let damper = damper.map(|points| curve("damper", points)).transpose()?;

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::mem::discriminant;
 
-use super::checks::{expected, finite, not_negative, quoted, unknown};
+use super::checks::{expected, finite, not_negative, quoted};
 use crate::scene::Error;
 use crate::scene::description::{Input, Value};
 use crate::scene::loads::ResolvedLoadKind;
@@ -122,17 +122,11 @@ impl<'a> Resolved<'a> {
 
     /// Makes the rest length of a spring-damper, which nothing else changes, an input; what it was, m.
     fn set_rest_length(&mut self, path: &str, name: &str, first: usize) -> Result<f64, Error> {
-        let spring = self.loads.iter_mut().find_map(|load| match &mut load.kind {
-            ResolvedLoadKind::SpringDamper(spring) if load.name == name => Some(spring),
+        let wanted = "a spring-damper of this scene";
+        let spring = self.require_load(path, name, wanted, |load| match load {
+            ResolvedLoadKind::SpringDamper(spring) => Some(spring),
             _ => None,
-        });
-        let Some(spring) = spring else {
-            let springs = self.loads.iter();
-            let springs =
-                springs.filter(|load| matches!(load.kind, ResolvedLoadKind::SpringDamper(_)));
-            let known = springs.map(|load| load.name);
-            return Err(unknown(path, "a spring-damper of this scene", name, known));
-        };
+        })?;
         let length = match &spring.given.length {
             None => spring.ends.distance(),
             Some(Value::Number(length)) => *length,

@@ -59,7 +59,7 @@ use crate::math::space::Vector;
 /// conservative load at ends, without damping and signals.
 pub trait ForceElement<const D: usize>: Clone {
     /// Calls with every end that the load acts on, and its forces on position and direction there; not where it is distributed along
-    /// a body.
+    /// a body. Of two ends whose force outputs read, the second one is that of the second call.
     fn act<N: Number>(
         &self,
         _at: Instant<'_, D, N>,

@@ -5,6 +5,7 @@ use nalgebra::SMatrix;
 use super::{Add, ForceElement, Instant};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
+use crate::system::coordinate::line;
 use crate::system::end::{Attachment, between};
 use crate::system::signal::Signal;
 
@@ -22,8 +23,8 @@ pub struct Spring<const D: usize = 2> {
 }
 
 /// Straight line between the ends of a spring.
-pub(super) struct Span<const D: usize, N> {
-    /// Unit vector from the first end to the second. At length zero no direction is better than another, and none is taken.
+struct Span<const D: usize, N> {
+    /// Unit vector from the first end to the second, of [`line`].
     pub unit: Vector<D, N>,
     /// Length, m.
     pub length: N,
@@ -34,13 +35,9 @@ pub(super) struct Span<const D: usize, N> {
 impl<const D: usize, N: Number> Span<D, N> {
     /// Reads the span between two ends.
     pub fn new(ends: &[Attachment<D>; 2], at: Instant<'_, D, N>) -> Self {
-        let [a, b] = ends.map(|end| end.lift());
-        let d = b.position(at.x) - a.position(at.x);
-        let square = d.norm_squared();
-        let is_open = square > N::of(0.0);
-        let length = if is_open { square.sqrt() } else { square };
-        let unit = if is_open { d / length } else { Vector::zeros() };
-        let speed = unit.dot(&(b.velocity(at.v) - a.velocity(at.v)));
+        let (unit, length) = line(ends, at.x);
+        let [a, b] = ends.map(|end| end.lift().velocity(at.v));
+        let speed = unit.dot(&(b - a));
         Self {
             unit,
             length,

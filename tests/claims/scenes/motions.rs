@@ -158,32 +158,32 @@ fn pair(x: [f64; 3], y: [f64; 3]) -> [[f64; 2]; 3] {
     [0, 1, 2].map(|k| [x[k], y[k]])
 }
 
-/// Ways along inclined sliders.
-fn displacements() -> Specimen {
-    let (along, point, g) = ([0.6, 0.8], [0.2, -0.1], [0.6, -9.0]);
-    let values = [
-        (json!(0.45), [0.45, 0.0, 0.0]),
-        (json!(WAVE), wave(T)),
-        (table(), spline(T)),
-    ];
+/// Wheels on inclined sliders, driven along them from a point on: `drive` has the keys of the motion of each, `more` adds to the scene.
+fn guided(
+    name: &'static str,
+    (point, g): ([f64; 2], [f64; 2]),
+    values: &[(Value, [f64; 3])],
+    drive: impl Fn(usize) -> Value,
+    more: impl FnOnce(&mut Vec<Value>, &mut Vec<Value>, &mut Vec<Value>, &mut Vec<Value>),
+) -> Specimen {
+    let along = [0.6, 0.8];
     let (mut bodies, mut joints, mut motions) = (Vec::new(), Vec::new(), Vec::new());
     let mut read = Vec::new();
     for (n, (value, _)) in values.iter().enumerate() {
         bodies.push(wheel(&format!("m{n}"), sum(point, times(0.4, along)), 0.0));
         joints.push(json!({"name": format!("guide{n}"), "kind": "point_on_line", "markers": ["ground", format!("m{n}.c")],
                            "point": point, "direction": [3.0, 4.0]}));
-        motions.push(json!({"name": format!("drive{n}"), "kind": "displacement", "joint": format!("guide{n}"),
-                            "value": value}));
+        let mut motion = drive(n);
+        motion["name"] = json!(format!("drive{n}"));
+        motion["value"] = value.clone();
+        motions.push(motion);
         read.extend(outputs(&MOVES, &format!("m{n}.c")));
         read.push(json!({"kind": "reaction", "motion": format!("drive{n}")}));
     }
-    // A slider that nothing drives.
-    bodies.push(wheel("free", [6.0, 0.0], 0.0));
-    joints.push(json!({"name": "loose", "kind": "point_on_line", "markers": ["ground", "free.c"], "direction": [1.0, 0.0]}));
-    let scene = json!({"name": "displacements", "dimension": 2, "gravity": g, "bodies": bodies, "joints": joints,
-                       "motions": motions, "outputs": read});
-    let mut specimen = Specimen::new("displacements", scene).from(T);
-    for (n, (_, course)) in values.into_iter().enumerate() {
+    more(&mut bodies, &mut joints, &mut motions, &mut read);
+    let scene = json!({"name": name, "dimension": 2, "gravity": g, "bodies": bodies, "joints": joints, "motions": motions, "outputs": read});
+    let mut specimen = Specimen::new(name, scene).from(T);
+    for (n, (_, course)) in values.iter().enumerate() {
         let ways = [
             sum(point, times(course[0], along)),
             times(course[1], along),
@@ -198,50 +198,52 @@ fn displacements() -> Specimen {
     specimen
 }
 
-/// Distances from the ground and from another body along lines that guides keep: the force is that of the accelerated mass.
-fn distances() -> Specimen {
-    let (along, point) = ([0.6, 0.8], [0.2, -0.1]);
+/// Ways along inclined sliders.
+fn displacements() -> Specimen {
     let values = [
-        (
-            json!("0.5+0.2*sin(t)"),
-            [0.5 + 0.2 * T.sin(), 0.2 * T.cos(), -0.2 * T.sin()],
-        ),
+        (json!(0.45), [0.45, 0.0, 0.0]),
+        (json!(WAVE), wave(T)),
+        (table(), spline(T)),
+    ];
+    let drive = |n: usize| json!({"kind": "displacement", "joint": format!("guide{n}")});
+    let places = ([0.2, -0.1], [0.6, -9.0]);
+    guided(
+        "displacements",
+        places,
+        &values,
+        drive,
+        |bodies, joints, _, _| {
+            // A slider that nothing drives.
+            bodies.push(wheel("free", [6.0, 0.0], 0.0));
+            joints.push(json!({"name": "loose", "kind": "point_on_line", "markers": ["ground", "free.c"], "direction": [1.0, 0.0]}));
+        },
+    )
+}
+
+/// Distances from the ground along inclined sliders, and between two free wheels, each of which moves half of it.
+fn distances() -> Specimen {
+    let point = [0.2, -0.1];
+    let course = [0.5 + 0.2 * T.sin(), 0.2 * T.cos(), -0.2 * T.sin()];
+    let values = [
+        (json!("0.5+0.2*sin(t)"), course),
         (json!(0.45), [0.45, 0.0, 0.0]),
         (table(), spline(T)),
     ];
-    let (mut bodies, mut joints, mut motions) = (Vec::new(), Vec::new(), Vec::new());
-    let mut read = Vec::new();
-    for (n, (value, _)) in values.iter().enumerate() {
-        bodies.push(wheel(&format!("m{n}"), sum(point, times(0.4, along)), 0.0));
-        joints.push(json!({"name": format!("guide{n}"), "kind": "point_on_line", "markers": ["ground", format!("m{n}.c")],
-                           "point": point, "direction": [3.0, 4.0]}));
-        motions.push(json!({"name": format!("drive{n}"), "kind": "distance", "markers": ["ground", format!("m{n}.c")], "point": point,
-                            "value": value}));
-        read.extend(outputs(&MOVES, &format!("m{n}.c")));
-        read.push(json!({"kind": "reaction", "motion": format!("drive{n}")}));
-    }
-    // Two free wheels: each moves half of the distance.
-    let course = values[0].1;
-    bodies.push(wheel("a", [4.0, 0.0], 0.0));
-    bodies.push(wheel("b", [4.5, 0.0], 0.0));
-    motions.push(json!({"name": "between", "kind": "distance", "markers": ["a.c", "b.c"], "value": values[0].0}));
-    read.extend(outputs(&MOVES[2..], "a.c"));
-    read.extend(outputs(&MOVES[2..], "b.c"));
-    read.push(json!({"kind": "reaction", "motion": "between"}));
-    let scene = json!({"name": "distances", "dimension": 2, "bodies": bodies, "joints": joints, "motions": motions, "outputs": read});
-    let mut specimen = Specimen::new("distances", scene).from(T);
-    for (n, (_, course)) in values.into_iter().enumerate() {
-        let ways = [
-            sum(point, times(course[0], along)),
-            times(course[1], along),
-            times(course[2], along),
-        ];
-        for k in 0..3 {
-            specimen = specimen.vector(&format!("m{n}.c.{}", MOVES[k]), METRES[k], ways[k]);
-        }
-        let force = times(1.6 * course[2], along);
-        specimen = specimen.vector(&format!("drive{n}.reaction"), "N", force);
-    }
+    let drive = |n: usize| json!({"kind": "distance", "markers": ["ground", format!("m{n}.c")], "point": point});
+    let specimen = guided(
+        "distances",
+        (point, [0.0; 2]),
+        &values,
+        drive,
+        |bodies, _, motions, read| {
+            bodies.push(wheel("a", [4.0, 0.0], 0.0));
+            bodies.push(wheel("b", [4.5, 0.0], 0.0));
+            motions.push(json!({"name": "between", "kind": "distance", "markers": ["a.c", "b.c"], "value": values[0].0}));
+            read.extend(outputs(&MOVES[2..], "a.c"));
+            read.extend(outputs(&MOVES[2..], "b.c"));
+            read.push(json!({"kind": "reaction", "motion": "between"}));
+        },
+    );
     let half = [0.5 * course[2], 0.0];
     specimen
         .vector("a.c.acceleration", "m/s2", times(-1.0, half))
