@@ -53,7 +53,7 @@ pub fn marks<'a>(resolved: &Resolved<'a>) -> Vec<Mark<'a>> {
         name_colour: FAINT,
         strokes: symbols::joint(joint),
     });
-    let loads = resolved.loads.iter().filter_map(of_load);
+    let loads = resolved.loads.iter().flat_map(of_load);
     let gears = resolved.gears.iter().map(|gear| {
         let [first, second] = gear.coordinates.map(|of| of.ends().second);
         Mark {
@@ -129,8 +129,32 @@ fn plain<'a>(name: &'a str, kind: &'static str, ends: Ends<'a>) -> Mark<'a> {
     }
 }
 
+/// A spring, a limit, friction, or the straight parts of a rope, the first of which has its name; none of other loads.
+fn of_load<'a>(load: &ResolvedLoad<'a>) -> Vec<Mark<'a>> {
+    let spans = load.kind.spans();
+    if spans.is_empty() {
+        return of_one(load).into_iter().collect();
+    }
+    let name = |k: usize| {
+        if k == 0 {
+            MarkLabel::Middle
+        } else {
+            MarkLabel::Nowhere
+        }
+    };
+    let spans = spans.into_iter().enumerate();
+    spans
+        .map(|(k, ends)| Mark {
+            label: name(k),
+            name_colour: SPRING,
+            strokes: symbols::rope(ends.is_grounded()),
+            ..plain(load.name, "rope", ends)
+        })
+        .collect()
+}
+
 /// A spring, a limit or friction; none of other loads.
-fn of_load<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
+fn of_one<'a>(load: &ResolvedLoad<'a>) -> Option<Mark<'a>> {
     let (on, kind, strokes) = match (load.kind.place(), load.kind.limits()) {
         (_, Some((on, limits))) => (on, "joint limit", symbols::joint_limit(&on, limits)),
         (LoadPlace::Coordinate(on), None) if load.kind.is_friction() => {

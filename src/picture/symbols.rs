@@ -221,6 +221,12 @@ pub fn spring(is_grounded: bool) -> Vec<Stroke> {
     found
 }
 
+/// A straight part of a rope between two points that it runs over.
+pub fn rope(is_grounded: bool) -> Vec<Stroke> {
+    let line = SPAN.line([part(0.0), part(1.0)], Style::line(SPRING, 0.12));
+    [vec![line], foot(FIRST, is_grounded), vec![SECOND.pin()]].concat()
+}
+
 /// A spring on the coordinate of a joint.
 pub fn joint_spring(on: &JointCoordinate<'_>) -> Vec<Stroke> {
     if on.is_angle() {

@@ -110,7 +110,7 @@ impl<'a> Resolved<'a> {
             .map(|load| &load.kind)
             .partition(|kind| kind.action().is_some());
         let loads = others.into_iter().chain(actions);
-        found.extend(loads.flat_map(|kind| kind.place().markers()));
+        found.extend(loads.flat_map(|kind| kind.markers()));
         for input in &self.inputs {
             if let InputKind::Action(action) = &input.kind {
                 found.extend(action.on.markers());

@@ -19,7 +19,7 @@ impl Resolved<'_> {
             found.extend(motion.driven.quantity().place.bodies());
         }
         for load in self.loads.iter().filter(|load| load.name == first) {
-            found.extend(load.kind.place().bodies());
+            found.extend(load.kind.bodies());
         }
         let ports = self.ports.iter().filter(|port| port.name == first);
         found.extend(ports.map(|port| port.marker.place.body_index()));

@@ -172,7 +172,7 @@ fn bare_point(resolved: &Resolved<'_>) -> Option<String> {
     let joints =
         joints.flat_map(|joint| joint.ends.markers().into_iter().map(|of| (joint.name, of)));
     let loads = resolved.loads.iter().flat_map(|load| {
-        let markers = load.kind.place().markers().into_iter();
+        let markers = load.kind.markers().into_iter();
         let markers = markers.filter(|of| {
             let action = load.kind.action();
             action.is_none_or(|action| action.kind.is_force() && is_in_surface(action, of))

@@ -93,6 +93,8 @@ pub enum Quantity {
     LoadForce(LoadId, usize),
     /// Component of the moment of a load on its second end; in the plane the third.
     LoadMoment(LoadId, usize),
+    /// Tension of a load along a line.
+    Tension(LoadId),
     /// Component of the force of friction on the second end of its joint, also where it sticks.
     FrictionForce(LoadId, usize),
     /// Component of the moment of friction on the second end of its joint, also where it sticks; in the plane the third.
@@ -214,6 +216,7 @@ pub(super) fn value<const D: usize, N: Number>(
         | MotionForce(..) | MotionMoment(..) | CouplingForce(..) | CouplingMoment(..) => {
             exerted(quantity, values, assembled)
         }
+        Tension(id) => values.tension(system, assembled.load(id)),
         KineticEnergy => values.kinetic_energy(system),
         StrainEnergy => values.strain_energy(system),
         GravityEnergy => values.gravity_energy(system),
@@ -418,7 +421,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         StressTensor(..) | VonMisesStress(_) | LayerStress(..) | LayerVonMises(_) => {
             (Kinematics, |by| Some(by.force / (by.size * by.size)))
         }
-        CouplingForce(..) | LoadForce(..) => (Kinematics, |by| Some(by.force)),
+        CouplingForce(..) | LoadForce(..) | Tension(_) => (Kinematics, |by| Some(by.force)),
         CouplingMoment(..) | LoadMoment(..) | KineticEnergy | StrainEnergy | GravityEnergy
         | SpringEnergy => (Kinematics, |by| Some(by.force * by.size)),
         Momentum(_) | AngularMomentum(_) | Resolution | Residual(_) => (Kinematics, |_| None),

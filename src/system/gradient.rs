@@ -70,23 +70,23 @@ impl<const D: usize, N: Number> Gradient<D, N> {
     }
 }
 
-/// Derivatives by the coordinates of up to four nodes.
+/// Derivatives by the coordinates of a few nodes, four of two ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Terms<const D: usize> {
-    terms: [(usize, Node<D>); 4],
+pub struct Terms<const D: usize, const MOST: usize = 4> {
+    terms: [(usize, Node<D>); MOST],
     count: usize,
 }
 
-impl<const D: usize> Default for Terms<D> {
+impl<const D: usize, const MOST: usize> Default for Terms<D, MOST> {
     fn default() -> Self {
         Self {
-            terms: [(usize::MAX, no_node()); 4],
+            terms: [(usize::MAX, no_node()); MOST],
             count: 0,
         }
     }
 }
 
-impl<const D: usize> Terms<D> {
+impl<const D: usize, const MOST: usize> Terms<D, MOST> {
     /// Adds derivatives by the coordinates of a node.
     pub fn add(&mut self, node: usize, term: &Node<D>) {
         let mut known = self.terms[..self.count].iter();
@@ -121,7 +121,7 @@ impl<const D: usize> Terms<D> {
 impl<const D: usize> Gradient<D> {
     /// Adds the product with itself, times a factor, to a matrix over nodes.
     pub fn add_square(&self, factor: f64, add: Add<'_, D>) {
-        let mut terms = Terms::default();
+        let mut terms: Terms<D> = Terms::default();
         self.for_each(|node, term| terms.add(node, term));
         terms.add_square(factor, add);
     }

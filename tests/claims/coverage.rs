@@ -20,7 +20,7 @@ const SINGLE: [&str; 5] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 15] = [
+const REFUSED: [&str; 16] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -29,6 +29,7 @@ const REFUSED: [&str; 15] = [
     "initial.state=undeformed",
     "initial.loads{spring_damper}",
     "initial.loads{table_spring}",
+    "initial.loads{reeving}",
     "initial.loads{force_law}",
     "initial.loads{joint_spring}",
     "initial.loads{joint_friction}",

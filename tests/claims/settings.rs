@@ -101,6 +101,8 @@ const LOADS: &[&str] = &[
     "damping N.m.s/rad",
     "damping s/m",
     "damping s/rad",
+    "axial_stiffness N",
+    "damping_time s",
     "friction ",
     "stribeck_speed m/s",
     "stribeck_speed rad/s",
@@ -163,6 +165,8 @@ fn of_load(scene: &Value, variable: &str) -> (&'static str, String, &'static str
         (_, "stribeck_speed", true) => "rad/s",
         (_, "stribeck_speed", false) => "m/s",
         (_, "density", _) => "kg/m3",
+        (_, "axial_stiffness", _) => "N",
+        (_, "damping_time", _) => "s",
         _ => "",
     };
     let label = of_each(LOADS, &format!("{key} {unit}"));

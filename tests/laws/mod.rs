@@ -53,6 +53,7 @@ mod ports;
 mod projection;
 mod random;
 mod reactions;
+mod reeving;
 mod restored;
 mod rigid;
 pub mod runs;

@@ -367,7 +367,7 @@ class RestLengthInput(Part):
     kind: Literal["rest_length"] = "rest_length"
     load: StrictStr
     """
-    Name of the spring-damper whose length is set.
+    Name of the spring-damper or rope whose length is set.
     """
     start: list[StrictFloat] = []
     """
@@ -1560,6 +1560,19 @@ class LoadMomentOutput(Part):
     """
 
 
+class TensionOutput(Part):
+    """
+    Tension of a load that pulls along a line, N, negative where it pushes: of a `reeving`, a `spring_damper`, a `table_spring` or
+    `force_law` between markers.
+    """
+
+    kind: Literal["tension"] = "tension"
+    load: StrictStr
+    """
+    Name of the load.
+    """
+
+
 class EnergyOutput(Part):
     """
     Kinetic, strain and gravitational energy, and that of springs where there are any, J.
@@ -1688,6 +1701,7 @@ Output = TypeAliasType(
         | LatchStateOutput
         | LoadForceOutput
         | LoadMomentOutput
+        | TensionOutput
         | EnergyOutput
         | WorkOutput
         | MomentumOutput
@@ -2823,6 +2837,48 @@ class TableSpringLoad(Part):
     point: Vector | None = None
     """
     With `ground` only: end on the ground, m; by default the position of the second marker at the start.
+    """
+
+
+class ReevingLoad(Part):
+    """
+    A rope of given stiffness and without mass that runs over points without friction, and onto a drum. It has one tension all along:
+    hook blocks, tackles, hoists, cable robots. Slack, it has none.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["reeving"] = "reeving"
+    markers: Annotated[list[StrictStr], Field(max_length=30, min_length=2)]
+    """
+    Points that the rope runs over, in order from one of its ends to the other: `ground` or `body.marker`, from 2 to 30.
+    """
+    axial_stiffness: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Axial stiffness of the rope, `E A`, N.
+    """
+    damping_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Kelvin-Voigt damping: ratio of viscosity to stiffness, s; 0 by default. The viscous part of the tension is at most as large as the
+    elastic part.
+    """
+    drum: StrictStr | None = None
+    """
+    Name of a joint with an angle that turns a drum. The drum winds up the rope from either of its ends.
+    """
+    drum_radius: StrictFloat | None = None
+    """
+    Radius of the drum, m: a positive angle of the joint winds up, of a negative radius it pays out. Needed with `drum`.
+    """
+    length: Value | None = None
+    """
+    Length of the rope without stress, m; by default that of its path at the start. A drum winds up from it.
+    """
+    points: list[Vector] = []
+    """
+    Points on the ground, one for each `ground` among `markers` in their order, m.
     """
 
 
@@ -4089,6 +4145,7 @@ Load = TypeAliasType(
         | AreaForceLoad
         | SpringDamperLoad
         | TableSpringLoad
+        | ReevingLoad
         | ForceLawLoad
         | JointSpringLoad
         | BushingLoad

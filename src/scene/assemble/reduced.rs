@@ -78,7 +78,7 @@ impl Resolved<'_> {
     /// Lists the interfaces of a reduced body that something acts on, by their indices in the model.
     pub(super) fn interfaces_acted_on(&self, index: OfPlace<'_>) -> Vec<usize> {
         let initial = self.initial_loads.iter();
-        let initial = initial.flat_map(|load| load.kind.place().markers());
+        let initial = initial.flat_map(|load| load.kind.markers());
         let markers = self.acted_on().into_iter().chain(initial);
         let mut found: Vec<usize> = markers.filter_map(|marker| index(marker.place)).collect();
         found.sort_unstable();

@@ -122,7 +122,7 @@ pub struct AreaForceInput {
 /// A length at rest that the master sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RestLengthInput {
-    /// Name of the spring-damper whose length is set.
+    /// Name of the spring-damper or rope whose length is set.
     pub load: String,
     /// Length before the master sets it, m: one value; by default the length of the spring-damper.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

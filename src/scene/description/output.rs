@@ -110,6 +110,9 @@ kinds! {
         /// Moment of a load on its second marker, N m: of a `bushing`, a `table_spring`, `force_law`, `joint_spring`, `joint_limit` or `joint_friction` on an
         /// angle.
         LoadMoment(OfLoad),
+        /// Tension of a load that pulls along a line, N, negative where it pushes: of a `reeving`, a `spring_damper`, a `table_spring` or
+        /// `force_law` between markers.
+        Tension(OfLoad),
         /// Kinetic, strain and gravitational energy, and that of springs where there are any, J.
         Energy(OfScene),
         /// Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
@@ -420,7 +423,7 @@ impl Output {
             }
             Self::GearForce(of) | Self::GearTorque(of) => &of.gear,
             Self::LatchForce(of) | Self::LatchTorque(of) | Self::LatchState(of) => &of.latch,
-            Self::LoadForce(of) | Self::LoadMoment(of) => &of.load,
+            Self::LoadForce(of) | Self::LoadMoment(of) | Self::Tension(of) => &of.load,
             Self::Energy(_)
             | Self::Work(_)
             | Self::Momentum(_)

@@ -79,6 +79,10 @@ impl<'a> ActingLoad<'a> for ResolvedForceLaw<'a> {
         self.law.has_switches()
     }
 
+    fn has_tension(&self) -> bool {
+        matches!(self.on, ResolvedMeasure::Length(_))
+    }
+
     fn assemble<const D: usize>(
         &self,
         builder: &mut Builder<'_, D>,

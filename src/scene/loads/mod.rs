@@ -13,6 +13,7 @@ mod line;
 mod measure;
 mod number;
 mod place;
+mod reeving;
 mod spring_damper;
 mod table_spring;
 
@@ -142,7 +143,27 @@ pub trait ActingLoad<'a> {
         [0.0; 2]
     }
 
-    /// Whether it acts only beyond a limit or below a surface.
+    /// Returns the markers that it acts on, where the mesh of a body needs a node; those of joints have one.
+    fn markers(&self) -> Vec<ResolvedMarker<'a>> {
+        self.place().markers()
+    }
+
+    /// Returns the indices of the bodies that it acts on, among all bodies.
+    fn bodies(&self) -> Vec<usize> {
+        self.place().bodies()
+    }
+
+    /// Whether it pulls along lines between points with a tension that outputs read.
+    fn has_tension(&self) -> bool {
+        false
+    }
+
+    /// Returns the straight parts of a rope, without those on the ground.
+    fn spans(&self) -> Vec<Ends<'a>> {
+        Vec::new()
+    }
+
+    /// Whether it acts only beyond a limit or below a surface, or where it is taut.
     fn is_one_sided(&self) -> bool {
         false
     }
@@ -265,6 +286,9 @@ loads! {
     SpringDamper(spring_damper::SpringDamper): spring_damper::ResolvedSpring<'a>,
     /// Spring and damper side by side between two points, whose forces are tables over length and over its rate.
     TableSpring(table_spring::TableSpringLoad): table_spring::ResolvedTableSpring<'a>,
+    /// A rope of given stiffness and without mass that runs over points without friction, and onto a drum. It has one tension all along:
+    /// hook blocks, tackles, hoists, cable robots. Slack, it has none.
+    Reeving(reeving::ReevingLoad): reeving::ResolvedReeving<'a>,
     /// A force by an expression in a length or a coordinate of a joint, in its rate, in the time and in a value that an input sets: drag
     /// torques, bump stops, dampers with knees, actuators.
     ForceLaw(force_law::ForceLawLoad): force_law::ResolvedForceLaw<'a>,
@@ -313,7 +337,40 @@ impl<'a> ResolvedLoadKind<'a> {
     }
 }
 
+/// Length without force of a load, m, which an input may set.
+pub struct RestLength<'s> {
+    /// Its course in time; that at the start if there is none.
+    course: &'s mut Option<Signal>,
+    /// Length at the start, m; none where it changes in time.
+    start: Option<f64>,
+}
+
 impl<'a> Resolved<'a> {
+    /// Makes the length without force of a spring-damper or a rope, which nothing else changes, an input; what it was, m.
+    ///
+    /// # Errors
+    /// There is no such load, or its length changes in time.
+    pub(super) fn set_rest_length(
+        &mut self,
+        path: &str,
+        name: &str,
+        first: usize,
+    ) -> Result<f64, Error> {
+        let wanted = "a spring_damper or a reeving of this scene";
+        let length = self.require_load(path, name, wanted, |load| match load {
+            ResolvedLoadKind::SpringDamper(spring) => Some(spring.rest_length()),
+            ResolvedLoadKind::Reeving(rope) => Some(rope.rest_length()),
+            _ => None,
+        })?;
+        let Some(start) = length.start else {
+            let wanted = "a load whose length is a number";
+            let found = format!("{}, whose length changes in time", quoted(name));
+            return Err(expected(path, wanted, found));
+        };
+        *length.course = Some(Signal::Input(first));
+        Ok(start)
+    }
+
     /// Loads with their numbers.
     pub fn numbered_loads(&self) -> impl Iterator<Item = (LoadId, &ResolvedLoad<'a>)> {
         let loads = self.loads.iter().enumerate();
@@ -329,8 +386,8 @@ impl<'a> Resolved<'a> {
         path: &str,
         name: &str,
         wanted: &str,
-        of: impl Fn(&'s mut ResolvedLoadKind<'a>) -> Option<&'s mut T>,
-    ) -> Result<&'s mut T, Error> {
+        of: impl Fn(&'s mut ResolvedLoadKind<'a>) -> Option<T>,
+    ) -> Result<T, Error> {
         let mut known = Vec::new();
         for load in &mut self.loads {
             if let Some(found) = of(&mut load.kind) {

@@ -75,6 +75,20 @@ impl SceneLoad for SpringDamper {
     }
 }
 
+impl ResolvedSpring<'_> {
+    /// Length at rest, which an input may set.
+    pub(super) fn rest_length(&mut self) -> RestLength<'_> {
+        RestLength {
+            start: match &self.given.length {
+                None => Some(self.ends.distance()),
+                Some(Value::Number(length)) => Some(*length),
+                Some(_) => None,
+            },
+            course: &mut self.length,
+        }
+    }
+}
+
 impl<'a> ActingLoad<'a> for ResolvedSpring<'a> {
     fn place(&self) -> LoadPlace<'a> {
         LoadPlace::Ends(self.ends)
@@ -82,6 +96,10 @@ impl<'a> ActingLoad<'a> for ResolvedSpring<'a> {
 
     fn stiffness(&self) -> [f64; 2] {
         [self.given.stiffness.unwrap_or_default(), 0.0]
+    }
+
+    fn has_tension(&self) -> bool {
+        true
     }
 
     fn assemble<const D: usize>(

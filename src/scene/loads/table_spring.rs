@@ -74,6 +74,10 @@ impl<'a> ActingLoad<'a> for ResolvedTableSpring<'a> {
         self.on.stiffness(self.spring.steepest())
     }
 
+    fn has_tension(&self) -> bool {
+        matches!(self.on, ResolvedMeasure::Length(_))
+    }
+
     fn assemble<const D: usize>(
         &self,
         builder: &mut Builder<'_, D>,

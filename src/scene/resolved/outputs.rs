@@ -57,6 +57,8 @@ pub enum OutputTarget<'a> {
     Relation(&'a str, ConstraintOwnerId),
     /// A load of this name, and the marker that it acts on; none of a contact of a body.
     Load(&'a str, LoadId, Option<ResolvedMarker<'a>>),
+    /// A load of this name that pulls along a line.
+    Rope(&'a str, LoadId),
     /// The scene.
     Scene,
     /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.

@@ -5,8 +5,7 @@ use std::mem::discriminant;
 
 use super::checks::{expected, finite, not_negative, quoted};
 use crate::scene::Error;
-use crate::scene::description::{Input, Value};
-use crate::scene::loads::ResolvedLoadKind;
+use crate::scene::description::Input;
 use crate::scene::resolved::{self, Resolved};
 use crate::system::Signal;
 
@@ -118,25 +117,5 @@ impl<'a> Resolved<'a> {
             | Input::Pressure(_)
             | Input::AreaForce(_) => unreachable!("a force or a moment"),
         })
-    }
-
-    /// Makes the rest length of a spring-damper, which nothing else changes, an input; what it was, m.
-    fn set_rest_length(&mut self, path: &str, name: &str, first: usize) -> Result<f64, Error> {
-        let wanted = "a spring-damper of this scene";
-        let spring = self.require_load(path, name, wanted, |load| match load {
-            ResolvedLoadKind::SpringDamper(spring) => Some(spring),
-            _ => None,
-        })?;
-        let length = match &spring.given.length {
-            None => spring.ends.distance(),
-            Some(Value::Number(length)) => *length,
-            Some(_) => {
-                let wanted = "a spring-damper whose length is a number";
-                let found = format!("{}, whose length changes in time", quoted(name));
-                return Err(expected(path, wanted, found));
-            }
-        };
-        spring.length = Some(Signal::Input(first));
-        Ok(length)
     }
 }

@@ -6,7 +6,7 @@ use super::checks::{expected, needed, or, quoted, unknown};
 use super::references::refuse_point;
 use crate::scene::Error;
 use crate::scene::description::{Along, DeflectionOutput, OfGear, Output, ReactionOutput};
-use crate::scene::loads::LoadKind;
+use crate::scene::loads::{LoadKind, ResolvedLoad};
 use crate::scene::resolved::{
     self, AngleId, DirectionSource, EdgeBase, First, OutputTarget, Place, Reaction, Resolved,
     ResolvedMarker,
@@ -214,6 +214,7 @@ impl<'a> Resolved<'a> {
             }
             Output::LoadForce(of) => self.exerting(&at("load"), &of.load, false)?,
             Output::LoadMoment(of) => self.exerting(&at("load"), &of.load, true)?,
+            Output::Tension(of) => self.pulling(&at("load"), &of.load)?,
             Output::Energy(_)
             | Output::Work(_)
             | Output::Momentum(_)
@@ -318,12 +319,31 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    fn exerting(&self, path: &str, name: &str, is_moment: bool) -> Result<OutputTarget<'a>, Error> {
+    fn read_load(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<(resolved::LoadId, &ResolvedLoad<'a>), Error> {
         let mut loads = self.numbered_loads();
-        let Some((id, load)) = loads.find(|(_, load)| load.name == name) else {
+        loads.find(|(_, load)| load.name == name).ok_or_else(|| {
             let known = self.numbered_loads().map(|(_, load)| load.name);
-            return Err(unknown(path, "a load of this scene", name, known));
-        };
+            unknown(path, "a load of this scene", name, known)
+        })
+    }
+
+    /// A load that pulls along a line.
+    fn pulling(&self, path: &str, name: &str) -> Result<OutputTarget<'a>, Error> {
+        let (id, load) = self.read_load(path, name)?;
+        if load.kind.has_tension() {
+            return Ok(OutputTarget::Rope(load.name, id));
+        }
+        let wanted =
+            "a reeving or a spring_damper, or a table_spring or a force_law between markers";
+        Err(expected(path, wanted, quoted(name)))
+    }
+
+    fn exerting(&self, path: &str, name: &str, is_moment: bool) -> Result<OutputTarget<'a>, Error> {
+        let (id, load) = self.read_load(path, name)?;
         if load.kind.exerts()[usize::from(is_moment)] {
             return Ok(OutputTarget::Load(load.name, id, load.kind.exerts_on()));
         }

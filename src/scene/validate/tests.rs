@@ -168,6 +168,23 @@ fn types_and_keys_keep_their_places() {
         /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "force": "3*sign(v)"} | loads[4].force: expected a force that does not jump where `v` changes its sign
         /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "force": "2*u"} | loads[4].force: expected an input of kind `control` for this load, which sets `u`, found none
         /loads/4 | {"name": "hoist", "kind": "force_law", "joint": "knee", "coordinate": "displacement", "force": "2*x"} | loads[4].joint: expected a joint along a line
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1e4} | accepted
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["ground", "rope.mid", "ground"], "points": [[0, 1], [1, 1]], "axial_stiffness": 1e4, "length": "1+t", "damping_time": 0.1, "drum": "knee", "drum_radius": -0.2} | accepted
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid"], "axial_stiffness": 1e4} | loads[4].markers: expected from 2 to 30 of them, found 1
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "rope.end"], "axial_stiffness": 1e4} | loads[4].markers[1]: expected
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["load.eye", "load.eye"], "axial_stiffness": 1e4} | loads[4].markers: expected points of two bodies or more, of which the ground is one, found points of one
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["ground", "load.eye"], "axial_stiffness": 1e4} | loads[4].points: expected a point for each `ground` among `markers`, found 0 of them
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["ground", "load.eye"], "points": [[0, 1], [1, 1]], "axial_stiffness": 1e4} | loads[4].points: expected no more points than `ground` is among `markers`, found
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["ground", "load.eye"], "points": [[0, 1, 2]], "axial_stiffness": 1e4} | loads[4].points[0]: expected
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 0} | loads[4].axial_stiffness: expected a positive
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "length": 0} | loads[4].length: expected a positive
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "damping_time": -1} | loads[4].damping_time: expected
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "drum_radius": 1} | loads[4].drum_radius: expected nothing without a `drum`
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "drum": "knee"} | loads[4].drum_radius: expected a radius, m, found nothing
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "drum": "knee", "drum_radius": 0} | loads[4].drum_radius: expected a radius other than 0, m
+        /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "drum": "none", "drum_radius": 1} | loads[4].drum: expected
+        /outputs/0 | {"kind": "tension", "load": "tie"} | accepted
+        /outputs/0 | {"kind": "tension", "load": "wind"} | outputs[0].load: expected a reeving or a spring_damper, or a table_spring or a force_law between markers, found "wind"
         /inputs/5 | {"kind": "control", "load": "tie"} | inputs[5].load: expected a force_law of this scene
         /loads/4/length | [1, 2] | loads[4].length: expected a number
         /motions/0 | {"name": "leg", "kind": "distance", "markers": ["rope.mid", "rope.mid"], "value": 1} | motions[0].markers: expected markers of two bodies
@@ -383,9 +400,9 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /inputs/4/body | "load" | inputs[4].body: expected the name of a cable
         /inputs/5/loads | "tie" | inputs[5].loads: expected one of the keys kind, load, start, found "loads"; did you mean `load`
         /inputs/5/load | null | inputs[5].load: expected a name, found nothing
-        /inputs/5/load | "wind" | inputs[5].load: expected a spring-damper of this scene
+        /inputs/5/load | "wind" | inputs[5].load: expected a spring_damper or a reeving of this scene
         /inputs/5/start | [-1] | inputs[5].start[0]: expected zero or a positive number (m)
-        /loads/5/length | "1+t" | inputs[5].load: expected a spring-damper whose length is a number
+        /loads/5/length | "1+t" | inputs[5].load: expected a load whose length is a number
         /outputs/0 | {"kind": "position"} | outputs[0].marker: expected a name, found nothing
         /outputs/0 | {"kind": "strain", "marker": "crank.a"} | outputs[0].marker: expected a marker of a cable
         /outputs/0 | {"kind": "angle", "marker": "load.eye"} | outputs[0].marker: expected a marker that can rotate

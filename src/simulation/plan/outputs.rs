@@ -202,7 +202,7 @@ fn nature(source: Source) -> Option<Nature> {
             (Measure::Rotation, false, true)
         }
         Velocity(..) | SlidingVelocity(_) | AngularVelocity(..) | JointVelocity(_)
-        | LoadForce(..) | LoadMoment(..) => (Measure::Rate, false, true),
+        | LoadForce(..) | LoadMoment(..) | Tension(_) => (Measure::Rate, false, true),
         CouplingForce(..) | CouplingMoment(..) => (Measure::Rate, true, true),
         Strain(_)
         | Curvature(_)

@@ -109,7 +109,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         Kind::Displacement => vec![("displacement", "Displacement of {}", Some(METRE), Scalar, Read::Joint(Displacement))],
         Kind::Deflection => vec![("deflection", "Deflection of {}", Some(METRE), Vector, Read::Deflected(Deflection))],
         Kind::GearForce | Kind::GearTorque | Kind::LatchForce | Kind::LatchTorque | Kind::LatchState | Kind::LoadForce
-        | Kind::LoadMoment => exerted(kind),
+        | Kind::LoadMoment | Kind::Tension => exerted(kind),
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation))],
         Kind::Quaternion => vec![("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion))],
@@ -186,6 +186,7 @@ fn exerted(kind: OutputKind) -> Vec<OutputRow> {
         Kind::LatchForce => vec![("latch_force", "Force of {} on the displacement of its joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
         Kind::LatchTorque => vec![("latch_torque", "Torque of {} on the angle of its joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
         Kind::LatchState => vec![("latch_state", "State of {}: 1 closed, 0 open", None, Scalar, Read::Joint(LatchState))],
+        Kind::Tension => vec![("tension", "Tension of {}", Some(NEWTON), Scalar, Read::Load(|load, _| Tension(load)))],
         Kind::LoadForce => vec![("force", "Force of {}", Some(NEWTON), Vector, Read::Load(LoadForce))],
         _ => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Rotational, Read::Load(LoadMoment))],
     }
@@ -347,6 +348,7 @@ fn words<'a>(of: &OutputTarget<'a>) -> (&'a str, String) {
             let on = on.map_or("the body that it acts along", |marker| marker.name);
             (load, format!("{load} on {on}"))
         }
+        OutputTarget::Rope(load, _) => (load, (*load).into()),
         OutputTarget::Reaction(reaction) => {
             let on = if reaction.is_motion {
                 "what it drives"
@@ -401,6 +403,7 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         }
         (Read::Joint(quantity), OutputTarget::Relation(_, holder)) => quantity(*holder),
         (Read::Load(quantity), OutputTarget::Load(_, load, _)) => quantity(*load, k),
+        (Read::Load(quantity), OutputTarget::Rope(_, load)) => quantity(*load, k),
         (Read::Counted(quantity), OutputTarget::Angle(_, angle)) => quantity(*angle),
         (Read::Points(quantity), OutputTarget::Points(_, first, _)) => quantity(first.after(k)),
         (Read::Gauge(quantity), OutputTarget::Gauge(_, gauge)) => quantity(*gauge, k),
@@ -541,12 +544,17 @@ impl List {
 
     /// An output follows at once from inputs where accelerations do, or springs that the master sets.
     fn output(&mut self, name: String, what: String, unit: Option<Unit>, source: Source) {
-        use Quantity::{CouplingForce, CouplingMoment, Input, LoadForce, SpringEnergy};
+        use Quantity::{CouplingForce, CouplingMoment, Input, LoadForce, SpringEnergy, Tension};
         self.add(name, what, unit, source, None);
         if let (Some(variable), Source::Output(quantity)) = (self.variables.last_mut(), source) {
             let of_springs = matches!(
                 quantity,
-                SpringEnergy | Input | CouplingForce(..) | CouplingMoment(..) | LoadForce(..)
+                SpringEnergy
+                    | Input
+                    | CouplingForce(..)
+                    | CouplingMoment(..)
+                    | LoadForce(..)
+                    | Tension(_)
             );
             variable.is_direct =
                 needs(quantity) == Evaluated::Dynamics || (self.sets_springs && of_springs);

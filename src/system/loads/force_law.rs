@@ -50,6 +50,11 @@ impl<const D: usize> ForceLaw<D> {
         }
     }
 
+    /// Force against growth, N or N m.
+    pub fn against_growth<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.force(at, self.read(at))
+    }
+
     /// Force against growth at a value and a rate, N or N m.
     fn force<N: Number>(&self, at: Instant<'_, D, N>, [value, rate]: [N; 2]) -> N {
         let others = [value, rate, self.control.value(at)];
@@ -63,7 +68,7 @@ impl<const D: usize> ForceElement<D> for ForceLaw<D> {
         at: Instant<'_, D, N>,
         call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let force = self.force(at, self.read(at));
+        let force = self.against_growth(at);
         self.on.act(-force, at.x, call);
     }
 

@@ -17,6 +17,7 @@ mod line_load;
 mod loaded_surface;
 mod moment;
 mod one_sided_spring;
+mod reeving;
 mod spatial_moment;
 mod spring;
 mod surface_contact;
@@ -39,6 +40,7 @@ pub use line_load::LineLoad;
 pub use loaded_surface::LoadedSurface;
 pub use moment::Moment;
 pub use one_sided_spring::OneSidedSpring;
+pub use reeving::{Drum, MOST_POINTS, Reeving};
 pub use spatial_moment::SpatialMoment;
 pub use spring::Spring;
 pub use surface_contact::SurfaceContact;
@@ -299,6 +301,8 @@ loads! {
     SurfaceFluid(Box<SurfaceFluid>): SurfaceFluid,
     /// A spring with a damper between two ends.
     Spring(Spring<D>): Spring<D>,
+    /// A rope without mass over points.
+    Reeving(Box<Reeving<D>>): Reeving<D>,
     /// A force by an expression, between two ends or on a coordinate of a joint.
     ForceLaw(Box<ForceLaw<D>>): ForceLaw<D>,
     /// A spring with a damper by tables, between two ends or on a coordinate of a joint.

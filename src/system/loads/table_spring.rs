@@ -34,7 +34,7 @@ impl<const D: usize> TableSpring<D> {
     }
 
     /// Force against growth, N or N m.
-    fn force<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    pub fn force<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.spring.value(self.value(at)) + self.damping(self.rate(at))
     }
 }

@@ -91,6 +91,18 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
     }
 
+    /// Tension of a load that pulls along a line, N.
+    pub fn tension(&self, system: &System<D>, load: usize) -> N {
+        let at = self.instant(system);
+        match &system.loads[load] {
+            AppliedLoad::Reeving(rope) => rope.tension(at),
+            AppliedLoad::Spring(spring) => spring.tension(at),
+            AppliedLoad::TableSpring(spring) => spring.force(at),
+            AppliedLoad::ForceLaw(law) => law.against_growth(at),
+            _ => N::of(0.0),
+        }
+    }
+
     /// Force (N) and moment (N m), in the plane its third component, of a load on its second end, or on the one that it has; of
     /// contact along or over a body the whole force, without a moment.
     pub fn exerted(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {

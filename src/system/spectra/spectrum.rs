@@ -27,6 +27,9 @@ pub struct Eigenvalue {
     pub frequency: f64,
 }
 
+/// Rate of rotation that counts as none, rad/s: a revolution in two centuries. Rates at the start are found by solving, so they have roundoff.
+const STILL: f64 = 1e-9;
+
 /// Why there is no spectrum.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
@@ -187,7 +190,7 @@ pub fn eigenvalues<const D: usize>(
     // Nothing tells the spin of a thin rod about itself, and gyroscopic terms of sections are not linearized. Modes of a reduced body are
     // displacements along axes that rotate, so small motions beside a spin have no constant equations in axes that stand still (decision 73).
     let spin = system.bodies.largest_spin(work.kinematics.motion());
-    if spin > 0.0 {
+    if spin > STILL {
         return Err(SpectrumError::Spins(spin));
     }
     refuse_rotating(system, &linear, state)?;
@@ -277,7 +280,7 @@ fn refuse_rotating<const D: usize>(
     elimination.expand(&state.rates, &mut y, &mut v);
     for chain in system.bodies.lines() {
         let shared = rotation(&x, &v, chain.range());
-        let Some(turn) = shared.filter(|turn| turn.norm() > 0.0) else {
+        let Some(turn) = shared.filter(|turn| turn.norm() > STILL) else {
             continue;
         };
         let [stiffness, _] = linear.project(std::slice::from_ref(&state.rates));
@@ -308,11 +311,11 @@ fn refuse_driven<const D: usize>(
     let (x, v) = (&work.kinematics.x, &work.kinematics.v);
     let chains = system.bodies.lines().iter();
     let turns = chains.map(|chain| rotation(x, v, chain.range()));
-    if let Some(turn) = turns.flatten().find(|turn| turn.norm() > 0.0) {
+    if let Some(turn) = turns.flatten().find(|turn| turn.norm() > STILL) {
         return Err(SpectrumError::Turns(turn.norm()));
     }
     let spin = (system.bodies).largest_section_spin(work.kinematics.motion());
-    if spin > 0.0 {
+    if spin > STILL {
         return Err(SpectrumError::Spins(spin));
     }
     Ok(())

@@ -189,7 +189,7 @@ impl<const D: usize> DeformationMeasure<D> for BetweenFrames<D> {
         let products = self.products(at.x);
         let turned = Turned::new(&products);
         let terms = |by: &Matrix3<f64>| {
-            let mut terms = Terms::default();
+            let mut terms: Terms<D> = Terms::default();
             self.for_each_axis(by, at.x, |end, on| terms.add_end(end, on));
             terms
         };
