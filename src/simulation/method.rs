@@ -137,7 +137,8 @@ fn takes_rates(named: Integrator) -> Result<(), Error> {
 }
 
 /// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the rotation of its frame;
-/// where it has none of them, by its slowest bending (or stretching) or by its springs.
+/// where it has none of them, by its slowest bending (or stretching) or by its springs, whichever is slower: bodies that springs move swing
+/// as slowly as those, however stiff they are themselves, and an error of velocity grows for as long.
 fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kinetic: f64) -> f64 {
     let (size, mass) = (system.size(), system.mass());
     let by_motion = (2.0 * kinetic / mass).sqrt() / size;
@@ -146,10 +147,10 @@ fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kin
         .max(by_gravity)
         .max(norm(&resolved.scene.rotation.full()));
     let slow = [elastic_rate(resolved), spring_rate(resolved, size, mass)];
-    let mut slow = slow
+    let slow = slow
         .into_iter()
         .filter(|rate| *rate > 0.0 && rate.is_finite());
-    let otherwise = slow.next().unwrap_or(1.0);
+    let otherwise = slow.reduce(f64::min).unwrap_or(1.0);
     if rate > REST * otherwise && rate.is_finite() {
         rate
     } else {

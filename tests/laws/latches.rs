@@ -222,3 +222,19 @@ fn panels_that_lock_keep_their_momenta() {
         is_near(angle, half_turns * std::f64::consts::PI, 1e-12);
     }
 }
+
+/// A mast of stiff tubes that springs unfold from a free satellite moves as slowly as those springs: steps hold its velocities over that time,
+/// and it keeps the angular momentum that it has, none. Weighed by its vibrations it had 0.41 N m s after three seconds, and its end was
+/// 0.34 m off.
+#[test]
+fn a_stiff_mast_that_springs_unfold_keeps_its_momentum() {
+    let text = include_str!("../../scenes/unfolding_mast.json");
+    let mut scene: Value = serde_json::from_str(text).expect("a scene");
+    scene["accuracy"] = json!({"relative_tolerance": 1e-4});
+    let mut run = Run::started(&scene);
+    for k in 1..=240 {
+        run.step(0.0125 * f64::from(k));
+    }
+    is_near(run.read("angular_momentum"), 0.0, 0.01);
+    is_near(run.read("momentum[1]"), 0.0, 0.01);
+}
