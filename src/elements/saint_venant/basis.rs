@@ -43,23 +43,23 @@ pub struct Reference {
 }
 
 /// Barycentric coordinates of the nodes in parts of the degree: corners, edges from corner to corner, then inside.
-pub fn nodes() -> [[usize; 3]; NODES] {
-    let mut nodes = Vec::with_capacity(NODES);
+pub fn lattice() -> [[usize; 3]; NODES] {
+    let mut all = Vec::with_capacity(NODES);
     let corner = |k: usize| std::array::from_fn(|j| if j == k { DEGREE } else { 0 });
-    nodes.extend((0..3).map(corner));
+    all.extend((0..3).map(corner));
     for k in 0..3 {
         for step in 1..DEGREE {
-            let mut node = [0; 3];
-            (node[k], node[(k + 1) % 3]) = (DEGREE - step, step);
-            nodes.push(node);
+            let mut parts = [0; 3];
+            (parts[k], parts[(k + 1) % 3]) = (DEGREE - step, step);
+            all.push(parts);
         }
     }
     for first in 1..DEGREE {
         for second in 1..DEGREE - first {
-            nodes.push([DEGREE - first - second, first, second]);
+            all.push([DEGREE - first - second, first, second]);
         }
     }
-    std::array::from_fn(|k| nodes[k])
+    std::array::from_fn(|k| all[k])
 }
 
 /// Computes the polynomials at a point given by its second and third barycentric coordinate.
@@ -79,9 +79,9 @@ pub fn shapes([y, z]: [f64; 2]) -> Shapes {
         values: [0.0; NODES],
         slopes: [[0.0; NODES]; 2],
     };
-    for (k, node) in nodes().into_iter().enumerate() {
+    for (k, parts) in lattice().into_iter().enumerate() {
         let [(a, da), (b, db), (c, dc)] =
-            [(1.0 - y - z, node[0]), (y, node[1]), (z, node[2])].map(|(at, n)| factor(at, n));
+            [(1.0 - y - z, parts[0]), (y, parts[1]), (z, parts[2])].map(|(at, n)| factor(at, n));
         shapes.values[k] = a * b * c;
         shapes.slopes[0][k] = a * db * c - da * b * c;
         shapes.slopes[1][k] = a * b * dc - da * b * c;

@@ -154,20 +154,25 @@ impl Mesh {
         let mut next = 0;
         while ring.len() > 3 {
             let count = ring.len();
-            let is_ear = |at: usize| {
+            // Points on the edge of an ear or roundoff beside it block it, unless there is no other one. Where ways to holes begin, two places of the ring are one point:
+            // the edge of the ear must begin inside at the right ones.
+            let is_ear = |at: usize, depth: f64| {
                 let (sine, [a, b, c]) = area(self, &ring, at);
+                let least = depth * cross([a, b], c);
                 let is_blocked = |k: usize| {
                     let p = self.points[ring[k]];
-                    let is_inside = [[a, b], [b, c], [c, a]]
-                        .iter()
-                        .all(|edge| cross(*edge, p) >= 0.0);
-                    is_inside && ![a, b, c].contains(&p) && area(self, &ring, k).0 <= FLAT
+                    let mut edges = [[a, b], [b, c], [c, a]].into_iter();
+                    edges.all(|edge| cross(edge, p) >= least)
+                        && ![a, b, c].contains(&p)
+                        && area(self, &ring, k).0 <= FLAT
                 };
-                sine > FLAT && !(0..count).any(is_blocked)
+                let is_inside =
+                    self.opens(&ring, at + count - 1, c) && self.opens(&ring, at + 1, a);
+                sine > FLAT && (is_inside || depth > 0.0) && !(0..count).any(is_blocked)
             };
-            let at = (0..count)
-                .map(|k| (next + k) % count)
-                .find(|at| is_ear(*at))?;
+            let places = || (0..count).map(|k| (next + k) % count);
+            let mut depths = [-FLAT, 0.0, FLAT].into_iter();
+            let at = depths.find_map(|depth| places().find(|at| is_ear(*at, depth)))?;
             let corners = [at + count - 1, at, at + 1].map(|k| ring[k % count]);
             self.add(corners);
             ring.remove(at);

@@ -30,6 +30,8 @@ use space::{Map, Space, dot};
 
 /// Half of the difference of the bounds, as part of the torsion constant, that meshes are refined to.
 pub const TORSION_ERROR: f64 = 1e-4;
+/// Half of that difference where stress is read, which is off by the root of it in the mean.
+pub const STRESS_ERROR: f64 = 1e-6;
 /// Most points of a mesh.
 const MOST_POINTS: usize = 6000;
 /// Angle by which the material reaches around a corner beyond a straight one, where triangles are small from the start, rad.
@@ -71,9 +73,9 @@ struct Solved {
 }
 
 impl Torsion {
-    /// Solves torsion and flexure of a section, with meshes that are refined until the torsion constant is known well enough. `None`
-    /// where the outline has no triangulation.
-    pub fn new(outline: &Outline) -> Option<Self> {
+    /// Solves torsion and flexure of a section, with meshes that are refined until the torsion constant is known up to a part of it, or there are
+    /// too many points. `None` where the outline has no triangulation.
+    pub fn new(outline: &Outline, error: f64) -> Option<Self> {
         let mut mesh = Mesh::new(&outline.loops)?;
         let least = mesh.shortest();
         mesh.improve(MOST_POINTS / 2, 0.1 * least);
@@ -85,7 +87,7 @@ impl Torsion {
         let reference = Reference::new();
         loop {
             let solved = solve(outline, &mesh, &reference)?;
-            if solved.numbers.error <= TORSION_ERROR || mesh.points.len() > MOST_POINTS {
+            if solved.numbers.error <= error || mesh.points.len() > MOST_POINTS {
                 return Some(Self {
                     numbers: solved.numbers,
                     functions: solved.functions,
@@ -192,12 +194,12 @@ fn loads(space: &Space<'_>) -> [Vec<f64>; 3] {
     let mut loads = [0; 3].map(|_| vec![0.0; space.len()]);
     for t in 0..space.mesh.triangles.len() {
         let map = Map::new(space.mesh, t);
-        let nodes = map.nodes();
-        let (z, back) = (nodes.map(|[_, z]| z), nodes.map(|[y, _]| -y));
+        let lattice = map.lattice();
+        let (z, back) = (lattice.map(|[_, z]| z), lattice.map(|[y, _]| -y));
         let local = map.divergence(space.reference, [&z, &back]);
         space.add(t, &local, &mut loads[0]);
         for k in 0..2 {
-            let local = map.load(space.reference, &nodes.map(|node| 2.0 * node[k]));
+            let local = map.load(space.reference, &lattice.map(|at| 2.0 * at[k]));
             space.add(t, &local, &mut loads[1 + k]);
         }
     }
@@ -209,9 +211,9 @@ fn lateral_loads(space: &Space<'_>) -> [Vec<f64>; 2] {
     let mut loads = [0; 2].map(|_| vec![0.0; space.len()]);
     for t in 0..space.mesh.triangles.len() {
         let map = Map::new(space.mesh, t);
-        let nodes = map.nodes();
-        let apart = nodes.map(|[y, z]| 0.5 * (y * y - z * z));
-        let both = nodes.map(|[y, z]| y * z);
+        let lattice = map.lattice();
+        let apart = lattice.map(|[y, z]| 0.5 * (y * y - z * z));
+        let both = lattice.map(|[y, z]| y * z);
         let back = apart.map(|of| -of);
         for (load, field) in loads.iter_mut().zip([[&apart, &both], [&both, &back]]) {
             space.add(t, &map.divergence(space.reference, field), load);

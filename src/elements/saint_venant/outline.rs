@@ -20,7 +20,7 @@ pub struct Outline {
     pub product_moment: f64,
 }
 
-/// What is wrong with loops that are no outline; loops are counted from the outline on, edges from the first corner on.
+/// Fault of loops that are no outline; loops are counted from the outline on, edges from the first corner on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutlineFlaw {
     /// A loop has fewer than three corners.

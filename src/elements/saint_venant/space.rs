@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use super::basis::{DEGREE, IN_EDGE, INSIDE, NODES, Nodal, Pairs, Reference, Shapes, nodes};
+use super::basis::{DEGREE, IN_EDGE, INSIDE, NODES, Nodal, Pairs, Reference, Shapes, lattice};
 use super::mesh::{Mesh, Point, cross};
 use crate::math::sparse::{Matrix, Pattern};
 
@@ -15,10 +15,12 @@ pub struct Space<'a> {
     /// Matrices of the reference triangle.
     pub reference: &'a Reference,
     pattern: Pattern,
-    /// Vertices of the graph of each triangle: corners, edges and inside.
-    parts: Vec<[usize; 7]>,
+    /// Vertices of the graph of each triangle: its corners, with the edges that these own, and its inside.
+    parts: Vec<[usize; 4]>,
+    /// Part of each triangle that each node is of, and its place among the numbers of the vertex there.
+    places: Vec<[(usize, usize); NODES]>,
     /// Numbers of the nodes of each triangle.
-    nodes: Vec<[usize; NODES]>,
+    numbers: Vec<[usize; NODES]>,
     /// Loop of the outline that each number is on.
     loops: Vec<Option<usize>>,
 }
@@ -96,9 +98,9 @@ impl Map {
     }
 
     /// Positions of the nodes.
-    pub fn nodes(&self) -> [Point; NODES] {
+    pub fn lattice(&self) -> [Point; NODES] {
         let part = |of: usize| of as f64 / DEGREE as f64;
-        nodes().map(|[_, p, q]| self.point([part(p), part(q)]))
+        lattice().map(|[_, p, q]| self.point([part(p), part(q)]))
     }
 }
 
@@ -108,56 +110,67 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 impl<'a> Space<'a> {
-    /// Numbers the nodes of a mesh.
+    /// Numbers the nodes of a mesh. Edges are with one of their ends, so that the graph is that of the points: it is small.
     pub fn new(mesh: &'a Mesh, reference: &'a Reference) -> Self {
-        let mut edges: BTreeMap<[usize; 2], usize> = BTreeMap::new();
         let points = mesh.points.len();
-        let mut on: Vec<Option<usize>> = mesh.loops.clone();
-        let mut parts = Vec::with_capacity(mesh.triangles.len());
+        let mut owners: BTreeMap<[usize; 2], (usize, usize)> = BTreeMap::new();
+        let mut sizes = vec![1; points];
+        let mut places = Vec::with_capacity(mesh.triangles.len());
         for triangle in &mesh.triangles {
-            let [a, b, c] = triangle.corners;
-            let mut of = [a, b, c, 0, 0, 0, 0];
-            for (k, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
-                let next = points + edges.len();
-                let ends = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-                of[3 + k] = *edges.entry(ends).or_insert(next);
-                if of[3 + k] == next {
-                    on.push(mesh.loops[ends[0]].filter(|_| triangle.beyond[k].is_none()));
+            let corners = triangle.corners;
+            let mut of = [(0, 0); NODES];
+            for k in 0..3 {
+                let [from, to] = [corners[k], corners[(k + 1) % 3]];
+                let ends = [from.min(to), from.max(to)];
+                let (owner, first) = *owners.entry(ends).or_insert_with(|| {
+                    let owner = if sizes[from] <= sizes[to] { from } else { to };
+                    sizes[owner] += IN_EDGE;
+                    (owner, sizes[owner] - IN_EDGE)
+                });
+                let part = if owner == from { k } else { (k + 1) % 3 };
+                of[k] = (k, 0);
+                for step in 0..IN_EDGE {
+                    let along = if from < to { step } else { IN_EDGE - 1 - step };
+                    of[3 + k * IN_EDGE + step] = (part, first + along);
                 }
             }
-            parts.push(of);
+            for inside in 0..INSIDE {
+                of[NODES - INSIDE + inside] = (3, inside);
+            }
+            places.push(of);
         }
-        let (edges, all) = (edges.len(), points + edges.len() + mesh.triangles.len());
-        for (t, of) in parts.iter_mut().enumerate() {
-            of[6] = points + edges + t;
-        }
-        on.resize(all, None);
-        let mut sizes = vec![1; points];
-        sizes.resize(points + edges, IN_EDGE);
-        sizes.resize(all, INSIDE);
-        let pairs = (0..7).flat_map(|j| (0..j).map(move |k| (j, k)));
-        let pairs: Vec<_> = pairs.collect();
-        let joined = parts
-            .iter()
-            .flat_map(|of| pairs.iter().map(|(j, k)| (of[*j], of[*k])));
-        let pattern = Pattern::new(&sizes, &joined.collect::<Vec<_>>());
-        let mut loops = vec![None; pattern.len()];
-        for (v, of) in on.iter().enumerate() {
-            pattern.range(v).for_each(|number| loops[number] = *of);
-        }
-        let nodes = parts.iter().zip(&mesh.triangles);
-        let nodes = nodes.map(|(of, triangle)| {
-            let number = |node: usize| match within(node, triangle.corners) {
-                (part, place) => pattern.range(of[part]).start + place,
-            };
-            std::array::from_fn(number)
+        sizes.resize(points + mesh.triangles.len(), INSIDE);
+        let numbered = mesh.triangles.iter().enumerate();
+        let parts = numbered.map(|(t, of)| {
+            let [a, b, c] = of.corners;
+            [a, b, c, points + t]
         });
+        let parts: Vec<[usize; 4]> = parts.collect();
+        let pairs = [(1, 0), (2, 0), (2, 1), (3, 0), (3, 1), (3, 2)];
+        let joined = (parts.iter()).flat_map(|of| pairs.map(|(j, k)| (of[j], of[k])));
+        let pattern = Pattern::new(&sizes, &joined.collect::<Vec<_>>());
+        let of_triangle = |(of, places): (&[usize; 4], &[(usize, usize); NODES])| {
+            places.map(|(part, place)| pattern.range(of[part]).start + place)
+        };
+        let numbers: Vec<[usize; NODES]> = parts.iter().zip(&places).map(of_triangle).collect();
+        let mut loops = vec![None; pattern.len()];
+        for (triangle, numbers) in mesh.triangles.iter().zip(&numbers) {
+            for k in 0..3 {
+                let on = mesh.loops[triangle.corners[k]];
+                loops[numbers[k]] = on;
+                if triangle.beyond[k].is_none() {
+                    let first = 3 + k * IN_EDGE;
+                    (first..first + IN_EDGE).for_each(|place| loops[numbers[place]] = on);
+                }
+            }
+        }
         Self {
             mesh,
             reference,
-            nodes: nodes.collect(),
+            numbers,
             pattern,
             parts,
+            places,
             loops,
         }
     }
@@ -174,12 +187,12 @@ impl<'a> Space<'a> {
 
     /// Numbers of a function in a triangle.
     pub fn local(&self, t: usize, function: &[f64]) -> Nodal {
-        self.nodes[t].map(|number| function[number])
+        self.numbers[t].map(|number| function[number])
     }
 
     /// Adds numbers of a triangle to those of the mesh.
     pub fn add(&self, t: usize, local: &Nodal, to: &mut [f64]) {
-        for (number, value) in self.nodes[t].into_iter().zip(local) {
+        for (number, value) in self.numbers[t].into_iter().zip(local) {
             to[number] += value;
         }
     }
@@ -189,15 +202,13 @@ impl<'a> Space<'a> {
         let mut matrix = Matrix::zeros(&self.pattern);
         for t in 0..self.mesh.triangles.len() {
             let stiffness = Map::new(self.mesh, t).stiffness(self.reference);
-            let corners = self.mesh.triangles[t].corners;
-            let places: [(usize, usize); NODES] = std::array::from_fn(|i| within(i, corners));
-            let parts = self.parts[t];
-            let slots: [[_; 7]; 7] = std::array::from_fn(|a| {
+            let (places, parts) = (self.places[t], self.parts[t]);
+            let slots: [[_; 4]; 4] = std::array::from_fn(|a| {
                 std::array::from_fn(|b| self.pattern.slot(parts[a], parts[b]))
             });
             for (i, (a, row)) in places.into_iter().enumerate() {
                 for (j, (b, column)) in places.into_iter().enumerate() {
-                    let is_free = !is_held(self.nodes[t][i]) && !is_held(self.nodes[t][j]);
+                    let is_free = !is_held(self.numbers[t][i]) && !is_held(self.numbers[t][j]);
                     // What is not on the diagonal is stored once.
                     if let Some(slot) = slots[a][b]
                         && (a == b || !slot.transposed)
@@ -208,7 +219,7 @@ impl<'a> Space<'a> {
                 }
             }
         }
-        let vertices = 0..self.parts.last()?[6] + 1;
+        let vertices = 0..self.parts.last()?[3] + 1;
         for v in vertices {
             let slot = self.pattern.slot(v, v)?;
             for (k, number) in self.pattern.range(v).enumerate() {
@@ -241,22 +252,4 @@ impl<'a> Space<'a> {
     pub fn gradient(map: &Map, shapes: &Shapes, local: &Nodal) -> [f64; 2] {
         map.gradient([0, 1].map(|k| dot(&shapes.slopes[k], local)))
     }
-}
-
-/// Part of a triangle that a node is on (corners, edges, inside), and its place there: along edges from the lower number.
-fn within(node: usize, corners: [usize; 3]) -> (usize, usize) {
-    if node < 3 {
-        return (node, 0);
-    }
-    let (edge, place) = ((node - 3) / IN_EDGE, (node - 3) % IN_EDGE);
-    if edge >= 3 {
-        return (6, node - 3 - 3 * IN_EDGE);
-    }
-    let is_forward = corners[edge] < corners[(edge + 1) % 3];
-    let place = if is_forward {
-        place
-    } else {
-        IN_EDGE - 1 - place
-    };
-    (3 + edge, place)
 }

@@ -1,4 +1,7 @@
 //! Numbers of sections against closed forms and published figures.
+//!
+//! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), chapter 10; W. C. Young, R. G. Budynas, Roark's Formulas for Stress
+//! and Strain, 7th ed. (2002), table 10.7; G. R. Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335-340.
 
 use std::f64::consts::PI;
 
@@ -8,7 +11,7 @@ fn solved(loops: &[&[Point]]) -> (Outline, Torsion) {
     let loops: Vec<Vec<Point>> = loops.iter().map(|of| of.to_vec()).collect();
     assert_eq!(flaw(&loops), None);
     let outline = Outline::new(loops);
-    let torsion = Torsion::new(&outline).expect("a section");
+    let torsion = Torsion::new(&outline, TORSION_ERROR).expect("a section");
     assert!(
         torsion.numbers.error <= TORSION_ERROR,
         "{}",
@@ -188,7 +191,9 @@ fn bounds_hold_on_coarse_meshes() {
         rectangle(1.0, 1.0).to_vec(),
         vec![[-0.3, -0.1], [0.2, -0.3], [0.3, 0.3]],
     ]);
-    let fine = Torsion::new(&outline).expect("a section").numbers;
+    let fine = Torsion::new(&outline, TORSION_ERROR)
+        .expect("a section")
+        .numbers;
     let mesh = Mesh::new(&outline.loops).expect("a mesh");
     let coarse = solve(&outline, &mesh, &Reference::new())
         .expect("a solution")
@@ -202,12 +207,16 @@ fn bounds_hold_on_coarse_meshes() {
 /// `T / (0.208 a^3)`.
 #[test]
 fn stress_of_torsion_makes_the_torque() {
-    let (_, of) = solved(&[&rectangle(1.0, 1.0)]);
+    let fine = |loops: &[&[Point]]| {
+        let loops = loops.iter().map(|of| of.to_vec()).collect();
+        Torsion::new(&Outline::new(loops), STRESS_ERROR).expect("a section")
+    };
+    let of = fine(&[&rectangle(1.0, 1.0)]);
     let [first, second] = of.stress([0.5, 0.0]).expect("a point of it");
     close(second, 1.0 / 0.208_176_5, 1e-3);
     assert!(first.abs() < 1e-2);
     assert_eq!(of.stress([0.51, 0.0]), None);
-    let (_, of) = solved(&[&rectangle(0.3, 0.2), &rectangle(0.2, 0.1)]);
+    let of = fine(&[&rectangle(0.3, 0.2), &rectangle(0.2, 0.1)]);
     let (rows, mut torque) = (120, 0.0);
     for (j, k) in (0..rows).flat_map(|j| (0..rows).map(move |k| (j, k))) {
         let at = |k: i32, size: f64| size * ((f64::from(k) + 0.5) / f64::from(rows) - 0.5);
@@ -249,5 +258,26 @@ fn flaws_of_outlines_are_found() {
         ),
     ] {
         assert_eq!(flaw(&loops), wanted, "{loops:?}");
+    }
+}
+
+/// A ring of half its size touches the triangle of every third of its corners: no ear reaches into the hole.
+#[test]
+fn rings_of_all_sizes_have_triangles() {
+    for k in 0..40 {
+        let size = 0.04 + 4e-4 * f64::from(k);
+        let loops = [0.5, 0.8].map(|part| {
+            vec![
+                ellipse(size, 0.75 * size, 1.0),
+                ellipse(size, 0.75 * size, part),
+            ]
+        });
+        for loops in loops {
+            let outline = Outline::new(loops);
+            let mesh = Mesh::new(&outline.loops).expect("a mesh");
+            let area = |t: usize| Map::new(&mesh, t).size;
+            let sum: f64 = (0..mesh.triangles.len()).map(area).sum();
+            close(0.5 * sum, outline.area, 1e-12);
+        }
     }
 }
