@@ -19,6 +19,7 @@ mod methods;
 mod motions;
 mod planar_beams;
 mod ports;
+mod profiles;
 mod releases;
 mod rigid;
 mod rods;
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Specimen> {
         fluids::all(),
         inputs::all(),
         ports::all(),
+        profiles::all(),
         releases::all(),
         methods::all(),
         tables::all(),
