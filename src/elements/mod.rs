@@ -12,6 +12,7 @@ pub mod cable;
 mod constitutive;
 pub mod reduced;
 pub mod rod;
+pub mod saint_venant;
 pub mod section;
 pub mod shape;
 pub mod shell;

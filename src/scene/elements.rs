@@ -40,7 +40,7 @@ impl Chosen {
 
     fn new(body: usize, line: &LineBody, dimension: usize) -> Self {
         let needed = line
-            .need()
+            .need(dimension)
             .filter(|(sections, _)| dimension == 3 || *sections == LineModel::Reissner);
         let unneeded = match dimension {
             2 => "nothing twists in the plane",
@@ -92,18 +92,20 @@ fn least(dimension: usize) -> LineModel {
 
 impl LineBody {
     /// Returns the sections that the body's own keys demand, with the reason.
-    fn need(&self) -> Option<(LineModel, &'static str)> {
+    fn need(&self, dimension: usize) -> Option<(LineModel, &'static str)> {
         let all = || self.all_sections();
-        let is_unequal = |numbers: SectionNumbers| {
-            let [first, second] = numbers.second_moments;
-            first != second
-        };
+        let is_unequal = |numbers: SectionNumbers| !numbers.is_alike();
         let is_curved = !self.shape.is_straight();
         let reasons = [
             (
                 all().any(|of| of.stiffness.is_some() || of.inertia.is_some()),
                 LineModel::Reissner,
                 "its sections are given as whole matrices",
+            ),
+            (
+                dimension == 3 && all().any(|of| of.numbers().is_eccentric()),
+                LineModel::Reissner,
+                "its shear centre is apart from its centroid",
             ),
             (
                 self.axis.is_some(),

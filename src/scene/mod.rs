@@ -42,7 +42,7 @@ pub use description::{
     Interpolation, LaminatePly, LineBody, LineModel, Material, Method, Model, Modes, Orientation,
     OutputKind, Pad, PatchBody, PatchMarker, PatchMesh, PatchSurface, PatchThickness, Profile,
     RigidBody, Scene, SceneVector, Section, SectionNumbers, Shape, Solid, Spin, Station, Strain,
-    Surface, Table, Value,
+    Surface, Table, Value, between_parts,
 };
 pub use divisions::{Division, MOST_DIVISIONS};
 pub use elements::Chosen;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::resolved::{BodyReference, Place, Resolved, ResolvedMarker};
-use super::{Action, Body, FileBody, LineBody, RigidBody, Scene};
+use super::{Action, Body, FileBody, LineBody, RigidBody, Scene, Section, SectionNumbers};
 use crate::math::function::Function;
 use crate::system::Signal;
 
@@ -28,6 +28,9 @@ pub fn remarks(scene: &Scene) -> Vec<String> {
     let mut found: Vec<String> = (kinds.iter())
         .filter_map(|slip| told(scene.bodies.iter().map(slip)))
         .collect();
+    if scene.dimension == 3 {
+        found.extend(told(scene.bodies.iter().map(eccentric)));
+    }
     // What follows from names is asked of scenes alone that have such bodies.
     let of_names = |body: &Body| body.reduced().is_some() || body.patch().is_some();
     if scene.bodies.iter().any(of_names)
@@ -77,6 +80,21 @@ fn without_pairs(body: &FileBody) -> String {
         ".file: found {found}, where the modes of {name:?} combine others: it lacks stiffening by rotation and shortening by bending (`flexbody.reduce` makes all pairs of up to \
          40 modes from the quadratic force)"
     )
+}
+
+/// A rod whose sections twist about their shear centre apart from the line, which needs shear.
+fn eccentric(body: &Body) -> Option<String> {
+    let Body::Rod(rod) = body else {
+        return None;
+    };
+    let mut sections = rod.all_sections().map(Section::numbers);
+    let numbers = sections.find(SectionNumbers::is_eccentric)?;
+    let [y, z] = numbers.shear_center();
+    Some(format!(
+        ".section: found a shear centre at [{y:.3e}, {z:.3e}] m from the centroid of {:?}, which a rod does not have: forces through the centroid do not twist it (expected \"beam\", \
+         which has it, or a section whose shear centre is its centroid)",
+        rod.name
+    ))
 }
 
 /// A solid that is hardly stiff.

@@ -68,9 +68,8 @@ impl PropellerWatch {
             let shear = body.material.shear_modulus.unwrap_or_default();
             let by_rate = body.all_sections().map(|section| {
                 let numbers = section.numbers();
-                let [first, second] = numbers.second_moments;
                 let torsion = shear * numbers.torsion_constant * (FRAC_PI_2 / length).powi(2);
-                body.material.density.unwrap_or_default() * (second - first).abs() / torsion
+                body.material.density.unwrap_or_default() * numbers.principal_difference() / torsion
             });
             Some(Rod {
                 body: cable.id.body_index(),

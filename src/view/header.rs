@@ -98,7 +98,8 @@ fn of_body(
     let (track, drawn) = (numbers.stepped(&rows), numbers.stepped(&[drawn]));
     let shape = match body {
         BodyReference::Cable(cable) => {
-            let stresses = SectionStress::of(cable.body, &mesh(resolved, cable));
+            let stresses =
+                SectionStress::of(cable.body, &mesh(resolved, cable), resolved.scene.dimension);
             of_cable(resolved, cable) + &of_forces(recording, place, &stresses, numbers)
         }
         BodyReference::Rigid(rigid) => of_rigid(rigid),

@@ -50,6 +50,7 @@ mod plate_sections;
 mod plate_stiffeners;
 mod plates;
 mod ports;
+mod profiles;
 mod projection;
 mod random;
 mod reactions;

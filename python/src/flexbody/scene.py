@@ -1985,11 +1985,179 @@ class Tube(Part):
     """
 
 
+class HollowEllipse(Part):
+    """
+    Ellipse with a hole of the same proportions in its middle.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "hollow_ellipse"},
+    )
+    width: StrictFloat
+    """
+    Diameter along the first axis, m.
+    """
+    height: StrictFloat
+    """
+    Diameter along the second axis, m.
+    """
+    inner_width: StrictFloat
+    """
+    Diameter of the hole along the first axis, m. Along the second it is the same part of the height.
+    """
+
+
+class Box(Part):
+    """
+    Box with edges along the axes of the frame.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "box"},
+    )
+    size: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
+    """
+    Lengths of the edges along x, y and z, m.
+    """
+
+
+class IProfile(Part):
+    """
+    Letter I: a web along the second axis between two equal flanges along the first.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "i"},
+    )
+    width: StrictFloat
+    """
+    Length of the flanges along the first axis, m.
+    """
+    height: StrictFloat
+    """
+    Whole height along the second axis, m.
+    """
+    web_thickness: StrictFloat
+    """
+    Thickness of the web, m.
+    """
+    flange_thickness: StrictFloat
+    """
+    Thickness of each flange, m.
+    """
+
+
+class Channel(Part):
+    """
+    Channel: a web along the second axis, from whose ends two equal flanges go along the first axis, to its positive side.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "c"},
+    )
+    width: StrictFloat
+    """
+    Length of the flanges with the web, m.
+    """
+    height: StrictFloat
+    """
+    Whole height along the second axis, m.
+    """
+    web_thickness: StrictFloat
+    """
+    Thickness of the web, m.
+    """
+    flange_thickness: StrictFloat
+    """
+    Thickness of each flange, m.
+    """
+
+
+class TProfile(Part):
+    """
+    Letter T: a flange along the first axis, from whose middle a web goes down, to the negative side of the second axis.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "t"},
+    )
+    width: StrictFloat
+    """
+    Length of the flange along the first axis, m.
+    """
+    height: StrictFloat
+    """
+    Whole height along the second axis, m.
+    """
+    web_thickness: StrictFloat
+    """
+    Thickness of the web, m.
+    """
+    flange_thickness: StrictFloat
+    """
+    Thickness of the flange, m.
+    """
+
+
+class Angle(Part):
+    """
+    Angle: a leg along the second axis, from whose lower end another goes along the first axis, to its positive side.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "l"},
+    )
+    width: StrictFloat
+    """
+    Length of the leg along the first axis with the other one, m.
+    """
+    height: StrictFloat
+    """
+    Length of the leg along the second axis with the other one, m.
+    """
+    web_thickness: StrictFloat
+    """
+    Thickness of the leg along the second axis, m.
+    """
+    flange_thickness: StrictFloat
+    """
+    Thickness of the leg along the first axis, m.
+    """
+
+
+OutlineItem = TypeAliasType("OutlineItem", Annotated[list[StrictFloat], Field(max_length=2, min_length=2)])
+
+
+Hole = TypeAliasType("Hole", Annotated[list[StrictFloat], Field(max_length=2, min_length=2)])
+
+
+class Polygon(Part):
+    """
+    Polygon, with holes that are polygons. Its corners are about any origin: the centroid comes to the line.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "polygon"},
+    )
+    outline: Annotated[list[OutlineItem], Field(max_length=200, min_length=3)]
+    """
+    Corners around it, in either direction: first and second coordinate, m.
+    """
+    holes: list[list[Hole]] = []
+    """
+    Corners around each hole.
+    """
+
+
 Profile = TypeAliasType(
-    "Profile", Annotated[Rectangle | Ellipse | Circle | Tube, under_one_of("rectangle", "ellipse", "circle", "tube")]
+    "Profile",
+    Annotated[
+        Rectangle | Ellipse | Circle | Tube | HollowEllipse | Box | IProfile | Channel | TProfile | Angle | Polygon,
+        under_one_of("rectangle", "ellipse", "circle", "tube", "hollow_ellipse", "box", "i", "c", "t", "l", "polygon"),
+    ],
 )
 """
-Shape of a cross section, from which its numbers follow. Its centre is on the line of the body. Axes are those of the section of a rod; a
+Shape of a cross section, from which its numbers follow. Its centroid is on the line of the body. Axes are those of the section of a rod; a
 cable in the plane has the first across the plane, so that its height lies in it.
 """
 
@@ -2060,20 +2228,6 @@ class Section(Part):
     torsion_constant: Annotated[StrictFloat | None, Field(gt=0.0)] = None
     """
     Torsion constant (of Saint-Venant) of rods and beams in space, m^4; of a circle its polar second moment.
-    """
-
-
-class Box(Part):
-    """
-    Box with edges along the axes of the frame.
-    """
-
-    model_config = ConfigDict(
-        json_schema_extra={"x-key": "box"},
-    )
-    size: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
-    """
-    Lengths of the edges along x, y and z, m.
     """
 
 

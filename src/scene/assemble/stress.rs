@@ -38,19 +38,26 @@ impl<const D: usize> Builder<'_, D> {
 
     fn section_point(&self, given: &resolved::SectionPoint<'_>) -> StressPoint {
         let section = given.cable.body.section_after(given.at);
-        let [y, z] = given.point;
-        // On the line of what does not bend there is no more than the force.
-        let over = |way: f64, moment: f64| if way == 0.0 { 0.0 } else { way / moment };
-        let [first, second] = section.second_moments;
+        let [y, _] = given.point;
+        let by_moments = match D {
+            // Bending in the plane is about the first axis, which is across it; about the other one the body is held.
+            2 if y == 0.0 => [0.0; 2],
+            2 => [0.0, -y / section.second_moments[0]],
+            _ => section.stress_by_moments(given.point),
+        };
+        // Rods twist about their line.
+        let twist_center = if given.cable.body.is_beam() {
+            section.shear_center()
+        } else {
+            [0.0; 2]
+        };
         StressPoint {
             marker: self.marker(given.marker),
             by_force: section.area.recip(),
-            by_moments: match D {
-                // Bending in the plane is about the first axis, which is across it.
-                2 => [0.0, -over(y, first)],
-                _ => [over(z, first), -over(y, second)],
-            },
-            by_torque: (section.shape).map_or(0.0, |shape| shape.torsion_stress(given.point)),
+            by_moments,
+            by_torque: (section.shape.as_ref())
+                .map_or(0.0, |shape| shape.torsion_stress(given.point)),
+            twist_center,
         }
     }
 }

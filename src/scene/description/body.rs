@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix3, Matrix4, Matrix6, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix4, Matrix6, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -397,12 +397,11 @@ impl LineBody {
         if let Some(given) = &numbers.given {
             return given.stiffness[(4, 4)].max(given.stiffness[(5, 5)]);
         }
-        let [first, second] = numbers.second_moments;
         self.material.young()
             * if self.is_rod() {
-                first.max(second)
+                numbers.largest_moment()
             } else {
-                first
+                numbers.second_moments[0]
             }
     }
 
@@ -429,7 +428,10 @@ impl LineBody {
             None => {
                 let [first, second] = numbers.second_moments;
                 let moments = Vector3::new(first + second, first, second);
-                Matrix3::from_diagonal(&(moments * self.material.density.unwrap_or_default()))
+                let mut moments = Matrix3::from_diagonal(&moments);
+                (moments[(1, 2)], moments[(2, 1)]) =
+                    (-numbers.product_moment, -numbers.product_moment);
+                moments * self.material.density.unwrap_or_default()
             }
         }
     }
@@ -440,7 +442,10 @@ impl LineBody {
         let [first, second] = numbers
             .second_moments
             .map(|moment| self.material.young() * moment);
-        let [p, q, r] = numbers.coupling;
+        let [p, q, mut r] = numbers.coupling;
+        if numbers.product_moment != 0.0 {
+            r -= self.material.young() * numbers.product_moment;
+        }
         Matrix3::from([[torsion, p, q], [p, first, r], [q, r, second]])
     }
 
@@ -463,12 +468,19 @@ impl LineBody {
         }
         let mut stiffness = Matrix6::zeros();
         stiffness[(0, 0)] = self.axial_stiffness_of(numbers);
-        for (k, factor) in self.shear_factors_of(numbers).into_iter().enumerate() {
-            let modulus = self.material.shear_modulus.unwrap_or_default();
-            stiffness[(1 + k, 1 + k)] = factor * modulus * numbers.area;
-        }
+        let shear = self.shear_stiffness(numbers);
+        stiffness.fixed_view_mut::<2, 2>(1, 1).copy_from(&shear);
         let turns = self.stiffness(numbers);
         stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&turns);
+        let [y, z] = numbers.shear_center();
+        if self.is_beam() && [y, z] != [0.0; 2] {
+            // Shear strain at the shear centre is that of the line and what twist adds.
+            let arm = Vector2::new(-z, y);
+            let coupled = shear * arm;
+            stiffness.fixed_view_mut::<2, 1>(1, 3).copy_from(&coupled);
+            (stiffness.fixed_view_mut::<1, 2>(3, 1)).copy_from(&coupled.transpose());
+            stiffness[(3, 3)] += arm.dot(&coupled);
+        }
         for (k, entry) in numbers.axial_coupling.into_iter().enumerate() {
             (stiffness[(0, 3 + k)], stiffness[(3 + k, 0)]) = (entry, entry);
         }
@@ -481,12 +493,22 @@ impl LineBody {
         Matrix3::from_fn(|r, c| whole[(2 * r, 2 * c)])
     }
 
-    /// Ratios of shear areas to the area, along both axes: as said, or of the shape.
-    fn shear_factors_of(&self, numbers: &SectionNumbers) -> [f64; 2] {
+    /// Shear forces along both axes by shear strains at the shear centre, N: by factors as said or of the shape, or by its whole compliance. Zero
+    /// where that is not positive.
+    pub fn shear_stiffness(&self, numbers: &SectionNumbers) -> Matrix2<f64> {
         let (young, shear) = (self.material.young(), self.material.shear_modulus);
         let ratio = shear.map_or(0.0, |shear| 0.5 * young / shear - 1.0);
-        let shape = numbers.shape.map(|shape| shape.shear_factors(ratio));
-        numbers.shear_factors.or(shape).unwrap_or([1.0; 2])
+        let shape = numbers.shape.as_ref();
+        let closed = shape.and_then(|shape| shape.shear_factors(ratio));
+        let factors = numbers.shear_factors.or(closed);
+        if let (None, Some(of)) = (factors, &numbers.shear) {
+            let [first, second] = of.compliance;
+            let compliance = (first + second * ratio).cholesky();
+            return compliance.map_or_else(Matrix2::zeros, |of| of.inverse() * young);
+        }
+        let modulus = shear.unwrap_or_default();
+        let along = factors.unwrap_or([1.0; 2]);
+        Matrix2::from_diagonal(&along.map(|factor| factor * modulus * numbers.area).into())
     }
 }
 

@@ -6,6 +6,10 @@ use nalgebra::{Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::profile::Profile;
+use super::solved;
+use crate::elements::saint_venant::ShearNumbers;
+
 /// Cross section of a cable or a rod: its shape, or its numbers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -60,43 +64,6 @@ pub struct Section {
     pub about: Option<[f64; 2]>,
 }
 
-/// Shape of a cross section, from which its numbers follow. Its centre is on the line of the body. Axes are those of the section of a rod; a
-/// cable in the plane has the first across the plane, so that its height lies in it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Profile {
-    /// Rectangle.
-    #[schemars(title = "Rectangle")]
-    Rectangle {
-        /// Edge along the first axis, m.
-        width: f64,
-        /// Edge along the second axis, m.
-        height: f64,
-    },
-    /// Ellipse.
-    #[schemars(title = "Ellipse")]
-    Ellipse {
-        /// Diameter along the first axis, m.
-        width: f64,
-        /// Diameter along the second axis, m.
-        height: f64,
-    },
-    /// Circle.
-    #[schemars(title = "Circle")]
-    Circle {
-        /// Radius, m.
-        radius: f64,
-    },
-    /// Circle with a round hole in its middle.
-    #[schemars(title = "Tube")]
-    Tube {
-        /// Outer radius, m.
-        radius: f64,
-        /// Radius of the hole, m.
-        inner_radius: f64,
-    },
-}
-
 /// The cross section at a place along a body. Between two stations shapes of one kind change their sizes linearly, numbers
 /// change linearly themselves; two stations at one place are a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -114,12 +81,14 @@ pub struct Station {
 }
 
 /// Numbers of a cross section.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectionNumbers {
     /// Area, m^2.
     pub area: f64,
     /// Second moments of area about the first and the second axis, m^4; in the plane the first counts.
     pub second_moments: [f64; 2],
+    /// Integral of the product of both coordinates, m^4.
+    pub product_moment: f64,
     /// Torsion constant of Saint-Venant, m^4.
     pub torsion_constant: f64,
     /// Stiffness that couples twist with bending about both axes, and both bendings, N m^2.
@@ -128,6 +97,8 @@ pub struct SectionNumbers {
     pub axial_coupling: [f64; 3],
     /// Ratios of shear areas to the area, where they are said.
     pub shear_factors: Option<[f64; 2]>,
+    /// Shear compliance and shear centre as they follow from a shape or from shapes on both sides.
+    pub shear: Option<ShearNumbers>,
     /// The shape that these are of.
     pub shape: Option<Profile>,
     /// The whole section of a beam, where it is given.
@@ -141,127 +112,6 @@ pub struct Given {
     pub stiffness: Matrix6<f64>,
     /// Mass and inertia per length, kg/m, kg, kg m.
     pub inertia: Matrix6<f64>,
-}
-
-impl Profile {
-    /// Lengths of the shape, m, with their keys and meanings.
-    pub fn lengths(&mut self) -> Vec<(&'static str, &'static str, &mut f64)> {
-        const RADIUS: &str = "Radius of the cross section";
-        match self {
-            Self::Rectangle { width, height } | Self::Ellipse { width, height } => vec![
-                ("width", "Width of the cross section", width),
-                ("height", "Height of the cross section", height),
-            ],
-            Self::Circle { radius } => vec![("radius", RADIUS, radius)],
-            Self::Tube {
-                radius,
-                inner_radius,
-            } => {
-                let hole = "Radius of the hole in the cross section";
-                vec![
-                    ("radius", RADIUS, radius),
-                    ("inner_radius", hole, inner_radius),
-                ]
-            }
-        }
-    }
-
-    /// Key of the shape in a scene.
-    pub fn key(&self) -> &'static str {
-        match self {
-            Self::Rectangle { .. } => "rectangle",
-            Self::Ellipse { .. } => "ellipse",
-            Self::Circle { .. } => "circle",
-            Self::Tube { .. } => "tube",
-        }
-    }
-
-    /// Area, second moments and torsion constant (S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), sections
-    /// 106, 107 and 109).
-    pub fn numbers(&self) -> SectionNumbers {
-        let (area, second_moments, torsion_constant) = match *self {
-            Self::Rectangle { width, height } => {
-                let area = width * height;
-                let moments = [height, width].map(|edge| area * edge * edge / 12.0);
-                (area, moments, torsion_of_rectangle(width, height))
-            }
-            Self::Ellipse { width, height } => {
-                let area = 0.25 * PI * width * height;
-                let moments = [height, width].map(|axis| area * axis * axis / 16.0);
-                let [first, second] = moments;
-                (area, moments, 4.0 * first * second / (first + second))
-            }
-            Self::Circle { radius } => {
-                let area = PI * radius * radius;
-                let moment = 0.25 * area * radius * radius;
-                (area, [moment; 2], 2.0 * moment)
-            }
-            Self::Tube {
-                radius,
-                inner_radius,
-            } => {
-                let area = PI * (radius - inner_radius) * (radius + inner_radius);
-                let squares = radius * radius + inner_radius * inner_radius;
-                let moment = 0.25 * area * squares;
-                (area, [moment; 2], 2.0 * moment)
-            }
-        };
-        SectionNumbers {
-            area,
-            second_moments,
-            torsion_constant,
-            shape: Some(*self),
-            ..SectionNumbers::default()
-        }
-    }
-
-    /// Ratios of the areas that carry shear along both axes to the area, at a ratio of Poisson (G. R. Cowper, The shear coefficient in
-    /// Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335-340).
-    pub fn shear_factors(&self, poisson: f64) -> [f64; 2] {
-        let once = 1.0 + poisson;
-        match *self {
-            Self::Rectangle { .. } => [10.0 * once / (12.0 + 11.0 * poisson); 2],
-            Self::Ellipse { width, height } => [width / height, height / width].map(|ratio| {
-                let n = ratio * ratio;
-                let under = (40.0 + 37.0 * poisson) * n * n + (16.0 + 10.0 * poisson) * n;
-                12.0 * once * n * (3.0 * n + 1.0) / (under + poisson)
-            }),
-            Self::Circle { .. } => [6.0 * once / (7.0 + 6.0 * poisson); 2],
-            Self::Tube {
-                radius,
-                inner_radius,
-            } => {
-                let hole = (inner_radius / radius).powi(2);
-                let square = (1.0 + hole).powi(2);
-                let under = (7.0 + 6.0 * poisson) * square + (20.0 + 12.0 * poisson) * hole;
-                [6.0 * once * square / under; 2]
-            }
-        }
-    }
-
-    /// The shape between this one and another of its kind, whose part counts.
-    fn between(&self, other: &Self, part: f64) -> Option<Self> {
-        let (mut shape, mut other) = (*self, *other);
-        if shape.key() != other.key() {
-            return None;
-        }
-        let lengths = shape.lengths().into_iter().zip(other.lengths());
-        for ((.., length), (.., end)) in lengths {
-            *length += part * (*end - *length);
-        }
-        Some(shape)
-    }
-}
-
-/// Torsion constant of a rectangle, m^4: the series for the stress function, whose terms fall with the fifth power.
-fn torsion_of_rectangle(width: f64, height: f64) -> f64 {
-    let (long, short) = (width.max(height), width.min(height));
-    let term = |k: u32| {
-        let n = f64::from(2 * k + 1);
-        (0.5 * n * PI * long / short).tanh() / n.powi(5)
-    };
-    let sum: f64 = (0..200).rev().map(term).sum();
-    long * short.powi(3) * (1.0 / 3.0 - 64.0 / PI.powi(5) * short / long * sum)
 }
 
 impl Section {
@@ -284,10 +134,12 @@ impl Section {
         SectionNumbers {
             area: self.area.unwrap_or_default(),
             second_moments: self.second_moments.unwrap_or(alike),
+            product_moment: 0.0,
             torsion_constant: self.torsion_constant.unwrap_or_default(),
             coupling: self.coupling.unwrap_or_default(),
             axial_coupling: self.axial_coupling.unwrap_or_default(),
             shear_factors: self.shear_factors(),
+            shear: None,
             shape: None,
             given: self.given(),
         }
@@ -316,31 +168,89 @@ impl Section {
     /// Numbers of the section between this one and another, whose part counts.
     fn between(&self, other: &Self, part: f64) -> SectionNumbers {
         if let (Some(shape), Some(end)) = (&self.shape, &other.shape)
-            && let Some(shape) = shape.between(end, part)
+            && let Some(between) = shape.between(end, part)
         {
             let mixed = self.numbers().mixed(&other.numbers(), part);
-            let section = Self {
-                shape: Some(shape),
-                coupling: Some(mixed.coupling),
-                axial_coupling: Some(mixed.axial_coupling),
-                shear_factors: mixed.shear_factors,
-                ..Self::default()
+            let numbers = match between.solved_loops() {
+                Some(_) => between.numbers_with(solved::between([shape, end], part)),
+                None => between.numbers(),
             };
-            return section.numbers();
+            return SectionNumbers {
+                coupling: mixed.coupling,
+                axial_coupling: mixed.axial_coupling,
+                shear_factors: mixed.shear_factors,
+                ..numbers
+            };
         }
         self.numbers().mixed(&other.numbers(), part)
     }
 }
 
 impl SectionNumbers {
-    /// Diameter of its outline, m: the outer one of a circle or tube, else that of a circle of its area.
+    /// Diameter of its outline, m: of a circle with the area inside it, holes included.
     pub fn diameter(&self) -> f64 {
-        match self.shape {
+        match &self.shape {
             Some(Profile::Circle { radius } | Profile::Tube { radius, .. }) => 2.0 * radius,
-            Some(Profile::Rectangle { .. } | Profile::Ellipse { .. }) | None => {
-                2.0 * (self.area / PI).sqrt()
-            }
+            Some(shape) if shape.has_hole() => 2.0 * (shape.whole_area() / PI).sqrt(),
+            _ => 2.0 * (self.area / PI).sqrt(),
         }
+    }
+
+    /// Largest second moment of area about any axis, m^4.
+    pub fn largest_moment(&self) -> f64 {
+        let [first, second] = self.second_moments;
+        if self.product_moment == 0.0 {
+            return first.max(second);
+        }
+        0.5 * (first + second + self.principal_difference())
+    }
+
+    /// Difference of the second moments about both principal axes, m^4.
+    pub fn principal_difference(&self) -> f64 {
+        let [first, second] = self.second_moments;
+        if self.product_moment == 0.0 {
+            return (second - first).abs();
+        }
+        (second - first).hypot(2.0 * self.product_moment)
+    }
+
+    /// Whether it bends alike to all sides, up to roundoff.
+    pub fn is_alike(&self) -> bool {
+        let [first, second] = self.second_moments;
+        first == second && self.product_moment == 0.0
+            || self.principal_difference() <= 1e-9 * (first + second)
+    }
+
+    /// Shear centre from the line, m.
+    pub fn shear_center(&self) -> [f64; 2] {
+        self.shear.map_or([0.0; 2], |shear| shear.shear_center)
+    }
+
+    /// Whether the shear centre is apart from the line, by more than a thousandth of the radius of gyration.
+    pub fn is_eccentric(&self) -> bool {
+        let [y, z] = self.shear_center();
+        let [first, second] = self.second_moments;
+        y.hypot(z) > 1e-3 * ((first + second) / self.area).sqrt()
+    }
+
+    /// Normal stress at a point, first and second coordinate in m, by the moments about both axes, 1/m^3.
+    pub fn stress_by_moments(&self, [y, z]: [f64; 2]) -> [f64; 2] {
+        // On the line of what does not bend there is no more than the force.
+        let over = |way: f64, moment: f64| if way == 0.0 { 0.0 } else { way / moment };
+        let ([first, second], product) = (self.second_moments, self.product_moment);
+        if product == 0.0 {
+            return [over(z, first), -over(y, second)];
+        }
+        let determinant = first * second - product * product;
+        [
+            (second * z - product * y) / determinant,
+            (product * z - first * y) / determinant,
+        ]
+    }
+
+    /// Shear compliance and shear centre, by a closed form where there is one.
+    fn known_shear(&self) -> Option<ShearNumbers> {
+        self.shear.or_else(|| self.shape.as_ref()?.shear())
     }
 
     /// Linear between these and others, whose part counts.
@@ -354,11 +264,14 @@ impl SectionNumbers {
                 mix(first, other.second_moments[0]),
                 mix(second, other.second_moments[1]),
             ],
+            product_moment: mix(self.product_moment, other.product_moment),
             torsion_constant: mix(self.torsion_constant, other.torsion_constant),
             coupling: three(self.coupling, other.coupling),
             axial_coupling: three(self.axial_coupling, other.axial_coupling),
             shear_factors: (self.shear_factors.zip(other.shear_factors))
                 .map(|([a, b], [c, d])| [mix(a, c), mix(b, d)]),
+            shear: (self.known_shear().zip(other.known_shear()))
+                .map(|(a, b)| solved::mixed([&a, &b], part)),
             shape: None,
             given: self.given.zip(other.given).map(|(a, b)| Given {
                 stiffness: a.stiffness + (b.stiffness - a.stiffness) * part,
@@ -372,59 +285,4 @@ impl SectionNumbers {
 pub fn between(first: &Station, last: &Station, part: f64) -> (SectionNumbers, f64) {
     let numbers = first.section.between(&last.section, part);
     (numbers, first.twist + part * (last.twist - first.twist))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Timoshenko and Goodier, section 109, table: `J / (long short^3)`.
-    #[test]
-    fn torsion_constants_of_rectangles_are_those_of_the_table() {
-        for (ratio, wanted) in [
-            (1.0, 0.1406),
-            (1.5, 0.196),
-            (2.0, 0.229),
-            (4.0, 0.281),
-            (10.0, 0.312),
-        ] {
-            let found = torsion_of_rectangle(3.0, 3.0 * ratio) / (81.0 * ratio);
-            assert!((found - wanted).abs() < 6e-4, "{ratio} {found}");
-        }
-        // A square, to ten digits (144 times 0.140577014955).
-        let square = torsion_of_rectangle(1.0, 1.0);
-        assert!((square - 0.140_577_014_955).abs() < 1e-11, "{square}");
-        assert_eq!(
-            torsion_of_rectangle(0.3, 0.1),
-            torsion_of_rectangle(0.1, 0.3)
-        );
-    }
-
-    #[test]
-    fn shapes_that_coincide_have_the_same_numbers() {
-        let circle = Profile::Circle { radius: 0.02 }.numbers();
-        let ellipse = Profile::Ellipse {
-            width: 0.04,
-            height: 0.04,
-        };
-        let tube = Profile::Tube {
-            radius: 0.02,
-            inner_radius: 0.0,
-        };
-        for shape in [ellipse, tube] {
-            let found = shape.numbers();
-            assert!((found.area / circle.area - 1.0).abs() < 1e-15);
-            assert!((found.second_moments[0] / circle.second_moments[0] - 1.0).abs() < 1e-15);
-            assert!((found.torsion_constant / circle.torsion_constant - 1.0).abs() < 1e-15);
-        }
-        let flat = Profile::Rectangle {
-            width: 0.3,
-            height: 0.1,
-        };
-        let [first, second] = flat.numbers().second_moments;
-        assert!(
-            (first - 0.3 * 1e-3 / 12.0).abs() < 1e-18
-                && (second - 0.1 * 0.027 / 12.0).abs() < 1e-18
-        );
-    }
 }

@@ -5,16 +5,43 @@
 
 use std::f64::consts::PI;
 
-use super::section::Profile;
+use super::profile::Profile;
+use super::solved;
 
 /// Most terms of the series; it takes so many in corners alone, where it is good to 2e-5 of the largest stress.
 const TERMS: u32 = 20_000;
 
 impl Profile {
-    /// Saint-Venant's shear stress at a point of the section, first and second coordinate in m, by the torque, 1/m^3.
+    /// Whether a point is in the section, where that is a polygon; in others every point is taken to be.
+    pub fn holds(&self, point: [f64; 2]) -> bool {
+        let is_polygon = self.loops().is_some();
+        !is_polygon || solved::field(self).is_some_and(|field| field.stress(point).is_some())
+    }
+
+    /// Saint-Venant's shear stress at a point of the section, first and second coordinate in m, by the torque, 1/m^3. Outside of a polygon
+    /// there is none.
     pub fn torsion_stress(&self, [y, z]: [f64; 2]) -> f64 {
+        if self.loops().is_some() {
+            let found = solved::field(self).and_then(|field| field.stress([y, z]));
+            return found.map_or(0.0, |[first, second]| first.hypot(second));
+        }
         let constant = self.numbers().torsion_constant;
         match *self {
+            Self::HollowEllipse {
+                width,
+                height,
+                inner_width,
+            } => {
+                // Lines of the stress of a whole ellipse are ellipses like it: the hole cuts along one.
+                let whole = Self::Ellipse { width, height };
+                whole.torsion_stress([y, z]) / (1.0 - (inner_width / width).powi(4))
+            }
+            Self::Box { .. }
+            | Self::I { .. }
+            | Self::C { .. }
+            | Self::T { .. }
+            | Self::L { .. }
+            | Self::Polygon { .. } => unreachable!("polygons are solved"),
             Self::Circle { .. } | Self::Tube { .. } => y.hypot(z) / constant,
             Self::Ellipse { width, height } => {
                 let [a, b] = [0.5 * width, 0.5 * height];

@@ -8,6 +8,7 @@ mod lines;
 mod outputs;
 mod patch;
 mod ports;
+mod profiles;
 mod reduced;
 mod references;
 mod releases;

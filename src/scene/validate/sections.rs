@@ -75,12 +75,37 @@ impl LineBody {
                 let wanted = "shear factors at all stations or at none";
                 return Err(expected(&format!("{place}.section"), wanted, "another way"));
             }
+            self.validate_between(&place, k)?;
             if !says(&|section| section.stiffness.is_some()) {
                 let wanted = "`stiffness` and `inertia` at all stations or at none";
                 return Err(expected(&format!("{place}.section"), wanted, "another way"));
             }
         }
         Ok(())
+    }
+
+    /// Shapes between a station and the one before it exist, where polygons change.
+    fn validate_between(&self, place: &str, k: usize) -> Result<(), Error> {
+        let Some(before) = k
+            .checked_sub(1)
+            .map(|before| &self.stations[before].section.shape)
+        else {
+            return Ok(());
+        };
+        let (Some(first), Some(last)) = (before, &self.stations[k].section.shape) else {
+            return Ok(());
+        };
+        let is_step = self.stations[k].at == self.stations[k - 1].at;
+        if is_step || first == last || [first, last].iter().all(|of| of.key() != "polygon") {
+            return Ok(());
+        }
+        let place = format!("{place}.section.shape.{}", last.key());
+        if !first.is_like(last) {
+            let wanted =
+                "a polygon with as many corners and holes as the one at the station before";
+            return Err(expected(&place, wanted, "another shape"));
+        }
+        first.validate_between(last, &place)
     }
 
     /// Checks values that the chosen element may not use.
@@ -135,6 +160,7 @@ impl LineBody {
             return Err(expected(&at("strain"), wanted, "another measure"));
         }
         self.validate_axis(&at("axis"), dimension)?;
+        self.validate_shear(path)?;
         match dimension {
             // What couples is refused with the sections.
             2 => Ok(()),
@@ -142,12 +168,40 @@ impl LineBody {
         }
     }
 
-    /// Stiffness is positive with what couples stretching, twist and bending.
-    fn validate_coupling(&self, path: &str) -> Result<(), Error> {
+    /// Iterates over the section and those at stations with their places.
+    fn places_of_sections(&self, path: &str) -> impl Iterator<Item = (&Section, String)> {
         let one = [(&self.section, format!("{path}.section"))];
         let stations = self.stations.iter().enumerate();
-        let all = stations.map(|(k, s)| (&s.section, format!("{path}.stations[{k}].section")));
-        for (section, place) in one.into_iter().chain(all) {
+        one.into_iter().chain(
+            stations.map(move |(k, s)| (&s.section, format!("{path}.stations[{k}].section"))),
+        )
+    }
+
+    /// Shear compliance of shapes is positive at the ratio of Poisson of both moduli.
+    fn validate_shear(&self, path: &str) -> Result<(), Error> {
+        if !self.is_beam() || self.material.shear_modulus.is_none() {
+            return Ok(());
+        }
+        for (section, place) in self.places_of_sections(path) {
+            let Some(shape) = section.shape.as_ref().filter(|of| of.solved_by_elements()) else {
+                continue;
+            };
+            shape.validate(&format!("{place}.shape.{}", shape.key()))?;
+            if self
+                .shear_stiffness(&section.numbers())
+                .cholesky()
+                .is_none()
+            {
+                let wanted = "moduli whose ratio of Poisson, `E / (2 G) - 1`, leaves a shear compliance, or `shear_factors`";
+                return Err(expected(&place, wanted, "moduli that leave none"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Stiffness is positive with what couples stretching, twist and bending.
+    fn validate_coupling(&self, path: &str) -> Result<(), Error> {
+        for (section, place) in self.places_of_sections(path) {
             for (key, coupling) in [
                 ("coupling", section.coupling),
                 ("axial_coupling", section.axial_coupling),
@@ -219,7 +273,7 @@ impl Section {
         } else {
             self.refuse_what_is_of_beams(path)?;
         }
-        if let Some(shape) = self.shape {
+        if let Some(shape) = &self.shape {
             return self.validate_shape(path, dimension, kind, shape);
         }
         let at = |key: &str| format!("{path}.{key}");
@@ -242,7 +296,7 @@ impl Section {
         path: &str,
         dimension: usize,
         kind: LineModel,
-        mut shape: Profile,
+        shape: &Profile,
     ) -> Result<(), Error> {
         let turns = kind != LineModel::Cable && dimension == 3;
         let numbers = [
@@ -256,22 +310,7 @@ impl Section {
             return Err(expected(&format!("{path}.{key}"), wanted, "a value"));
         }
         let place = format!("{path}.shape.{}", shape.key());
-        for (key, _, length) in shape.lengths() {
-            positive(&format!("{place}.{key}"), "m", *length)?;
-        }
-        match shape {
-            Profile::Tube {
-                radius,
-                inner_radius,
-            } if inner_radius >= radius => {
-                let path = format!("{place}.inner_radius");
-                return Err(expected(&path, "less than the outer radius", inner_radius));
-            }
-            Profile::Rectangle { .. }
-            | Profile::Ellipse { .. }
-            | Profile::Circle { .. }
-            | Profile::Tube { .. } => {}
-        }
+        shape.validate(&place)?;
         let couplings = [
             ("coupling", self.coupling.is_some()),
             ("axial_coupling", self.axial_coupling.is_some()),
@@ -280,8 +319,7 @@ impl Section {
             let wanted = instead_of_turning(kind);
             return Err(expected(&format!("{path}.{key}"), wanted, "a value"));
         }
-        let [first, second] = shape.numbers().second_moments;
-        if turns || first == second {
+        if turns || shape.numbers().is_alike() {
             return Ok(());
         }
         let instead = "a circle or a tube of a cable, which bends alike to all sides (an element of \"rod\" does not),";

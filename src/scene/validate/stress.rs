@@ -143,6 +143,9 @@ impl<'a> Resolved<'a> {
                 let wanted = "a point on the line of a cable without bending stiffness";
                 return Err(expected(&path, wanted, format!("{point:?}")));
             }
+            if let (true, Some(shape)) = (is_torsion, &section.shape) {
+                shape.validate_point(&path, point)?;
+            }
             self.points.push(SectionPoint {
                 marker,
                 cable,

@@ -5,6 +5,7 @@ mod contacts;
 mod fluids;
 mod patches;
 mod planar_beams;
+mod profiles;
 mod reduced;
 mod releases;
 mod schema;

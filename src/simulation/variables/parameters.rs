@@ -139,7 +139,7 @@ fn add_numbers(list: &mut List, cable: &Cable<'_>) {
 
 /// Lengths of a cross section that is given by its shape.
 fn add_lengths(list: &mut List, cable: &Cable<'_>) {
-    let Some(mut shape) = cable.body.section.shape else {
+    let Some(mut shape) = cable.body.section.shape.clone() else {
         return;
     };
     for (k, (key, what, length)) in shape.lengths().into_iter().enumerate() {

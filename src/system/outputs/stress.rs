@@ -22,6 +22,8 @@ pub struct StressPoint {
     pub by_moments: [f64; 2],
     /// Shear stress by the torque, 1/m^3.
     pub by_torque: f64,
+    /// Point of the section that it twists about and that the torque is about, m.
+    pub twist_center: [f64; 2],
 }
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -52,9 +54,15 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Shear stress by torsion at a point of a section, Pa.
     pub fn torsion_stress(&self, system: &System<D>, point: &StressPoint) -> N {
-        let (_, moment) = self.cut(system, &point.marker);
-        let [normal, ..] = self.section_axes(system, &point.marker);
-        normal.dot(&Vector3::from(moment)) * N::of(point.by_torque)
+        let (force, moment) = self.cut(system, &point.marker);
+        let [normal, first, second] = self.section_axes(system, &point.marker);
+        let mut torque = normal.dot(&Vector3::from(moment));
+        if point.twist_center != [0.0; 2] {
+            let force = Vector3::from(components(&force));
+            let [y, z] = point.twist_center.map(N::of);
+            torque = torque + first.dot(&force) * z - second.dot(&force) * y;
+        }
+        torque * N::of(point.by_torque)
     }
 
     /// Returns the normal of a section and its axes. In the plane they are the tangent and the perpendicular axis,

@@ -19,6 +19,7 @@ mod methods;
 mod motions;
 mod planar_beams;
 mod ports;
+mod profiles;
 mod reeving;
 mod releases;
 mod rigid;
@@ -62,6 +63,7 @@ pub fn all() -> Vec<Specimen> {
         fluids::all(),
         inputs::all(),
         ports::all(),
+        profiles::all(),
         reeving::all(),
         releases::all(),
         methods::all(),
