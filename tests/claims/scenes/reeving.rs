@@ -157,7 +157,9 @@ fn steered() -> Specimen {
         "name": "steered", "dimension": 2, "bodies": bodies,
         "loads": [rope("rope", 0, json!({"length": 1.9})), to("spring", "spring_damper", json!({"stiffness": 5.0, "length": 0.5})),
                   to("table", "table_spring", json!({"spring": [[0.5, 0.0], [1.0, 2.0]]})),
-                  to("law", "force_law", json!({"force": "3*x^2"}))],
+                  to("law", "force_law", json!({"force": "3*x^2"})),
+                  // One whose tension is not read, so that the others could be read of it.
+                  to("spare", "spring_damper", json!({"stiffness": 1.0, "length": 0.7}))],
         "inputs": [{"kind": "rest_length", "load": "rope", "start": [1.6]}],
         "outputs": [{"kind": "tension", "load": "rope"}, {"kind": "tension", "load": "spring"}, {"kind": "tension", "load": "table"},
                     {"kind": "tension", "load": "law"}]});
