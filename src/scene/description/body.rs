@@ -494,19 +494,22 @@ impl LineBody {
     }
 
     /// Shear forces along both axes by shear strains at the shear centre, N: by factors as said or of the shape, or by its whole compliance. Zero
-    /// where that is not positive.
+    /// where that is not positive. Moduli with a ratio of Poisson that no isotropic solid in use has, below 0 or above 0.5, take the compliance at
+    /// the nearer end: contraction to the sides is not known of them.
     pub fn shear_stiffness(&self, numbers: &SectionNumbers) -> Matrix2<f64> {
         let (young, shear) = (self.material.young(), self.material.shear_modulus);
         let ratio = shear.map_or(0.0, |shear| 0.5 * young / shear - 1.0);
+        let modulus = shear.unwrap_or_default();
         let shape = numbers.shape.as_ref();
         let closed = shape.and_then(|shape| shape.shear_factors(ratio));
         let factors = numbers.shear_factors.or(closed);
         if let (None, Some(of)) = (factors, &numbers.shear) {
             let [first, second] = of.compliance;
+            let ratio = ratio.clamp(0.0, 0.5);
             let compliance = (first + second * ratio).cholesky();
-            return compliance.map_or_else(Matrix2::zeros, |of| of.inverse() * young);
+            let modulus = 2.0 * (1.0 + ratio) * modulus;
+            return compliance.map_or_else(Matrix2::zeros, |of| of.inverse() * modulus);
         }
-        let modulus = shear.unwrap_or_default();
         let along = factors.unwrap_or([1.0; 2]);
         Matrix2::from_diagonal(&along.map(|factor| factor * modulus * numbers.area).into())
     }

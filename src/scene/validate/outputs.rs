@@ -212,9 +212,9 @@ impl<'a> Resolved<'a> {
             Output::LatchForce(of) | Output::LatchTorque(of) | Output::LatchState(of) => {
                 self.latch(&at("latch"), &of.latch, output)?
             }
-            Output::LoadForce(of) => self.exerting(&at("load"), &of.load, false)?,
-            Output::LoadMoment(of) => self.exerting(&at("load"), &of.load, true)?,
-            Output::Tension(of) => self.pulling(&at("load"), &of.load)?,
+            Output::LoadForce(of) | Output::LoadMoment(of) | Output::Tension(of) => {
+                self.load_output(&at("load"), &of.load, output)?
+            }
             Output::Energy(_)
             | Output::Work(_)
             | Output::Momentum(_)
@@ -329,6 +329,19 @@ impl<'a> Resolved<'a> {
             let known = self.numbered_loads().map(|(_, load)| load.name);
             unknown(path, "a load of this scene", name, known)
         })
+    }
+
+    /// A load whose force, moment or tension is read.
+    fn load_output(
+        &self,
+        path: &str,
+        name: &str,
+        output: &Output,
+    ) -> Result<OutputTarget<'a>, Error> {
+        match output {
+            Output::Tension(_) => self.pulling(path, name),
+            _ => self.exerting(path, name, matches!(output, Output::LoadMoment(_))),
+        }
     }
 
     /// A load that pulls along a line.
