@@ -45,7 +45,7 @@ pub use initial::{Initial, InitialState};
 pub use input::Input;
 pub use kinds::{tell_apart, tell_by_tag};
 pub use output::{
-    Along, DeflectionOutput, OfGear, Output, OutputKind, PlyStressOutput, ReactionOutput,
+    Along, DeflectionOutput, OfGear, OfLoad, Output, OutputKind, PlyStressOutput, ReactionOutput,
 };
 pub use patch::{
     LaminatePly, Pad, PatchBody, PatchMarker, PatchMesh, PatchStiffness, PatchSurface,

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{expected, needed, or, quoted, unknown};
 use super::references::refuse_point;
 use crate::scene::Error;
-use crate::scene::description::{Along, DeflectionOutput, OfGear, Output, ReactionOutput};
+use crate::scene::description::{Along, DeflectionOutput, OfGear, OfLoad, Output, ReactionOutput};
 use crate::scene::loads::{LoadKind, ResolvedLoad};
 use crate::scene::resolved::{
     self, AngleId, DirectionSource, EdgeBase, First, OutputTarget, Place, Reaction, Resolved,
@@ -212,9 +212,8 @@ impl<'a> Resolved<'a> {
             Output::LatchForce(of) | Output::LatchTorque(of) | Output::LatchState(of) => {
                 self.latch(&at("latch"), &of.latch, output)?
             }
-            Output::LoadForce(of) | Output::LoadMoment(of) | Output::Tension(of) => {
-                self.load_output(&at("load"), &of.load, output)?
-            }
+            Output::LoadForce(of) | Output::LoadMoment(of) => self.exerting(path, of, output)?,
+            Output::Tension(of) => self.pulling(&at("load"), &of.load)?,
             Output::Energy(_)
             | Output::Work(_)
             | Output::Momentum(_)
@@ -331,19 +330,6 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// A load whose force, moment or tension is read.
-    fn load_output(
-        &self,
-        path: &str,
-        name: &str,
-        output: &Output,
-    ) -> Result<OutputTarget<'a>, Error> {
-        match output {
-            Output::Tension(_) => self.pulling(path, name),
-            _ => self.exerting(path, name, matches!(output, Output::LoadMoment(_))),
-        }
-    }
-
     /// A load that pulls along a line.
     fn pulling(&self, path: &str, name: &str) -> Result<OutputTarget<'a>, Error> {
         let (id, load) = self.read_load(path, name)?;
@@ -355,7 +341,15 @@ impl<'a> Resolved<'a> {
         Err(expected(path, wanted, quoted(name)))
     }
 
-    fn exerting(&self, path: &str, name: &str, is_moment: bool) -> Result<OutputTarget<'a>, Error> {
+    /// A load whose force or moment is read.
+    fn exerting(
+        &self,
+        path: &str,
+        of: &OfLoad,
+        output: &Output,
+    ) -> Result<OutputTarget<'a>, Error> {
+        let (path, name) = (&format!("{path}.load"), &of.load);
+        let is_moment = matches!(output, Output::LoadMoment(_));
         let (id, load) = self.read_load(path, name)?;
         if load.kind.exerts()[usize::from(is_moment)] {
             return Ok(OutputTarget::Load(load.name, id, load.kind.exerts_on()));
