@@ -43,7 +43,7 @@ fn particle(load: Value, inputs: Value) -> Value {
     })
 }
 
-/// A stiff rod that rotates about its end without gravity, one turn a second.
+/// A stiff rod that rotates about its end without gravity, one revolution a second.
 fn turning_rod() -> Value {
     json!({
         "name": "turning", "dimension": 2,

@@ -152,7 +152,7 @@ fn rates_without_columns_are_those_of_the_curve_through_the_values() {
         );
         let spline = errors(input, Interpolation::Spline, 0.002);
         assert!(spline.iter().all(|error| *error < 2e-5), "{spline:?}");
-        // Ten communication steps from row to row: the cube of what the road turns from one to the next, 0.19 rad.
+        // Ten communication steps from row to row: the cube of what the road rotates from one to the next, 0.19 rad.
         let coarse = errors(input, Interpolation::Spline, 0.02);
         assert!(coarse.iter().all(|error| *error < 1e-2), "{coarse:?}");
     }
@@ -319,7 +319,7 @@ fn a_load_that_no_step_follows_is_refused_or_told_once() {
     }
 }
 
-/// A strip of unequal second moments, clamped along x in a scene that turns about z.
+/// A strip of unequal second moments, clamped along x in a scene that rotates about z.
 fn turning(element: &str, rate: f64) -> Value {
     json!({"name": "turning", "dimension": 3, "rotation": [0.0, 0.0, rate],
         "bodies": [{"name": "strip", "element": element, "elements": 2,

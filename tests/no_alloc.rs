@@ -180,7 +180,7 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
           "accuracy": { "relative_tolerance": 1.0e-4 },
           "method": { METHOD } }"#;
 
-/// A block that stops and turns back under friction, and one that a latch catches.
+/// A block that stops and rotates back under friction, and one that a latch catches.
 const EVENTS: &str = r#"{ "name": "events", "dimension": 2,
           "bodies": [
             { "name": "block", "element": "rigid", "mass": 2.0, "inertia": 0.1, "position": [0.0, 0.0],

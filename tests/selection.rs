@@ -10,7 +10,7 @@ use flexbody::simulation::{Simulation, Snapshot};
 const PENDULUM: &str = include_str!("cases/soft_pendulum/scene.json");
 /// Driven slowly from rest: the rule that begins takes it for soft.
 const SPIN_UP: &str = include_str!("../scenes/spin_up_beam.json");
-/// A body that turns fast.
+/// A body that rotates fast.
 const GYROSCOPE: &str = include_str!("../scenes/gyroscope.json");
 /// Solved implicitly but for trials of either explicit tableau.
 const LOAD: &str = include_str!("../scenes/travelling_load.json");

@@ -1,10 +1,10 @@
-//! Rigid bodies of space in open trees, whose joints each hold one point and some turns: the least change of `q` that
+//! Rigid bodies of space in open trees, whose joints each hold one point and some rotates: the least change of `q` that
 //! satisfies all of them, `[I J^T; J 0]` eliminated body by body from the leaves to the roots.
 //!
 //! Once a body and the multipliers of its joint are eliminated, what its parent feels is an inertia again, `I'`, without
-//! what the joint leaves free. Ways `s` that are free (six numbers: a turn, a shift of the point that is held) say that
+//! what the joint leaves free. Ways `s` that are free (six numbers: a rotation, a shift of the point that is held) say that
 //! at less cost than multipliers: with `U = I s`, `D = s.U`, the rest is `I' = I - U U^T / D`, way after way. All
-//! pivots `D` are positive, and constraints depend on each other nowhere but where two of the turns that one joint holds
+//! pivots `D` are positive, and constraints depend on each other nowhere but where two of the rotations that one joint holds
 //! do.
 //!
 //! Sources: R. Featherstone, Rigid Body Dynamics Algorithms (2008), chapter 7 (articulated bodies); D. Baraff, Linear-time
@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::connectivity::Node;
 use super::frame::{Axes, RigidBodyFrame, combined};
 
-/// Part of the product of their sizes that turns which a joint holds must span.
+/// Part of the product of their sizes that rotations which a joint holds must span.
 const SPAN: f64 = 1e-3;
 
 /// A body and the joint to its parent.
@@ -30,13 +30,13 @@ pub struct Link {
     /// Components of the point that is held along the axes of the body and of its parent, m; nothing where no joint holds
     /// the body.
     pub arms: Option<[[f64; 3]; 2]>,
-    /// Where the turns that are held are among all of them: up to three.
+    /// Where the rotations that are held are among all of them: up to three.
     pub turns: Range<usize>,
     /// Where its centre of mass is among the coordinates `q`, and how many of that make a metre.
     pub center: (usize, f64),
 }
 
-/// A turn and a shift, rad/s^2 and m/s^2; or a moment and a force, N m and N.
+/// A rotation and a shift, rad/s^2 and m/s^2; or a moment and a force, N m and N.
 #[derive(Clone, Copy, Debug, Default)]
 struct Twist {
     turn: Vector3<f64>,
@@ -54,7 +54,7 @@ impl Twist {
     }
 }
 
-/// Inertia against turns and shifts of a point: moment `J w + H v`, force `H^T w + M v`.
+/// Inertia against rotations and shifts of a point: moment `J w + H v`, force `H^T w + M v`.
 #[derive(Clone, Copy, Debug, Default)]
 struct SpatialInertia {
     j: Matrix3<f64>,
@@ -163,7 +163,7 @@ pub struct Articulated {
     free: Vec<Free>,
     /// Free ways of every link.
     ways: Vec<Range<usize>>,
-    /// For every turn that is held, about what it is, and the turn that changes it alone.
+    /// For every rotation that is held, about what it is, and the rotation that changes it alone.
     normals: Vec<Vector3<f64>>,
     duals: Vec<Vector3<f64>>,
 }
@@ -195,8 +195,8 @@ impl Articulated {
         &self.links
     }
 
-    /// Factors at nodal coordinates. `normal` tells the moment on the body of a link that a unit multiplier of a turn takes.
-    /// False where turns that a joint holds depend on each other.
+    /// Factors at nodal coordinates. `normal` tells the moment on the body of a link that a unit multiplier of a rotation takes.
+    /// False where rotations that a joint holds depend on each other.
     pub fn factor<const D: usize>(
         &mut self,
         frames: &[RigidBodyFrame],
@@ -301,7 +301,7 @@ impl Articulated {
         }
     }
 
-    /// Changes `q` by the least that makes `J q` what joints ask for: `turn` tells it of every turn, `shift` of every link
+    /// Changes `q` by the least that makes `J q` what joints ask for: `turn` tells it of every rotation, `shift` of every link
     /// how much more the point of the body than that of the parent is to have.
     pub fn bring(
         &mut self,

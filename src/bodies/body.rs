@@ -152,7 +152,7 @@ pub(super) trait BodyPart<const D: usize> {
     /// Adds the part of the acceleration of axes that is quadratic in rates.
     fn add_centripetal<N: Number>(&self, _motion: NodalMotion<'_, D, N>, _a: &mut [Node<D, N>]) {}
 
-    /// Turns forces on axes into moments. Where rates are given, it also subtracts the quadratic inertia forces of rigid bodies. Those of
+    /// Converts forces on axes into moments. Where rates are given, it also subtracts the quadratic inertia forces of rigid bodies. Those of
     /// sections are in [`BodyPart::add_gyroscopic`].
     fn pull_back<N: Number>(
         &self,

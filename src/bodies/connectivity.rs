@@ -55,7 +55,7 @@ pub fn map_node<const D: usize, A: Copy, B>(node: &Node<D, A>, of: impl Fn(A) ->
 pub(super) fn largest_rotation<'a, const D: usize>(
     directions: impl Iterator<Item = (&'a [f64; D], &'a [f64; D])>,
 ) -> f64 {
-    // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
+    // Squares of the largest tangent of a rotation, of the least and of the largest stretch; rotations beyond a right angle.
     let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
     for (a, b) in directions {
         let [a, b] = [a, b].map(|direction| Vector::from(*direction));

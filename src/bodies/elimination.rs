@@ -2,7 +2,7 @@
 //! `T^T M T = I`, so that `q'' = T^T F`.
 //!
 //! The QR of the constraints gives `x = N y` (see `connectivity`); the Cholesky factor of the mass over
-//! the free coordinates, `N^T M N = W W^T`, turns that into `T = N W^-T`. Both are sparse and applied,
+//! the free coordinates, `N^T M N = W W^T`, converts that into `T = N W^-T`. Both are sparse and applied,
 //! never formed: O(nodes). With `M = L L^T` this is the same `T` as `L^-T Q2` from `L^-1 Phi^T = Q R`, up
 //! to a rotation of `q`, at a third of the cost (docs/decisions/0001-mass-weighted-elimination.md and
 //! 0008-nodes-clusters-cholesky.md).

@@ -72,7 +72,7 @@ pub(super) fn along<const D: usize, N: Number>(axes: &Axes<N>, v: &Vector<D, N>)
     Vector3::from_fn(|k, _| axes[k].dot(&v))
 }
 
-/// Rates of axes that turn at a spin along themselves.
+/// Rates of axes that rotate at a spin along themselves.
 pub fn axis_rates<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> {
     [
         b * spin[2] - c * spin[1],

@@ -20,7 +20,7 @@ pub struct LumpedMass {
     pub mass: f64,
     /// Mass of the fluid that moves along, kg: it has inertia and no weight.
     pub added: f64,
-    /// Inertia of the direction against turning (and of a slope against stretching), kg m^2.
+    /// Inertia of the direction against rotating (and of a slope against stretching), kg m^2.
     pub inertia: f64,
 }
 

@@ -21,7 +21,7 @@ pub struct Marker<N = f64> {
     values: [N; 4],
     /// Weights of position and direction of both nodes in the direction.
     slopes: [N; 4],
-    /// Weight, in the position, of the first node's direction turned left by a right angle, m; planar bodies.
+    /// Weight, in the position, of the first node's direction rotated left by a right angle, m; planar bodies.
     across: N,
     /// Element of a cable and the place inside it, in [0, 1].
     pub element: Option<(usize, f64)>,
@@ -215,7 +215,7 @@ impl<N: Number> Marker<N> {
         }
     }
 
-    /// Whether it belongs to a rigid body of space that turns: to both of its nodes, of which the second follows the first.
+    /// Whether it belongs to a rigid body of space that rotates: to both of its nodes, of which the second follows the first.
     pub fn is_framed(&self) -> bool {
         self.element.is_none() && self.nodes[1] == self.nodes[0] + 1
     }

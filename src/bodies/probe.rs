@@ -108,7 +108,7 @@ impl NodeBlocks {
     }
 
     /// Adds, over the coordinates of bodies, what derivatives by rates make of those that small rotations change: the axes of a
-    /// body that is turned by `p` have the rates `p x e'`.
+    /// body that is rotated by `p` have the rates `p x e'`.
     pub fn add_by_rates_of_axes<const D: usize>(
         &mut self,
         by_rates: &Self,

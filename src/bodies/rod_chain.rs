@@ -1,5 +1,5 @@
 //! The sections of a rod or beam, along the chain that is its line: bending and torsion; of a beam shear and stretching too. Its nodes are
-//! those of the line, two for the frame carried at each of them, and one inside every element, which holds the internal twist and a beam's
+//! those of the line, two for the frame transported at each of them, and one inside every element, which holds the internal twist and a beam's
 //! internal shear rotations alone. In the plane there are beams alone; the section at a node is a unit vector in one node (`plane.rs`).
 
 mod body;
@@ -56,7 +56,7 @@ pub struct RodChain {
     /// Which components of spins, moments and internal coordinates there are: the first of a rod, all of a beam, the second of one in the
     /// plane, where the internal coordinate is the angle of the section in the middle of the element.
     parts: Range<usize>,
-    /// First node of the line, of the carried frames, and inside the elements.
+    /// First node of the line, of the transported frames, and inside the elements.
     line: usize,
     frames: usize,
     inner: usize,

@@ -1,17 +1,17 @@
-//! Solves for the stages of an implicit method together, with one tangent that turns along.
+//! Solves for the stages of an implicit method together, with one tangent that rotates along.
 //!
 //! The stage equations become one real and one complex system when all stages share a tangent. In
-//! absolute coordinates they hardly do: a slope that turns by `t` in a step turns the axial stiffness
+//! absolute coordinates they hardly do: a slope that rotates by `t` in a step rotates the axial stiffness
 //! with it, and Newton's method diverges as soon as `EA t^2` outweighs inertia. So forces of every
-//! stage are turned back, node by node, to where the tangent was made, and displacements are turned
-//! forth again. Mass is isotropic and hardly notices; what is left of the turn only slows convergence
+//! stage are rotated back, node by node, to where the tangent was made, and displacements are rotated
+//! forth again. Mass is isotropic and hardly notices; what is left of the rotation only slows convergence
 //! down in proportion (docs/decisions/0005-corotated-newton.md).
 //!
-//! Nodes that are tied together turn differently, and what is common to them cannot follow all. It
+//! Nodes that are tied together rotate differently, and what is common to them cannot follow all. It
 //! follows the stiff directions: a displacement is taken to the one that stretches every cable at the
 //! joint as much as before, forces the opposite way.
 //!
-//! Turning every node by itself changes sums over nodes. The translation of a part that nothing holds
+//! Rotating every node by itself changes sums over nodes. The translation of a part that nothing holds
 //! is therefore put right before and after, so that momentum is kept exactly however far the
 //! iteration goes.
 
@@ -40,7 +40,7 @@ pub struct RotatingNodes {
     pub elastic: Vec<bool>,
     /// Nodes of sections and of what is inside elements, which do not rotate on their own, `[nodes]`.
     pub still: Vec<bool>,
-    /// Nodes of reduced bodies, whose coordinates turn with them as it is, `[nodes]`.
+    /// Nodes of reduced bodies, whose coordinates rotate with them as it is, `[nodes]`.
     pub modal: Vec<bool>,
     /// Nodes of lines with those of the sections that they rotate with.
     pub sections: Vec<(usize, usize)>,
@@ -50,7 +50,7 @@ pub struct RotatingNodes {
     pub stiffeners: Vec<(usize, usize)>,
 }
 
-/// Vectors of the stages and how far the directions of nodes have turned.
+/// Vectors of the stages and how far the directions of nodes have rotated.
 #[derive(Clone, Debug)]
 pub struct Stages<const D: usize> {
     nodes: Vec<Node<D>>,
@@ -61,9 +61,9 @@ pub struct Stages<const D: usize> {
     knots: Vec<TiedCluster>,
     /// Whether nodes belong to cables.
     elastic: Vec<bool>,
-    /// Nodes whose vectors turn by themselves, side by side. Rigid bodies of space have coordinates that turn with them as it is.
+    /// Nodes whose vectors rotate by themselves, side by side. Rigid bodies of space have coordinates that rotate with them as it is.
     turning: Vec<Range<usize>>,
-    /// Beams turn with these.
+    /// Beams rotate with these.
     sections: StageSections,
     floating: Vec<Floating>,
 }
@@ -73,10 +73,10 @@ pub struct Stages<const D: usize> {
 const ALONG: f64 = 1.0;
 const ACROSS: f64 = 1e-3;
 const RIGID: f64 = 1e-6;
-/// Difference of turns, rad, from which on tied nodes cannot each turn by itself.
+/// Difference of rotations, rad, from which on tied nodes cannot each rotate by itself.
 const APART: f64 = 3e-3;
 
-/// How the free coordinates of a cluster with cables turn at the stages: by least squares with the weights `W` above,
+/// How the free coordinates of a cluster with cables rotate at the stages: by least squares with the weights `W` above,
 /// `(N^T W N)^-1 N^T W R N`.
 #[derive(Clone, Debug)]
 struct TiedCluster {
@@ -86,7 +86,7 @@ struct TiedCluster {
     normal: [Matrix<f64>; STAGES],
     pattern: Pattern,
     across: Vec<f64>,
-    /// Stages at which its nodes turn apart: at others each node may turn by itself.
+    /// Stages at which its nodes rotate apart: at others each node may rotate by itself.
     active: [bool; STAGES],
     /// Scratch: a vector of free coordinates.
     along: Vec<f64>,
@@ -146,12 +146,12 @@ impl<const D: usize> Stages<D> {
         }
     }
 
-    /// Whether no node turns, by itself or with a section.
+    /// Whether no node rotates, by itself or with a section.
     fn is_still(&self) -> bool {
         self.turning.is_empty() && self.sections.is_empty()
     }
 
-    /// Turns the forces on a stage back to where the tangent was made; their sum stays.
+    /// Rotates the forces on a stage back to where the tangent was made; their sum stays.
     pub(super) fn rotate_to_tangent(
         &mut self,
         assembly: &Assembly<D>,
@@ -178,7 +178,7 @@ impl<const D: usize> Stages<D> {
         }
     }
 
-    /// Turns displacements forth to a stage; their mean translation stays.
+    /// Rotates displacements forth to a stage; their mean translation stays.
     pub(super) fn rotate_to_stage(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
         if self.is_still() {
             return;
@@ -200,7 +200,7 @@ impl<const D: usize> Stages<D> {
         }
     }
 
-    /// Weighs the vectors of tied nodes whose directions turn apart.
+    /// Weighs the vectors of tied nodes whose directions rotate apart.
     fn weigh(&mut self, assembly: &Assembly<D>, stage: usize) {
         for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
             for node in &assembly.clusters()[knot.cluster].nodes {
@@ -220,7 +220,7 @@ impl<const D: usize> Stages<D> {
 
 fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<TiedCluster> {
     let clusters = assembly.clusters().iter().enumerate();
-    // A single node turns as it is; without a cable nothing is stiff.
+    // A single node rotates as it is; without a cable nothing is stiff.
     let stiff = clusters.filter(|(_, c)| c.nodes.len() > 1 && c.nodes.iter().any(|n| elastic[*n]));
     stiff
         .filter(|(_, cluster)| cluster.basis.ncols() > 0)
@@ -260,7 +260,7 @@ impl TiedCluster {
         elastic: &[bool],
         (base, turned): (&[SVector<f64, D>], &[SVector<f64, D>]),
     ) {
-        // How differently two nodes turn the direction of the first one.
+        // How differently two nodes rotate the direction of the first one.
         let first = cluster.nodes[0];
         let apart = |node: &usize| {
             let other = rotated(&base[*node], &turned[*node], &base[first]);
@@ -477,7 +477,7 @@ impl<const D: usize> Tangent<D> {
     }
 }
 
-/// Directions that nodes turn with.
+/// Directions that nodes rotate with.
 fn unit_directions<const D: usize>(
     x: &[Node<D>],
     turning: &[Range<usize>],
@@ -490,7 +490,7 @@ fn unit_directions<const D: usize>(
     }
 }
 
-/// Turns the vectors of nodes.
+/// Rotates the vectors of nodes.
 fn rotate_all<const D: usize>(
     nodes: &mut [Node<D>],
     turning: &[Range<usize>],
@@ -504,14 +504,14 @@ fn rotate_all<const D: usize>(
     }
 }
 
-/// Turns the vectors of a node by the smallest rotation that takes the unit vector `from` to `to`.
+/// Rotates the vectors of a node by the smallest rotation that takes the unit vector `from` to `to`.
 fn turn<const D: usize>(from: &SVector<f64, D>, to: &SVector<f64, D>, x: &mut Node<D>) {
     for vector in x {
         *vector = rotated(from, to, &SVector::from(*vector)).into();
     }
 }
 
-/// A vector turned by the smallest rotation that takes the unit vector `from` to `to`.
+/// A vector rotated by the smallest rotation that takes the unit vector `from` to `to`.
 pub(super) fn rotated<const D: usize>(
     from: &SVector<f64, D>,
     to: &SVector<f64, D>,

@@ -1,5 +1,5 @@
 //! What the sections of a rod or of a beam add to their line, seen alike: through the coordinates of a beam, of which a rod has fewer.
-//! A rod's section turns about the tangent alone; its first component of spins, moments and internal coordinates is all that there is.
+//! A rod's section rotates about the tangent alone; its first component of spins, moments and internal coordinates is all that there is.
 //!
 //! Source: J. C. Simo, L. Vu-Quoc, On the dynamics in space of rods undergoing large motions, Comput. Methods Appl. Mech. Eng. 66 (1988)
 //! 125-161 (rotary inertia of sections along their own axes).
@@ -287,7 +287,7 @@ mod tests {
         ]
     }
 
-    /// The power of moments along an element is that with the angular velocities with which its sections are seen to turn.
+    /// The power of moments along an element is that with the angular velocities with which its sections are seen to rotate.
     #[test]
     fn moments_do_work_where_sections_turn() {
         let moments = [

@@ -31,7 +31,7 @@ const DIVERGING: f64 = 2.0;
 const END: usize = 2;
 /// Most Newton iterations.
 const ITERATIONS: i32 = 10;
-/// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
+/// Largest rotation of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_ROTATION: f64 = 1.5;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
@@ -208,7 +208,7 @@ impl Radau {
                     (ratio * ratio_before).sqrt()
                 };
                 ratio_before = ratio;
-                // Stiff directions that turn apart converge in pairs of iterations: the first ratio says
+                // Stiff directions that rotate apart converge in pairs of iterations: the first ratio says
                 // little.
                 let early = k == 1;
                 if theta >= if early { DIVERGING } else { 0.99 } {

@@ -4,7 +4,7 @@
 
 use super::vector::{dot, norm};
 
-/// Turns `x` into the vector `v` of a reflection that maps `x` to `beta` times the first unit
+/// Converts `x` into the vector `v` of a reflection that maps `x` to `beta` times the first unit
 /// vector, with `v[0] = 1`. Returns (`tau`, `beta`); a zero vector gives `tau = 0`.
 pub fn reflector(x: &mut [f64]) -> (f64, f64) {
     let norm = norm(x);

@@ -1,4 +1,4 @@
-//! Vectors of the plane and of space, by one set of formulas: the plane is that of the first two axes, and turns
+//! Vectors of the plane and of space, by one set of formulas: the plane is that of the first two axes, and rotates
 //! counter-clockwise about the third.
 
 use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
@@ -52,7 +52,7 @@ pub fn is_isotropic_below<const D: usize>(
         })
 }
 
-/// The part in the plane, turned left by a right angle.
+/// The part in the plane, rotated left by a right angle.
 pub fn perpendicular<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
     let mut turned = Vector::zeros();
     (turned[0], turned[1]) = (-v[1], v[0]);
@@ -69,7 +69,7 @@ pub fn cross<const D: usize, N: Number>(a: &Vector<D, N>, b: &Vector<D, N>) -> N
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// The part in the plane turned left by the angle with this sine and cosine; what is across the plane stays.
+/// The part in the plane rotated left by the angle with this sine and cosine; what is across the plane stays.
 pub fn turned<const D: usize, N: Number>(v: Vector<D, N>, (sin, cos): (N, N)) -> Vector<D, N> {
     let mut turned = v;
     (turned[0], turned[1]) = (cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]);
@@ -85,12 +85,12 @@ pub fn moment<const D: usize, N: Number>(a: &Vector<D, N>, b: &Vector<D, N>) -> 
     })
 }
 
-/// Axes that a body can turn about: the third in the plane.
+/// Axes that a body can rotate about: the third in the plane.
 pub fn spins(dimension: usize) -> std::ops::Range<usize> {
     if dimension == 2 { 2..3 } else { 0..3 }
 }
 
-/// Turned about an axis by an angle: the direction and the length of a vector.
+/// Rotated about an axis by an angle: the direction and the length of a vector.
 pub fn rotated<const D: usize>(v: Vector<D>, turn: [f64; 3]) -> Vector<D> {
     if D == 2 {
         return turned(v, turn[2].sin_cos());
@@ -114,7 +114,7 @@ pub fn spin_matrix<const D: usize>(spin: [f64; 3]) -> SMatrix<f64, D, D> {
 }
 
 /// Centripetal and Coriolis acceleration `W x (W x r) + 2 W x v` of a point that is at `r` and moves at `v` in a frame that
-/// turns about the origin at the constant rate `W`: what its acceleration is more than that seen in the frame.
+/// rotates about the origin at the constant rate `W`: what its acceleration is more than that seen in the frame.
 ///
 /// Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed., section 2.5.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! Files of reduced models: named arrays in the layout of safetensors, read without trust.
 //!
 //! The layout: 8 bytes with the length of the header, little-endian; the header in JSON, which gives each array its type, shape and place;
-//! the data. Arrays are row-major, in SI, in axes and from an origin that are the file's own. What is read is turned to the principal axes
+//! the data. Arrays are row-major, in SI, in axes and from an origin that are the file's own. What is read is rotated to the principal axes
 //! about the centre of mass.
 
 mod arrays;
@@ -32,7 +32,7 @@ const ROUNDED: f64 = 1e-6;
 const SURFACE: &str = "surface";
 const STRESS: &str = "stress";
 
-/// A reduced model as a file has it, turned to its principal axes.
+/// A reduced model as a file has it, rotated to its principal axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Container {
     /// Where it comes from, in words.
@@ -247,7 +247,7 @@ impl RigidPart {
     }
 }
 
-/// Reads arrays of modes and turns them to the principal axes.
+/// Reads arrays of modes and rotates them to the principal axes.
 struct ModelReader<'a> {
     arrays: Arrays<'a>,
     body: RigidPart,

@@ -369,14 +369,14 @@ pub enum PortKind<'a> {
     Motion {
         /// The position.
         position: Box<ResolvedMotion<'a>>,
-        /// The angle, in space the orientation, if it turns.
+        /// The angle, in space the orientation, if it rotates.
         angle: Option<Box<ResolvedMotion<'a>>>,
     },
     /// Input of a motion through a spring and a damper. Output of their force.
     Coupling {
         /// Between positions.
         position: Box<Coupling<'a>>,
-        /// Between directions, if it turns.
+        /// Between directions, if it rotates.
         angle: Option<Box<Coupling<'a>>>,
     },
 }

@@ -88,7 +88,7 @@ impl Shape {
     /// rotations of tangents.
     ///
     /// Source: R. L. Bishop, There is more than one way to frame a curve, Am. Math. Mon. 82 (1975) 246-251: against the normal such a
-    /// direction turns by minus the torsion of the curve, of a helix its angle times rise over length.
+    /// direction rotates by minus the torsion of the curve, of a helix its angle times rise over length.
     pub fn carried(&self, across: [f64; 3], s: f64) -> [f64; 3] {
         let frame = |s: f64| {
             let (tangent, normal) = (self.tangent(s), self.normal(s, across));
@@ -269,7 +269,7 @@ mod tests {
             turns: -2.5,
             start: [0.0, 3.0, 4.0].into(),
         };
-        // Left-handed: from +y it turns to +x on its way up.
+        // Left-handed: from +y it rotates to +x on its way up.
         let at = |s: f64| {
             let angle = 5.0 * std::f64::consts::PI * s;
             [
@@ -312,7 +312,7 @@ mod tests {
         }
     }
 
-    /// Directions across the tangent, carried by many small rotations.
+    /// Directions across the tangent, transported by many small rotations.
     #[test]
     fn what_is_across_is_carried_by_the_smallest_rotations() {
         let shapes = [

@@ -95,6 +95,10 @@ pub enum Quantity {
     LoadMoment(LoadId, usize),
     /// Tension of a load along a line.
     Tension(LoadId),
+    /// Length of the line that a load pulls along.
+    Length(LoadId),
+    /// Rate of that length.
+    LengthRate(LoadId),
     /// Component of the force of friction on the second end of its joint, also where it sticks.
     FrictionForce(LoadId, usize),
     /// Component of the moment of friction on the second end of its joint, also where it sticks; in the plane the third.
@@ -217,6 +221,8 @@ pub(super) fn value<const D: usize, N: Number>(
             exerted(quantity, values, assembled)
         }
         Tension(id) => values.tension(system, assembled.load(id)),
+        Length(id) => values.length(system, assembled.load(id))[0],
+        LengthRate(id) => values.length(system, assembled.load(id))[1],
         KineticEnergy => values.kinetic_energy(system),
         StrainEnergy => values.strain_energy(system),
         GravityEnergy => values.gravity_energy(system),
@@ -390,12 +396,14 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
     use Evaluated::*;
     use Quantity::*;
     match quantity {
-        Position(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => {
+        Position(..) | CenterOfMass(_) | Travel(_) | Displacement(_) | Length(_) => {
             (Kinematics, |by| Some(by.size))
         }
         // What is below a billionth of the size is roundoff.
         Deflection(..) => (Kinematics, |by| Some(1e-6 * by.size)),
-        Velocity(..) | SlidingVelocity(_) => (Kinematics, |by| Some(by.size * by.rate)),
+        Velocity(..) | SlidingVelocity(_) | LengthRate(_) => {
+            (Kinematics, |by| Some(by.size * by.rate))
+        }
         Acceleration(..) | SlidingAcceleration(_) => {
             (Dynamics, |by| Some(by.size * by.rate * by.rate))
         }

@@ -2,7 +2,7 @@
 //! global axes. The course through a communication step is a polynomial of each of the four numbers, as those of other
 //! driven coordinates are; the orientation is that of the quaternion, whatever its length on the way.
 //!
-//! With an angular velocity `w` quaternions change by `q' = w q / 2`. Where `w` changes steadily, by `w'`, the turn after `h` is
+//! With an angular velocity `w` quaternions change by `q' = w q / 2`. Where `w` changes steadily, by `w'`, the rotation after `h` is
 //! that by the vector `h w + h^2 w' / 2 + h^3 (w' x w) / 12`, but for terms of order 4.
 //!
 //! Source: M. D. Shuster, A survey of attitude representations, J. Astronautical Sciences 41 (1993) 439-517 (rates of
@@ -139,7 +139,7 @@ impl Attitude {
         orders(target, w, self.vector(2, |i| moved(input(i), h)[0]))
     }
 
-    /// The angular velocity after `h`, and the vector of the turn until then.
+    /// The angular velocity after `h`, and the vector of the rotation until then.
     fn turn(
         &self,
         h: f64,

@@ -28,7 +28,7 @@ const NOTHING: f64 = 1e-12;
 pub struct Parts<const D: usize = 2> {
     /// Bodies, at nodal coordinates as described; they need not fit together yet.
     pub bodies: Bodies<D>,
-    /// Nodes of rigid bodies, and whether they can turn.
+    /// Nodes of rigid bodies, and whether they can rotate.
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
     pub joints: Vec<JointEquations<D>>,
@@ -183,8 +183,8 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Largest distance from the first node of what its bodies reach, however they turn: nodes, joints, and the radius of
-    /// gyration of bodies that turn, m.
+    /// Largest distance from the first node of what its bodies reach, however they rotate: nodes, joints, and the radius of
+    /// gyration of bodies that rotate, m.
     fn find_reach(&self) -> f64 {
         let first = Vector::from(self.bodies.reference[0][0]);
         let ends = || self.joints.iter().flat_map(|joint| &joint.ends);
@@ -316,7 +316,7 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
                     let ends = angles.flat_map(|(_, of)| of.ends());
                     ends.for_each(|end| take(&end));
                 }
-                // A line that turns with the first end is pushed at a distance from it.
+                // A line that rotates with the first end is pushed at a distance from it.
                 Primitive::Line(_) => take(&joint.ends[0]),
                 _ => {}
             }

@@ -84,7 +84,7 @@ impl<const D: usize, N: Number> Attachment<D, N> {
         self.is_rigid() && !self.is_framed()
     }
 
-    /// Whether it belongs to a rigid body of space that turns, or to a reduced body: its axes are no coordinates.
+    /// Whether it belongs to a rigid body of space that rotates, or to a reduced body: its axes are no coordinates.
     pub fn is_framed(&self) -> bool {
         self.marker().is_some_and(Marker::is_framed)
     }
@@ -177,7 +177,7 @@ impl<const D: usize> Angle<D> {
             }
         };
         let (sin, cos) = hint.sin_cos();
-        // A step turns nothing by half a turn.
+        // A step rotates nothing by half a turn.
         hint + (cos * across - sin * along).atan2(cos * along + sin * across)
     }
 

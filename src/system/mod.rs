@@ -137,7 +137,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m. Where rigid
-    /// bodies turn in space: how far the system reaches.
+    /// bodies rotate in space: how far the system reaches.
     pub fn size(&self) -> f64 {
         self.bodies.size(self.reach)
     }
@@ -178,7 +178,7 @@ impl<const D: usize> System<D> {
         self.prices.beside_chain()
     }
 
-    /// Whether the frame turns that the scene is described in.
+    /// Whether the frame rotates that the scene is described in.
     pub(in crate::system) fn is_rotating(&self) -> bool {
         self.rotation != [0.0; 3]
     }
@@ -194,7 +194,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Whether accelerations, or the work that is counted, depend on rates: by damping, by multipliers of
-    /// non-linear constraints, in a turning frame, by loads that read them. Methods for
+    /// non-linear constraints, in a rotating frame, by loads that read them. Methods for
     /// `q'' = a(t, q)` are for systems where they do not.
     pub fn reads_rates(&self) -> bool {
         self.is_damped || self.needs_rates

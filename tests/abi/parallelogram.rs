@@ -23,7 +23,7 @@ fn bar(name: &str, length: f64, [x, y]: [f64; 2], angle: f64) -> Value {
     })
 }
 
-/// A parallelogram at an angle whose cranks turn freely, without gravity, the rocker longer by so much (m).
+/// A parallelogram at an angle whose cranks rotate freely, without gravity, the rocker longer by so much (m).
 pub fn four_bars(angle: f64, longer: f64) -> Value {
     let (sin, cos) = angle.sin_cos();
     let mut bodies = [

@@ -1,4 +1,4 @@
-//! Changes of a scene at one place, of the same sort for all keys: numbers are shifted, flags turned,
+//! Changes of a scene at one place, of the same sort for all keys: numbers are shifted, flags inverted,
 //! names swapped for others, kinds replaced.
 
 use serde_json::{Value, json};

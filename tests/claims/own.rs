@@ -207,7 +207,7 @@ fn exact_tip(force: f64) -> [f64; 3] {
     [low, -x, -y]
 }
 
-/// A dead force has equilibria with a turn more; the one that the beam bends into has none
+/// A dead force has equilibria with a revolution more; the one that the beam bends into has none
 /// (docs/decisions/0007-static-equilibrium.md).
 #[test]
 fn equilibrium_is_on_the_branch_of_growing_loads() {
@@ -229,9 +229,9 @@ fn equilibrium_is_on_the_branch_of_growing_loads() {
     }
 }
 
-/// A force that stays across the tip turns it by half a turn at most: moments follow the pendulum that swings by a
+/// A force that stays across the tip rotates it by half a turn at most: moments follow the pendulum that swings by a
 /// right angle to both sides (Kirchhoff's analogy). A mesh too coarse for the load may find no equilibrium, but
-/// none with turns more.
+/// none with revolutions more.
 #[test]
 fn a_force_across_the_tip_rolls_no_beam_up() {
     // Moduli that differ by roundoff alone: what is found must not hang on the bits.
@@ -254,8 +254,8 @@ fn a_force_across_the_tip_rolls_no_beam_up() {
     }
 }
 
-/// How far slopes turn between two states, and the logarithm of how far they stretch: a step that stretches
-/// a cable by much is as long as one that turns it.
+/// How far slopes rotate between two states, and the logarithm of how far they stretch: a step that stretches
+/// a cable by much is as long as one that rotates it.
 #[test]
 fn a_stretch_counts_as_a_turn() {
     let scene = json!({
@@ -356,7 +356,7 @@ fn rolled_up(element: &str, elements: u32, turns: f64) -> Value {
 }
 
 /// Curvature that is the same everywhere does not jump at nodes: `resolution` is the distance of the tip from the end of the arc all the
-/// same, within a third. Elements that bend by more than a turn are too coarse.
+/// same, within a third. Elements that bend by more than a revolution are too coarse.
 #[test]
 fn uniform_curvature_is_resolved_or_told() {
     let read = |scene: &Value| {

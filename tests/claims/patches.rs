@@ -454,7 +454,7 @@ fn plates_deform_at_the_start() {
         ];
         all_near(run.read_all(&format!("p.{name}.velocity")), exact, 1e-12);
     }
-    // The normal turns with the slopes, the frame about it with half the difference of both shears.
+    // The normal rotates with the slopes, the frame about it with half the difference of both shears.
     let ([u, v], [a, b]) = ([0.4, 0.3_f64], [LENGTH, WIDTH]);
     let slopes = [3.0 * u * u * v * v / a, 2.0 * u.powi(3) * v / b];
     let turn = 2.0 + 0.5 * (v / a - 0.5 * u * u / b);

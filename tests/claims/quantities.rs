@@ -45,7 +45,7 @@ named! { label, LABELS, Quantity:
     ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(_, 1) => "connectivity force y", ConnectivityForce(..) => "connectivity force z",
     Displacement(_) => "displacement", SlidingVelocity(_) => "sliding velocity", SlidingAcceleration(_) => "sliding acceleration",
     GearForce(_) => "gear force", GearTorque(_) => "gear torque", LatchState(_) => "latch state",
-    Tension(_) => "tension", LoadForce(_, 0) => "load force x", LoadForce(_, 1) => "load force y", LoadForce(..) => "load force z",
+    Tension(_) => "tension", Length(_) => "length", LengthRate(_) => "rate of a length", LoadForce(_, 0) => "load force x", LoadForce(_, 1) => "load force y", LoadForce(..) => "load force z",
     FrictionForce(_, 0) => "friction force x", FrictionForce(_, 1) => "friction force y", FrictionForce(..) => "friction force z",
     FrictionMoment(_, 0) => "friction moment x", FrictionMoment(_, 1) => "friction moment y", FrictionMoment(..) => "friction moment",
     LoadMoment(_, 0) => "load moment x", LoadMoment(_, 1) => "load moment y", LoadMoment(..) => "load moment",

@@ -576,7 +576,7 @@ const SECTION: [f64; 2] = [0.03, 0.003];
 /// Factors of the components of a stress that is no stress of a strip.
 const FACTORS: [f64; 6] = [1.0, 0.5, -0.25, 2.0, 3.0, -1.5];
 
-/// The strip with its axes turned, clamped at its root, in equilibrium under a force along these axes at its tip.
+/// The strip with its axes rotated, clamped at its root, in equilibrium under a force along these axes at its tip.
 fn bent_strip(force: [f64; 3], turn: [f64; 3]) -> Value {
     let force: [f64; 3] = (Rotation3::new(turn.into()) * Vector3::from(force)).into();
     let turned = json!({"rotation_vector": turn});

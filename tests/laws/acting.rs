@@ -20,7 +20,7 @@ use crate::laws::differences::{Outcome, check, within};
 use crate::laws::frames::{Frame, along, ends, frame, frames, slope, wave};
 use crate::laws::mechanism::{Acting, Body, Point, Wave};
 
-const CASES: u32 = 200;
+const CASES: u32 = 40;
 
 /// A load with the angles that it may count.
 struct Acted<'a> {

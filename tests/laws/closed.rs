@@ -105,7 +105,7 @@ fn a_rigid_pendulum_swings_with_its_frequency() {
     // Upside down it falls: a growing motion counts as negative.
     pendulum.gravity *= -1.0;
     near(&frequencies(&pendulum, 1), &[-exact]);
-    // A hinge adds its stiffness, relative to the frame that it turns in.
+    // A hinge adds its stiffness, relative to the frame that it rotates in.
     pendulum.gravity *= -1.0;
     pendulum.holds[0].kind = Kind::Hinge([3.0, 0.0, 0.4]);
     near(

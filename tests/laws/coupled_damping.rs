@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::laws::runs::Run;
 
-/// A rod that is stretched at a constant rate and does not turn: with the times `a` of stretching and `b` of twist the torque is
+/// A rod that is stretched at a constant rate and does not rotate: with the times `a` of stretching and `b` of twist the torque is
 /// `C (e + sqrt(a b) e')`, so that the matrix of damping has the sign of that of stiffness.
 #[test]
 fn the_torque_of_a_rod_that_is_stretched_is_damped_by_the_mean_of_both_times() {

@@ -1,4 +1,4 @@
-//! Beams between rigid bodies that turn: what Newton's iteration corrects must keep to the constraints between them, or steps
+//! Beams between rigid bodies that rotate: what Newton's iteration corrects must keep to the constraints between them, or steps
 //! shrink to the fastest waves.
 
 use serde_json::{Value, json};

@@ -1,5 +1,5 @@
 //! Joints with two rotations in space: which of two axes is fixed in which body. The rule is read from the orientations that come out,
-//! after bodies have turned far.
+//! after bodies have rotated far.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::{Value, json};

@@ -21,7 +21,7 @@ fn swung((dimension, method): (usize, &str), value: Value) -> Value {
         "method": {"integrator": method}, "accuracy": {"relative_tolerance": 1e-9}})
 }
 
-/// A mass that is hauled in at 0.5 m/s keeps its angular momentum: `r^2 w = 3 m^2/s`, so that it turns by `6 t / r` and is pulled by
+/// A mass that is hauled in at 0.5 m/s keeps its angular momentum: `r^2 w = 3 m^2/s`, so that it rotates by `6 t / r` and is pulled by
 /// `m h^2 / r^3`. What the haul does is its kinetic energy.
 #[test]
 fn a_mass_that_is_hauled_in_keeps_its_angular_momentum() {

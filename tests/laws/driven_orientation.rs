@@ -288,7 +288,7 @@ fn moments_follow_angular_accelerations_at_once() {
     let r = Matrix3::from_row_slice(&standing);
     let inertia = r * Matrix3::from_diagonal(&INERTIA.into()) * r.transpose();
     let w = V::from(read::<3>(&mut simulation, "b.c.angular_velocity"));
-    // The angular acceleration rises at a rate: so does the moment, and with the body it turns.
+    // The angular acceleration rises at a rate: so does the moment, and with the body it rotates.
     let (given, jerk) = (V::new(0.3, -0.8, 0.5), V::new(-2.0, 1.0, 4.0));
     set(&mut simulation, "p.angular_acceleration", given.as_slice());
     for k in 0..3 {

@@ -28,7 +28,7 @@ fn rotation(parts: &[f64]) -> UnitQuaternion<f64> {
 /// Bodies that tumble: where nodes of the file take points of their frames is where outputs say that markers are, with up along y.
 #[test]
 fn nodes_take_points_of_bodies_where_outputs_say() {
-    // Half a turn from the axes is as near to them as its opposite.
+    // Half a revolution from the axes is as near to them as its opposite.
     for stance in [[0.5, -0.3, 0.8], [0.0, 0.0, std::f64::consts::PI]] {
         check_nodes(stance);
     }
@@ -89,7 +89,7 @@ fn check_nodes(stance: [f64; 3]) {
     }
 }
 
-/// Every number of a port that turns has a name that says which it is: axes by their letters, of a quaternion the scalar first.
+/// Every number of a port that rotates has a name that says which it is: axes by their letters, of a quaternion the scalar first.
 #[test]
 fn members_in_space_say_which_number_they_are() {
     let body = |name: &str| {

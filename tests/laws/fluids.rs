@@ -82,7 +82,7 @@ fn law(frame: &Frame, load: &AppliedLoad) -> Outcome {
         -derivative(1e-3, |s| force(frame, load, x, &along(v, &unit, s)))
     };
     let exact = DMatrix::from_columns(&(0..size).map(exact).collect::<Vec<_>>());
-    // The third derivative jumps where the flow turns.
+    // The third derivative jumps where the flow rotates.
     within(
         "damping",
         (&damping - &exact).amax(),

@@ -136,7 +136,7 @@ fn a_force_by_the_square_of_distance_makes_an_orbit() {
     }
 }
 
-/// A stop that pushes back from `x = 0.1` on turns a body around after half a period of the mass on its spring.
+/// A stop that pushes back from `x = 0.1` on rotates a body around after half a period of the mass on its spring.
 #[test]
 fn a_bump_stop_turns_a_body_around() {
     let (speed, stiffness) = (2.0_f64, 5e3_f64);

@@ -274,7 +274,7 @@ fn a_brake_stops_a_wheel() {
                     is_near(run.read("axle.angular_velocity"), 4.0 * sign, 1e-7);
                     run.step(4.0);
                     is_near(run.read("axle.angle"), (6.0 + 4.5) * sign, 1e-7);
-                    // A torque below that of the brake does nothing, one above turns the wheel.
+                    // A torque below that of the brake does nothing, one above rotates the wheel.
                     run.set("axle.torque", 1.9 * sign);
                     run.step(5.0);
                     is_near(run.read("axle.angle"), 10.5 * sign, 1e-7);

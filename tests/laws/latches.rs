@@ -14,7 +14,7 @@ fn balance(run: &mut Run) -> f64 {
     kept.iter().map(|name| run.read(name)).sum()
 }
 
-/// Two flywheels on one axis, the second of which turns relative to the first.
+/// Two flywheels on one axis, the second of which rotates relative to the first.
 fn flywheels(dimension: usize, method: &str) -> Value {
     let [place, inertia, spins] = match dimension {
         2 => [json!([0, 0]), json!(1.5), json!([1.0, 3.0])],
@@ -51,7 +51,7 @@ fn flywheels(dimension: usize, method: &str) -> Value {
         "method": {"integrator": method}, "accuracy": {"relative_tolerance": 1e-10}})
 }
 
-/// Wheels that lock at `1 rad / (3 - 1) rad/s` turn on together with their angular momentum; the rest of the energy is lost.
+/// Wheels that lock at `1 rad / (3 - 1) rad/s` rotate on together with their angular momentum; the rest of the energy is lost.
 #[test]
 fn flywheels_lock_with_their_momentum() {
     for dimension in [2, 3] {

@@ -195,7 +195,7 @@ impl Mechanism {
             Kind::Planar => axes.column(0) * chance.number() + axes.column(1) * chance.number(),
             _ => V::zeros(),
         };
-        // What may turn.
+        // What may rotate.
         let turned = match kind {
             Kind::Spherical | Kind::Distance => Rotation3::new(chance.vector()).into_inner(),
             Kind::Revolute

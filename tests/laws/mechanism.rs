@@ -135,7 +135,7 @@ pub struct Mechanism {
     pub noise: Vec<f64>,
 }
 
-/// A vector turned left by a right angle.
+/// A vector rotated left by a right angle.
 pub fn left(v: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(-v.y, v.x)
 }

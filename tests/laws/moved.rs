@@ -157,7 +157,7 @@ pub fn agree(
                 plane.point([*x, *y]).to_vec()
             }
             ([x, y], 3) => plane.vector([*x, *y]).to_vec(),
-            // What turns in the plane turns about its normal; beside that the distance from the origin counts.
+            // What rotates in the plane rotates about its normal; beside that the distance from the origin counts.
             ([z], 3) => {
                 let normal = plane.axes * Vector3::z();
                 let along = normal.dot(&Vector3::from_column_slice(&in_space));

@@ -15,7 +15,7 @@ const CASES: u32 = 8;
 const AT_START: [f64; 2] = [1e-11, 1e-8];
 const AT_END: [f64; 2] = [1e-9, 1e-7];
 
-/// Inertia about the axes of the plane over that about its normal: nothing turns about these.
+/// Inertia about the axes of the plane over that about its normal: nothing rotates about these.
 const ACROSS: [f64; 2] = [0.6, 0.7];
 
 fn body(name: &str, position: [f64; 2], spin: f64, markers: Value) -> Value {
@@ -51,8 +51,8 @@ fn scene(parts: Value, outputs: &[Vec<Value>]) -> Value {
     scene
 }
 
-/// A double pendulum on a hinge, pushed and turned; a sleeve on a moving rod, what is welded to it, a body that does not
-/// turn, one on a moving line, and one on a link.
+/// A double pendulum on a hinge, pushed and rotated; a sleeve on a moving rod, what is welded to it, a body that does not
+/// rotate, one on a moving line, and one on a link.
 fn open() -> Value {
     let parts = json!({
         "bodies": [
@@ -103,7 +103,7 @@ fn open() -> Value {
     scene(parts, &outputs)
 }
 
-/// A four-bar whose crank is driven, and a slider-crank that a torque turns: in space their joints hold some things twice.
+/// A four-bar whose crank is driven, and a slider-crank that a torque rotates: in space their joints hold some things twice.
 fn closed() -> Value {
     let crank = json!({"in": [-0.2, -0.1], "out": [0.2, 0.1], "c": [0.0, 0.0]});
     let parts = json!({

@@ -242,7 +242,7 @@ fn alike(a: &Value, b: &Value, read: impl Fn(&str, &[f64]) -> Vec<f64>) -> Outco
     same([&mut a, &mut b], &read, limit).map_err(told("end"))
 }
 
-/// An arc hangs in an upright plane: with it the scene turns about the upright; without it about any axis.
+/// An arc hangs in an upright plane: with it the scene rotates about the upright; without it about any axis.
 fn moves_alike(scene: &Value, axis: [f64; 3], shift: [f64; 3]) -> Outcome {
     let upright = Whole::level(Rotation3::new(Vector3::z() * axis[0]), shift);
     let any = Whole::level(Rotation3::new(Vector3::from(axis)), shift);
@@ -338,7 +338,7 @@ fn rods_and_beams_move_alike_from_whichever_end_they_are_drawn() {
     }
 }
 
-/// Cables that stand, hang on pins and welds, and carry a body that turns; forces, a moment, a spring.
+/// Cables that stand, hang on pins and welds, and carry a body that rotates; forces, a moment, a spring.
 pub fn flat() -> Value {
     let cable = |name: &str, elements: usize, from: [f64; 2], to: [f64; 2]| {
         json!({"name": name, "element": "cable", "elements": elements,

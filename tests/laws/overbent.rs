@@ -55,7 +55,7 @@ fn is_named(told: &str, elements: usize, place: &str) -> bool {
 }
 
 /// Under a torque `M` a rod twists by `M L / (G J)`: half a turn an element at `pi G J / L` times their number. A moment that follows
-/// bends it to an arc of `M L / (E I)`; angles from the middle of an element are half of what it turns.
+/// bends it to an arc of `M L / (E I)`; angles from the middle of an element are half of what it rotates.
 #[test]
 fn elements_that_bend_or_twist_too_much_are_named() {
     for element in ["rod", "beam"] {
@@ -73,7 +73,7 @@ fn elements_that_bend_or_twist_too_much_are_named() {
     }
 }
 
-/// The same in equilibrium: parts of half a turn of twist, and of a turn of bending, an element. Where no way is open, corrections that
+/// The same in equilibrium: parts of half a turn of twist, and of a revolution of bending, an element. Where no way is open, corrections that
 /// shrink to nothing are no equilibrium.
 #[test]
 fn an_equilibrium_beyond_what_elements_hold_is_refused() {

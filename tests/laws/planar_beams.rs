@@ -118,7 +118,7 @@ fn a_slender_beam_moves_as_a_cable_does() {
     }
 }
 
-/// A thick beam that flies, turns, bends and shears keeps its energy and its momenta, by explicit and implicit steps.
+/// A thick beam that flies, rotates, bends and shears keeps its energy and its momenta, by explicit and implicit steps.
 #[test]
 fn a_free_beam_keeps_energy_and_momenta() {
     for integrator in ["dopri853", "radau"] {

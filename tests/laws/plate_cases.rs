@@ -211,7 +211,7 @@ fn a_spinning_plate_wobbles_as_a_rigid_one() {
     for t in [0.5, 1.4] {
         run.step(t);
         let (sine, cosine) = (rate * t).sin_cos();
-        // The third axis turned about `axis`.
+        // The third axis rotated about `axis`.
         let across = [axis[1], -axis[0], 0.0];
         let exact: [f64; 3] = std::array::from_fn(|k| {
             let own = if k == 2 { cosine } else { 0.0 };

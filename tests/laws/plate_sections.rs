@@ -208,7 +208,7 @@ fn off_axis([e1, e2]: [f64; 2], nu: f64, shear: f64, angle: f64) -> [[f64; 3]; 3
     ]
 }
 
-/// Stress `[11, 22, 12]` along axes that are turned by an angle.
+/// Stress `[11, 22, 12]` along axes that are rotated by an angle.
 fn turned([xx, yy, xy]: [f64; 3], angle: f64) -> [f64; 3] {
     let (s, c) = angle.sin_cos();
     [
@@ -219,7 +219,7 @@ fn turned([xx, yy, xy]: [f64; 3], angle: f64) -> [f64; 3] {
 }
 
 /// A balanced, symmetric laminate under tension: strains by its membrane stiffness, stress of plies by theirs. The axes of the section do
-/// not matter to plies, and turn forces.
+/// not matter to plies, and rotate forces.
 #[test]
 fn plies_have_the_stress_of_laminate_theory() {
     let (moduli, nu, shear, thickness, tension) = ([1.4e5, 1e4], 0.3, 5e3, 5e-4, 2e-4);

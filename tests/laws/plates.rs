@@ -95,7 +95,7 @@ fn an_end_moment_rolls_a_strip_to_a_circle() {
     let width = 0.1;
     let mut scene = plate([1.0, width], [16, 1], 1e-3, 0.0);
     hold(&mut scene, "clamped", &["s1=0"]);
-    // The moment that turns the end by one rotation; against the second axis it lifts the end.
+    // The moment that rotates the end by one revolution; against the second axis it lifts the end.
     let moment =
         json!({"name": "M", "kind": "moment", "marker": "p.end", "value": [0, -TAU * width, 0]});
     let mut run = at_rest(scene, &moment);

@@ -240,7 +240,7 @@ fn what_pulls_towards_an_orientation_conserves_energy() {
         }
         let mut parts = mechanism.parts();
         for (i, body) in mechanism.bodies.iter().enumerate() {
-            // No further than what turns by less than half a turn.
+            // No further than what rotates by less than half a turn.
             let axes = Rotation3::from_matrix_unchecked(body.axes);
             let turned = Rotation3::new(chance.vector() * 0.3) * axes;
             parts.loads.push(pulled(i, turned, 60.0));
@@ -275,7 +275,7 @@ fn what_pulls_towards_an_orientation_conserves_energy() {
 /// How a body stands at the start.
 const STANDS: V = V::new(2.0, 1.5, -1.0);
 
-/// A free body that turns at this rate about an axis of its inertia, rad/s.
+/// A free body that rotates at this rate about an axis of its inertia, rad/s.
 fn spinning(rate: f64) -> Simulation {
     // About the third axis of the frame.
     let spin: [f64; 3] = (Rotation3::new(STANDS) * axis(2) * rate).into();
@@ -336,7 +336,7 @@ fn quaternions_go_on_over_full_turns_and_go_back_with_states() {
         saved.push((simulation.snapshot(), found));
     }
     assert!(signs[0] > 10 && signs[1] > 10, "{signs:?}");
-    // Another instance that never made these turns goes on bit for bit.
+    // Another instance that never made these rotations goes on bit for bit.
     let mut other = spinning(RATE);
     for (k, (snapshot, found)) in saved.iter().enumerate() {
         other.restore(snapshot).expect("a state");

@@ -18,7 +18,7 @@ pub struct Scope {
     pub bodies: usize,
     pub extras: usize,
     pub loads: usize,
-    /// Whether things may slide along cables, be driven, follow, turn with the frame.
+    /// Whether things may slide along cables, be driven, follow, rotate with the frame.
     pub slides: bool,
     pub drives: bool,
     pub followers: bool,

@@ -14,7 +14,7 @@ fn carrying(moment: [f64; 3], kind: &str) -> Outcome {
     const MASS: f64 = 0.2;
     let shape = line([0.0, 0.0, 0.0], [1.0, 0.2, 0.1]);
     let arm = rod("arm", 4, shape, [0.0, 0.1, 1.0]);
-    // On a ball it hangs below and would turn under a moment of its own.
+    // On a ball it hangs below and would rotate under a moment of its own.
     let (above, on) = match kind {
         "weld" => (0.0, "bob.eye"),
         _ => (0.05, "arm.tip"),
@@ -73,7 +73,7 @@ fn driven_about_the_upright(stiffness: f64, moment: f64, gravity: f64) -> String
     told.map_or_else(|error| error.to_string(), |_| "an equilibrium".into())
 }
 
-/// On a ball below a rod a body that a moment drives about the upright turns for ever, however small the moment is.
+/// On a ball below a rod a body that a moment drives about the upright rotates for ever, however small the moment is.
 #[test]
 fn what_turns_for_ever_has_no_equilibrium() {
     for moment in [1e-6, 0.1] {

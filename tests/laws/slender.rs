@@ -65,7 +65,7 @@ fn a_rod_without_torque_moves_as_a_cable_does() {
     come_together(["rod", "cable"], &[1.0, 4.0, 16.0], (0.3, 1e-10));
 }
 
-/// So do shear and the inertia of sections that turn across the line.
+/// So do shear and the inertia of sections that rotate across the line.
 #[test]
 fn a_slender_beam_moves_as_a_rod_does() {
     come_together(["beam", "rod"], &[1.0, 4.0], (0.06, 1e-7));
@@ -91,7 +91,7 @@ fn held(body: serde_json::Value) -> serde_json::Value {
         "outputs": [{"kind": "position", "marker": "rod.tip"}], "accuracy": {"relative_tolerance": 1e-6}})
 }
 
-/// A dead moment `M` at the tip turns the tangent about itself at the rate `M / EI`, however stiff the line is against stretching and
+/// A dead moment `M` at the tip rotates the tangent about itself at the rate `M / EI`, however stiff the line is against stretching and
 /// shear: it bears no force. Source: closed form of the helix (case `rod_statics`).
 #[test]
 fn slender_rods_and_beams_do_not_lock() {

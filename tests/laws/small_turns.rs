@@ -1,4 +1,4 @@
-//! Rotations among the coordinates of bodies that turn on and on.
+//! Rotations among the coordinates of bodies that rotate on and on.
 
 use crate::laws::runs::Run;
 

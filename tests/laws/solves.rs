@@ -89,7 +89,7 @@ fn real_solve(chain: &Chain, s: f64) -> Outcome {
     model.solve(&mut x);
     let residual = &a * DVector::from_column_slice(&x) - &right;
     within("real solve", residual.amax() / right.amax(), 1e-13 / lowest)?;
-    // Where no direction has turned, the solve for one stage is the same.
+    // Where no direction has rotated, the solve for one stage is the same.
     let mut stage = [right.as_slice().to_vec()];
     model.set_stage(0);
     model.solve_stages(&[1.0], &[1.0], &mut stage);
@@ -156,14 +156,14 @@ fn complex_factors_invert_the_shifted_tangent() {
     });
 }
 
-/// Stages that have turned as a whole are solved with the tangent turned along.
+/// Stages that have rotated as a whole are solved with the tangent rotated along.
 fn turned_solve(chain: &Chain, angle: f64) -> Outcome {
     let mut free = chain.clone();
     free.joints.clear();
     let here = dense(&free, Vec::new());
     let (system, n) = (&here.system, here.q.len());
     let turn = Rotation2::new(angle).into_inner();
-    // Coordinates of the same shape, turned about the origin.
+    // Coordinates of the same shape, rotated about the origin.
     let way: Vec<_> = (expand(system, &here.q)
         .iter()
         .zip(&system.bodies().reference))

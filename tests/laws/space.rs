@@ -271,10 +271,10 @@ fn solves_invert_the_shifted_tangent() {
     });
 }
 
-/// A free chain that has turned as a whole in space is solved with the tangent turned along.
+/// A free chain that has rotated as a whole in space is solved with the tangent rotated along.
 fn turned(case: &Case, axis: Vector3<f64>) -> Outcome {
-    // The smallest rotation between two directions turns about nothing but what is across both: so the
-    // chain is straight, and turned about an axis across it.
+    // The smallest rotation between two directions rotates about nothing but what is across both: so the
+    // chain is straight, and rotated about an axis across it.
     let mut at = 0.0;
     let mut straight: Vec<Node<3>> = vec![[[0.0; 3], [1.01, 0.0, 0.0]]];
     for element in case.chain.elements() {

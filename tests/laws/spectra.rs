@@ -55,7 +55,7 @@ fn disc([mass, inertia]: [f64; 2], [stiffness, damping]: [f64; 2], rotation: f64
     made
 }
 
-/// Jeffcott's rotor with damping that turns along: with `z = x + i y` in the rotating frame
+/// Jeffcott's rotor with damping that rotates along: with `z = x + i y` in the rotating frame
 /// `z'' + (2 i W + 2 d) z' + (w^2 - W^2) z = 0`, `s = -(d + i W) +- sqrt(d^2 + 2 i d W - w^2)`. It whirls forward and
 /// grows above the critical speed. Its spin is free: 0 twice.
 #[test]
@@ -77,8 +77,8 @@ fn jeffcotts_rotor_whirls() {
     }
 }
 
-/// A ring on soft springs in a frame that turns faster than it swings sits on top of a potential hill,
-/// `w^2 - W^2 < 0`, and is kept there by gyroscopic forces alone: `W - w` and `W + w`. The least damping that turns
+/// A ring on soft springs in a frame that rotates faster than it swings sits on top of a potential hill,
+/// `w^2 - W^2 < 0`, and is kept there by gyroscopic forces alone: `W - w` and `W + w`. The least damping that rotates
 /// along lets it fall.
 #[test]
 fn a_ring_is_stable_by_gyroscopic_forces_alone() {

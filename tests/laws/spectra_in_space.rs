@@ -213,7 +213,7 @@ fn a_long_damped_rod_with_a_body_decays_as_its_frequencies_say() {
 }
 
 /// Small swings of a chain of uniform bars of mass and length 1 by Lagrange's equations in their angles: `T` is that of
-/// the rates `sum_(i<k) a_i' + a_k' / 2` of the middles and of the turns, `V` grows by `g a_i^2 / 2` where arm `i` lifts a weight.
+/// the rates `sum_(i<k) a_i' + a_k' / 2` of the middles and of the rotations, `V` grows by `g a_i^2 / 2` where arm `i` lifts a weight.
 fn lagrange(links: usize) -> [DMatrix<f64>; 2] {
     let mut mass = DMatrix::<f64>::zeros(links, links);
     let mut stiffness = DMatrix::<f64>::zeros(links, links);
@@ -366,4 +366,24 @@ fn hanging_tops_nod_by_gyroscopic_forces_beside_many_links() {
         let allowed = if *exact == 0.0 { 1e-6 } else { 1e-9 };
         assert!(off < allowed, "{found:?} instead of {exact}");
     }
+}
+
+/// What is found by solving rotates by roundoff: that is rest. What rotates faster has frequencies of its own kind, and is refused.
+#[test]
+fn rotation_by_roundoff_is_rest() {
+    let scene = |spin: f64| {
+        json!({"name": "spun", "dimension": 3, "bodies": [{"name": "rod", "element": "rod", "elements": 3, "axis": [0.0, 1.0, 0.0],
+            "material": {"youngs_modulus": 2e9, "shear_modulus": 8e8, "density": 1e3},
+            "section": {"area": 2e-4, "second_moments": [2e-9, 6e-9], "torsion_constant": 4e-9},
+            "shape": {"line": {"from": [0.0, 0.0, 0.0], "to": [1.0, 0.0, 0.0]}}, "motion": {"spin": [0.0, 0.0, spin]}}]})
+    };
+    // Six of them are free motions.
+    let [still, noise] = [0.0, 1e-12].map(|spin| frequencies(&scene(spin), 9));
+    assert!(largest_difference(&noise[6..], &still[6..]) < 1e-9);
+    let mut fast = scene(1e-6);
+    fast["outputs"] = json!([{"kind": "natural_frequency", "count": 9}]);
+    let fast = Scene::from_json(&fast.to_string()).expect("a scene");
+    let told = Simulation::new(fast).initialize(0.0);
+    let told = told.expect_err("a rotation").to_string();
+    assert!(told.contains("rad/s"), "{told}");
 }

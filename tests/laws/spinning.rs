@@ -1,5 +1,5 @@
-//! Rigid bodies of space that turn: their small motions against differences of Newton's and Euler's equations, and what
-//! is seen from a frame that turns.
+//! Rigid bodies of space that rotate: their small motions against differences of Newton's and Euler's equations, and what
+//! is seen from a frame that rotates.
 
 use flexbody::system::{Evaluation, System, linearized};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
@@ -47,7 +47,7 @@ fn mass(mechanism: &Mechanism) -> [DMatrix<f64>; 2] {
     made
 }
 
-/// The same mechanism with its bodies displaced and turned, and with other velocities and spins.
+/// The same mechanism with its bodies displaced and rotated, and with other velocities and spins.
 fn disturbed(
     mechanism: &Mechanism,
     way: &DVector<f64>,
@@ -132,7 +132,7 @@ fn small_motions_about_turning_bodies_are_those_of_newton_and_euler() {
     assert!(compared > 60, "{compared}");
 }
 
-/// What is free of the ground moves in a frame that turns as it does outside: with `W` the frame's rate,
+/// What is free of the ground moves in a frame that rotates as it does outside: with `W` the frame's rate,
 /// `v' = v - W x r`, `a' = a - 2 W x v' - W x (W x r)`, and angular velocities and accelerations likewise.
 #[test]
 fn a_turning_frame_changes_what_is_seen_alone() {
@@ -191,7 +191,7 @@ fn a_turning_frame_changes_what_is_seen_alone() {
 }
 
 /// Small displacements and rotations `p` with `p'' + R p' + K p = 0` outside move by `p'' + (R + 2 W) p' + (K + R W + W W) p = 0`
-/// in a frame that turns, `W` the matrix of the cross product with its rate: there they have the rates `p' - W p`.
+/// in a frame that rotates, `W` the matrix of the cross product with its rate: there they have the rates `p' - W p`.
 #[test]
 fn small_motions_in_a_turning_frame_are_those_outside_seen_from_it() {
     let mut chance = Chance(41);
@@ -239,7 +239,7 @@ fn small_motions_in_a_turning_frame_are_those_outside_seen_from_it() {
     assert!(sizes > 1.0, "{sizes}");
 }
 
-/// A free body is found to move as it does; a thin rod, too, of which the energy does not tell how it turns about itself.
+/// A free body is found to move as it does; a thin rod, too, of which the energy does not tell how it rotates about itself.
 #[test]
 fn a_free_body_moves_steadily_as_it_moves() {
     let mut chance = Chance(43);
@@ -273,7 +273,7 @@ fn a_free_body_moves_steadily_as_it_moves() {
     }
 }
 
-/// A body on two ball joints, wherever they are, turns about the line through them. How fast, joints leave free.
+/// A body on two ball joints, wherever they are, rotates about the line through them. How fast, joints leave free.
 #[test]
 fn a_steady_turn_about_any_line_that_joints_leave_free_is_found() {
     let mut chance = Chance(37);

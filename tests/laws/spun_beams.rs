@@ -22,7 +22,7 @@ const SOFT: Thrown = Thrown {
     tolerance: 1e-8,
 };
 
-/// A strip whose bending stiffnesses are 1 to 25, of waves of shear a hundred times faster than its turns.
+/// A strip whose bending stiffnesses are 1 to 25, of waves of shear a hundred times faster than its rotations.
 const STEEL: Thrown = Thrown {
     youngs_modulus: 2e11,
     density: 8000.0,

@@ -18,7 +18,7 @@ use crate::laws::random::{ALL, Scope, mechanisms};
 const CASES: u32 = 100;
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// The tangent of slides leaves out what moves along, that of followers is not symmetric, a turning
+/// The tangent of slides leaves out what moves along, that of followers is not symmetric, a rotating
 /// frame has forces across; what is driven is not at rest.
 const SYMMETRIC: Scope = Scope {
     bodies: 3,
@@ -137,7 +137,7 @@ fn alike(
 }
 
 /// Against the covariant derivative along motions that keep the constraints: accelerations at states that are moved
-/// and brought back, in the tangent plane, less what the plane's own turning makes of them.
+/// and brought back, in the tangent plane, less what the plane's own rotating makes of them.
 fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     let Some(mut moving) = moving(mechanism, 0.03)? else {
         return Ok(());

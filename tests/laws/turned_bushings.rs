@@ -1,4 +1,4 @@
-//! Bushings in space between bodies that are turned far, and ports whose orientation moves: energy along motions, moments in closed form.
+//! Bushings in space between bodies that are rotated far, and ports whose orientation moves: energy along motions, moments in closed form.
 
 use nalgebra::{Rotation3, Vector3};
 use serde_json::{Value, json};
@@ -54,7 +54,7 @@ fn bushings_between_bodies_that_are_turned_far_conserve_or_lose_what_they_say() 
     let mut chance = Chance(17);
     for run in 0..12 {
         let is_damped = run % 2 == 1;
-        // Turned against each other from the start on, where nothing acts, and further by their spins.
+        // Rotated against each other from the start on, where nothing acts, and further by their spins.
         let bodies = [
             body(
                 "a",
@@ -84,8 +84,8 @@ fn bushings_between_bodies_that_are_turned_far_conserve_or_lose_what_they_say() 
     }
 }
 
-/// Turned about one axis, with the same stiffness and damping about all, a bushing has the moment `k angle + c rate` about it, however far
-/// that is, between axes that are turned by any start.
+/// Rotated about one axis, with the same stiffness and damping about all, a bushing has the moment `k angle + c rate` about it, however far
+/// that is, between axes that are rotated by any start.
 #[test]
 fn the_moment_of_a_bushing_is_along_the_axis_about_which_bodies_turn() {
     let (k, c) = (3.0, 0.7);

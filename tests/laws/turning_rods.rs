@@ -1,4 +1,4 @@
-//! Rods and beams seen from a frame that turns: the same motion, the same forces in their sections.
+//! Rods and beams seen from a frame that rotates: the same motion, the same forces in their sections.
 
 use nalgebra::{Rotation3, Vector3};
 use proptest::array::uniform3;
@@ -19,7 +19,7 @@ const STEP: f64 = 0.01;
 /// Rate of steady motions, rad/s.
 const RATE: f64 = 6.0;
 
-/// A body with coupled sections on a ball at the origin, which spins; in space where the frame does not turn.
+/// A body with coupled sections on a ball at the origin, which spins; in space where the frame does not rotate.
 fn scene(element: &str, rotation: Vector3<f64>, spin: Vector3<f64>, initial: &str) -> Value {
     let mut body = json!({"name": "body", "element": element, "elements": 4,
         "material": {"youngs_modulus": 2e7, "shear_modulus": 8e6, "density": 1100.0},
@@ -36,7 +36,7 @@ fn scene(element: &str, rotation: Vector3<f64>, spin: Vector3<f64>, initial: &st
         "accuracy": {"relative_tolerance": TOLERANCE}})
 }
 
-/// Both say the same at a time, the second in the axes of a frame that has turned.
+/// Both say the same at a time, the second in the axes of a frame that has rotated.
 fn agree(space: &mut Simulation, seen: &mut Simulation, turn: Rotation3<f64>) -> Outcome {
     for name in ["mid.position", "tip.position", "mid.bending_moment"] {
         let name = format!("body.{name}");

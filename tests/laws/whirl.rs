@@ -1,4 +1,4 @@
-//! Cables that turn steadily about an upright axis, bent in space: a heavy one that hangs from its top (the conical
+//! Cables that rotate steadily about an upright axis, bent in space: a heavy one that hangs from its top (the conical
 //! pendulum of a cable) and one held at both ends (a skipping rope), against the equations of a string.
 //!
 //! Source: I. I. Kolodner, Heavy rotating string: a nonlinear eigenvalue problem, Comm. Pure Appl. Math. 8 (1955).
@@ -17,7 +17,7 @@ const LENGTH: f64 = 1.0;
 /// Steps of the Runge-Kutta method for the string, an element.
 const STEPS: usize = 200;
 
-/// A string in a plane through its axis that turns with it at a rate under gravity along the axis.
+/// A string in a plane through its axis that rotates with it at a rate under gravity along the axis.
 struct String {
     gravity: f64,
     rate: f64,
@@ -101,7 +101,7 @@ fn assembled(gravity: f64, held: Option<f64>) -> Assembled<3> {
     assemble(&scene).expect("a system")
 }
 
-/// Largest distance of a node, relative to the length, from where the turning string is after a time.
+/// Largest distance of a node, relative to the length, from where the rotating string is after a time.
 fn off(string: &String, nodes: &[Point], system: &Assembled<3>, time: f64) -> f64 {
     let (system, mut work) = (&system.system, Workspace::new(&system.system));
     let axis = Vector3::z() * string.rate;

@@ -327,7 +327,7 @@ fn radau_damps_what_is_too_fast_for_the_step() {
     assert_eq!(method.longest_step(), f64::INFINITY);
 }
 
-/// A slow oscillation and a stiff mode, turned against each other; it starts on the slow one.
+/// A slow oscillation and a stiff mode, rotated against each other; it starts on the slow one.
 fn stiff() -> Problem {
     const SLOW: f64 = 1.0;
     const FAST: f64 = 1e6;

@@ -408,7 +408,7 @@ fn parameters_of_a_rigid_cable_are_those_with_an_effect() {
         .expect("a density");
     simulation.set_real(area, 3.0 * 1e-4).expect("an area");
     simulation.initialize(0.0).expect("a start");
-    // A rod of 0.78 kg, six times as heavy, that turns about its end at 1 rad/s.
+    // A rod of 0.78 kg, six times as heavy, that rotates about its end at 1 rad/s.
     let found = simulation.real(kinetic).expect("an energy");
     assert!((found - 6.0 * 0.78 / 6.0).abs() < 1e-12, "{found}");
 }

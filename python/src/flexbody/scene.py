@@ -184,7 +184,7 @@ class Gear(Part):
     """
     ratio: StrictFloat
     """
-    How much the coordinate of the second changes with that of the first: 1, m/rad, rad/m; negative where they turn opposite ways.
+    How much the coordinate of the second changes with that of the first: 1, m/rad, rad/m; negative where they rotate opposite ways.
     """
 
 
@@ -229,8 +229,8 @@ States by name.
 - `static_equilibrium`: The equilibrium under gravity, loads and the start values of the inputs, motions held where they start. It is
 stable where loads have a potential: an unstable one, as that of a straight column above its buckling load, is
 left to where gravity pulls, else up or to the right. Follower forces have none; there it is where all forces balance.
-- `steady`: Equilibrium in the motion that all bodies start with, by motions, joints and their own `motion`: a steady turn about
-one point, in space one axis, with centrifugal forces, or a translation. What turns starts stretched and does not ring.
+- `steady`: Equilibrium in the motion that all bodies start with, by motions, joints and their own `motion`: a steady rotation about
+one point, in space one axis, with centrifugal forces, or a translation. What rotates starts stretched and does not ring.
 """
 
 
@@ -790,7 +790,7 @@ class Mass(Part):
     """
     inertia: Annotated[StrictFloat, Field(ge=0.0)] = 0.0
     """
-    Moment of inertia that turns with the slope, kg m^2; markers of cables only.
+    Moment of inertia that rotates with the slope, kg m^2; markers of cables only.
     """
 
 
@@ -911,35 +911,35 @@ A word that says which modes are taken.
 
 class RotationVector(Part):
     """
-    Turned from the global axes about an axis, in global components, by its length as angle, rad.
+    Rotated from the global axes about an axis, in global components, by its length as angle, rad.
     """
 
     rotation_vector: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
     """
-    Turned from the global axes about an axis, in global components, by its length as angle, rad.
+    Rotated from the global axes about an axis, in global components, by its length as angle, rad.
     """
 
 
 class Cardan(Part):
     """
-    Turned about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
+    Rotated about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
     """
 
     cardan: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
     """
-    Turned about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
+    Rotated about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
     """
 
 
 class Euler(Part):
     """
-    Turned about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
+    Rotated about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
     nutation, spin), rad.
     """
 
     euler: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
     """
-    Turned about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
+    Rotated about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
     nutation, spin), rad.
     """
 
@@ -1142,7 +1142,7 @@ class QuaternionOutput(Part):
 
 class RotationVectorOutput(Part):
     """
-    How a rigid body or the section of a rod in space stands, as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body turns on beyond,
+    How a rigid body or the section of a rod in space stands, as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body rotates on beyond,
     the vector jumps to its opposite.
     """
 
@@ -1573,6 +1573,19 @@ class TensionOutput(Part):
     """
 
 
+class LengthOutput(Part):
+    """
+    Length of the line that a load pulls along, m, and its rate: the distance of both markers of a `spring_damper`, a `table_spring` or a
+    `force_law`, the path of a `reeving`.
+    """
+
+    kind: Literal["length"] = "length"
+    load: StrictStr
+    """
+    Name of the load.
+    """
+
+
 class EnergyOutput(Part):
     """
     Kinetic, strain and gravitational energy, and that of springs where there are any, J.
@@ -1627,7 +1640,7 @@ class ResidualOutput(Part):
 class NaturalFrequencyOutput(Part):
     """
     Natural frequencies of the scene at rest in the initial configuration, rad/s, without dampers; an unstable
-    mode is a negative number. In a turning frame the imaginary parts of the eigenvalues without dampers. Refused
+    mode is a negative number. In a rotating frame the imaginary parts of the eigenvalues without dampers. Refused
     where a force follows its marker, and where cables, rods or beams rotate initially or by a prescribed motion: see `eigenvalue`.
     """
 
@@ -1648,8 +1661,8 @@ class EigenvalueOutput(Part):
     `decay_rate` in 1/s, negative where the motion grows, and `frequency` in rad/s, slowest (least size of `s`) first;
     conjugate pairs once, real ones (`frequency` 0) each by itself. With dampers, gyroscopic forces and forces that
     follow, inputs held. Of a state in motion or out of equilibrium they are those of the equations of motion at
-    that instant, as seen from the frame of the scene; cables that turn initially are refused: describe them in a frame
-    that turns with them (`rotation`); so are thin rods of space and reduced bodies that turn initially.
+    that instant, as seen from the frame of the scene; cables that rotate initially are refused: describe them in a frame
+    that rotates with them (`rotation`); so are thin rods of space and reduced bodies that rotate initially.
     """
 
     kind: Literal["eigenvalue"] = "eigenvalue"
@@ -1702,6 +1715,7 @@ Output = TypeAliasType(
         | LoadForceOutput
         | LoadMomentOutput
         | TensionOutput
+        | LengthOutput
         | EnergyOutput
         | WorkOutput
         | MomentumOutput
@@ -2346,7 +2360,7 @@ class Station(Part):
     """
     twist: StrictFloat = 0.0
     """
-    Angle of rods and beams about the tangent by which the section's axes are turned there, without stress, from where they would be
+    Angle of rods and beams about the tangent by which the section's axes are rotated there, without stress, from where they would be
     untwisted, rad.
     """
 
@@ -2424,7 +2438,7 @@ class InitialMotion(Part):
     """
     Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,
     0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; of plates and shells in `s1` and `s2`, e.g. `["0", "0", "s1*s2"]`.
-    Cables, rods, beams, plates and shells only. Sections of rods and beams turn with the line.
+    Cables, rods, beams, plates and shells only. Sections of rods and beams rotate with the line.
     """
     spin: Spin = 0.0
     """
@@ -2572,7 +2586,7 @@ class Universal(Part):
 
 class ConstantVelocity(Part):
     """
-    Holds the position and turns both bodies alike about an axis of each, in space: the homokinetic joint of drive shafts.
+    Holds the position and lets both bodies rotate alike about an axis of each, in space: the homokinetic joint of drive shafts.
     """
 
     name: StrictStr
@@ -2666,7 +2680,7 @@ class PointOnLine(Part):
 
 class Cylindrical(Part):
     """
-    Holds the marker on a line of the first one, in space, and lets it turn about that line only.
+    Holds the marker on a line of the first one, in space, and lets it rotate about that line only.
     """
 
     name: StrictStr
@@ -2696,7 +2710,7 @@ class Cylindrical(Part):
 
 class Screw(Part):
     """
-    Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
+    Holds the marker on a line of the first one, in space, along which it goes as it rotates about it.
     """
 
     name: StrictStr
@@ -2764,7 +2778,7 @@ class Prismatic(Part):
 
 class Planar(Part):
     """
-    Holds the marker in a plane of the first one, in space, and lets it turn in that plane only.
+    Holds the marker in a plane of the first one, in space, and lets it rotate in that plane only.
     """
 
     name: StrictStr
@@ -3020,7 +3034,7 @@ class ReevingLoad(Part):
     """
     drum: StrictStr | None = None
     """
-    Name of a joint with an angle that turns a drum. The drum winds up the rope from either of its ends.
+    Name of a joint with an angle that rotates a drum. The drum winds up the rope from either of its ends.
     """
     drum_radius: StrictFloat | None = None
     """
@@ -3880,7 +3894,7 @@ class RigidBody(Part):
     inertia: Inertia | None = None
     """
     Inertia about the centre of mass, kg m^2: a number in the plane; in space the moments about the axes of the body's
-    frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not turn.
+    frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not rotate.
     """
     markers: dict[str, Vector] = {}
     """
@@ -4577,5 +4591,5 @@ class Scene(Part):
     rotation: Spin = 0.0
     """
     Angular velocity of the frame that the scene is described in, about its origin, rad/s: a number in the plane,
-    counter-clockwise, three components in space. Gravity and the ground turn with the frame.
+    counter-clockwise, three components in space. Gravity and the ground rotate with the frame.
     """

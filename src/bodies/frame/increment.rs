@@ -7,7 +7,7 @@ use super::RigidBodyFrame;
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, product};
 
-/// How a body has turned from the frame that the state holds.
+/// How a body has rotated from the frame that the state holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RotationIncrement {
     /// Rotation, rad.
@@ -18,25 +18,25 @@ pub struct RotationIncrement {
     pub spin: Vector3<f64>,
 }
 
-/// The rotation by `p`: `v` in components along the turned axes.
+/// The rotation by `p`: `v` in components along the rotated axes.
 pub(in crate::bodies) fn turned_back<N: Number>(p: &Vector3<N>, v: &Vector3<N>) -> Vector3<N> {
     let across = p.cross(v);
     let scale = N::of(1.0) / (N::of(1.0) + N::of(0.25) * p.norm_squared());
     v - (across - p.cross(&across) * N::of(0.5)) * scale
 }
 
-/// Angular velocity along the turned axes at a rate of a rotation `p`.
+/// Angular velocity along the rotated axes at a rate of a rotation `p`.
 pub(in crate::bodies) fn spin_of<N: Number>(p: &Vector3<N>, rate: &Vector3<N>) -> Vector3<N> {
     (rate - p.cross(rate) * N::of(0.5)) / (N::of(1.0) + N::of(0.25) * p.norm_squared())
 }
 
-/// Rate of a rotation `p` at an angular velocity along the turned axes.
+/// Rate of a rotation `p` at an angular velocity along the rotated axes.
 pub(super) fn rate_of<N: Number>(p: &Vector3<N>, spin: &Vector3<N>) -> Vector3<N> {
     spin + p.cross(spin) * N::of(0.5) + p * (N::of(0.25) * p.dot(spin))
 }
 
 impl RotationIncrement {
-    /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body turned.
+    /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body rotated.
     pub(in crate::bodies) fn quaternion(&self, from: &Quaternion) -> Quaternion {
         let half = self.rotation * 0.5;
         product(from, &[1.0, half.x, half.y, half.z])
@@ -79,7 +79,7 @@ impl RigidBodyFrame {
         }
     }
 
-    /// How it has turned at these coordinates.
+    /// How it has rotated at these coordinates.
     pub(in crate::bodies) fn increment(&self, q: &[f64]) -> RotationIncrement {
         RotationIncrement {
             rotation: self.read(q),

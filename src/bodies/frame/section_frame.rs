@@ -1,4 +1,4 @@
-//! Frames that rods and beams carry along their lines. Of rods the first axis is the tangent, the others are turned about it; sections of
+//! Frames that rods and beams transport along their lines. Of rods the first axis is the tangent, the others are rotated about it; sections of
 //! beams have a shear rotation against it, three coordinates and are in `shear_rotation.rs`.
 //!
 //! Of a rod what is integrated is position and slope `(r, u)` of the node of the line and one rotation `p` about the tangent `t = u / |u|`,
@@ -7,7 +7,7 @@
 //! velocity `t x t' + w t`. A moment `m` is `(m x u) / u.u` on the slope and `m.t` on the rotation; conjugate to the spin, which is
 //! no rate of a coordinate, a momentum `P` puts the force `P (t x t') / |u|` on the slope.
 //!
-//! Source: M. Bergou et al., Discrete elastic rods, ACM Trans. Graph. 27 (2008) 63 (carried frames and their variation); C. Meier,
+//! Source: M. Bergou et al., Discrete elastic rods, ACM Trans. Graph. 27 (2008) 63 (transported frames and their variation); C. Meier,
 //! A. Popp, W. A. Wall, Geometrically exact finite element formulations for slender beams, Arch. Comput. Methods Eng. 26 (2019)
 //! 163-243, section 4 (smallest rotations on Hermite lines).
 
@@ -46,7 +46,7 @@ pub enum Derivative {
     Back,
 }
 
-/// How a carried frame has turned from the one that the state holds.
+/// How a transported frame has rotated from the one that the state holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SectionFrameState {
     /// Tangent that it is carried from, tangent, and rate of that, 1/s.
@@ -81,7 +81,7 @@ impl SectionFrameState {
         self.rate_of(spin_rate, slope) - h.dot(&self.rate) * (2.0 * self.stretching + bend)
     }
 
-    /// How far it has turned, rad: as a whole or about the tangent.
+    /// How far it has rotated, rad: as a whole or about the tangent.
     pub fn size(&self, frame: &SectionFrame) -> f64 {
         if frame.has_shear {
             return self.shear_rotation.size();
@@ -103,7 +103,7 @@ pub(super) fn angular<N: Number>(slope: &Vector3<N>, rate: &Vector3<N>, spin: N)
     slope.cross(rate) / slope.norm_squared() + slope * (spin / slope.norm_squared().sqrt())
 }
 
-/// Rates of axes that turn at an angular velocity in global components.
+/// Rates of axes that rotate at an angular velocity in global components.
 fn axis_rates_by<N: Number>(axes: &Axes<N>, velocity: &Vector3<N>) -> Axes<N> {
     axes.map(|axis| velocity.cross(&axis))
 }

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The first rotation is the smallest that takes the first axis of `R0` to the tangent, so that where `e` stays, the section follows
-//! the tangent and its shear does not change, however far the tangent turns: a shear stiffness of any size leaves increments of `u` and
+//! the tangent and its shear does not change, however far the tangent rotates: a shear stiffness of any size leaves increments of `u` and
 //! `p` that are found from linearized equations what they are. At `p = 0` the frame is `R0` whatever the shear rotation. A section that spins about
 //! its normal moves by an angle, at a constant rate: what methods integrate without error.
 //!
@@ -55,7 +55,7 @@ fn across<N: Number>(x: &Vector3<N>) -> Vector3<N> {
     Vector3::new(N::of(0.0), x[1], x[2])
 }
 
-/// A vector along axes that have turned about the first one, by an angle of this sine and cosine, along those before.
+/// A vector along axes that have rotated about the first one, by an angle of this sine and cosine, along those before.
 fn unrolled<N: Number>(v: &Vector3<N>, (sine, cosine): (N, N)) -> Vector3<N> {
     Vector3::new(
         v[0],
@@ -170,7 +170,7 @@ impl ShearRotation {
         rotation_rate(&anew.rotation, [&tau, &rate], &self.spin)
     }
 
-    /// How far it has turned, rad: itself, or the tangent.
+    /// How far it has rotated, rad: itself, or the tangent.
     pub fn size(&self) -> f64 {
         let [s, _] = smallest(&self.tangent()[0], &Vector3::zeros());
         self.rotation.norm().max(s.norm())

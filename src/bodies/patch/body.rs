@@ -19,6 +19,9 @@ use crate::math::rotation::Quaternion;
 use crate::math::space::{Vector, components, spin_matrix, vector};
 use crate::math::sparse::Matrix;
 
+/// Dimension of the scenes that patches are in. What takes long to compile is compiled for these alone.
+const SPACE: usize = 3;
+
 /// Adds forces of all packs.
 struct AddPatchForce<'a, const D: usize> {
     patch: &'a Patch,
@@ -333,12 +336,14 @@ impl<const D: usize> BodyPart<D> for Patch {
         (f, _): (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
         let mut power = 0.0;
-        vectorized(AddPatchForce {
-            patch: self,
-            motion: motion.pair(),
-            force: f,
-            power: &mut power,
-        });
+        if const { D == SPACE } {
+            vectorized(AddPatchForce {
+                patch: self,
+                motion: motion.pair(),
+                force: f,
+                power: &mut power,
+            });
+        }
         power
     }
 
@@ -360,13 +365,15 @@ impl<const D: usize> BodyPart<D> for Patch {
         assembly: &Assembly<D>,
         [stiffness, damping]: [&mut Matrix<f64>; 2],
     ) {
-        vectorized(AddPatchTangent {
-            patch: self,
-            motion,
-            assembly,
-            stiffness,
-            damping,
-        });
+        if const { D == SPACE } {
+            vectorized(AddPatchTangent {
+                patch: self,
+                motion,
+                assembly,
+                stiffness,
+                damping,
+            });
+        }
     }
 
     fn add_quadratic<N: Number>(

@@ -11,12 +11,12 @@ use crate::bodies::frame::{
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::math::space::{components, vector};
 
-/// The force on a rotation `p` of a moment along the turned axes: the transpose of [`spin_of`].
+/// The force on a rotation `p` of a moment along the rotated axes: the transpose of [`spin_of`].
 pub(super) fn force_of<N: Number>(p: &Vector3<N>, moment: &Vector3<N>) -> Vector3<N> {
     (moment + p.cross(moment) * N::of(0.5)) / (N::of(1.0) + N::of(0.25) * p.norm_squared())
 }
 
-/// Rate of the spin along axes that are turned by `p` against a body, without `p''` and without the angular acceleration of the body.
+/// Rate of the spin along axes that are rotated by `p` against a body, without `p''` and without the angular acceleration of the body.
 fn spin_bias<N: Number>(p: &Vector3<N>, rate: &Vector3<N>, of_body: &Vector3<N>) -> Vector3<N> {
     let own = spin_of(p, rate);
     let shrink = N::of(0.5) * p.dot(rate) / (N::of(1.0) + N::of(0.25) * p.norm_squared());

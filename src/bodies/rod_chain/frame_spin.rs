@@ -1,6 +1,6 @@
-//! What a scene that turns adds to the inertia of spins (`"rotation"`): sections that are at rest in it turn with it. With `W` its
+//! What a scene that rotates adds to the inertia of spins (`"rotation"`): sections that are at rest in it rotate with it. With `W` its
 //! rotation along the axes of a section (of a rod about the tangent alone), the spin against space is `w + W`, and with momenta `P` of
-//! `w` and `Q` of `W` the equations of motion in space ask, beside what they ask for where nothing turns,
+//! `w` and `Q` of `W` the equations of motion in space ask, beside what they ask for where nothing rotates,
 //!
 //! - of a beam for the moment `-dQ + P x W + Q x (w + W)`, with `dQ` that of `W' = W x w`;
 //! - of a rod for the moment `-dQ` about the tangent, with `dQ` that of `W' = W . t'`, and for the force

@@ -36,7 +36,7 @@ impl RodChain {
         momenta
     }
 
-    /// For every carried frame its momentum about the tangent or, of a beam, along its axes, N m s, part by part of the elements.
+    /// For every transported frame its momentum about the tangent or, of a beam, along its axes, N m s, part by part of the elements.
     pub fn for_each_momentum<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
@@ -64,7 +64,7 @@ impl RodChain {
         if self.is_planar() { 1..2 } else { 0..3 }
     }
 
-    /// Inertia of its sections against turns in the plane, kg m^2, by their nodes: that of the elements beside them.
+    /// Inertia of its sections against rotation in the plane, kg m^2, by their nodes: that of the elements beside them.
     pub fn planar_inertia(&self) -> impl Iterator<Item = (usize, f64)> {
         let of = |j: Option<usize>, end: usize| {
             let element = j.and_then(|j| self.elements.get(j));

@@ -38,7 +38,7 @@ pub(super) fn packs(elements: &[(SectionElement, SpinInertia)]) -> Vec<Packed> {
 }
 
 impl RodChain {
-    /// Adds elastic and damping forces: those on the line and inside elements over the nodes, moments on sections to those of all carried
+    /// Adds elastic and damping forces: those on the line and inside elements over the nodes, moments on sections to those of all transported
     /// frames. The power that damping takes out, W.
     pub fn add_force<const D: usize>(
         &self,

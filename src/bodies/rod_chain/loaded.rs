@@ -69,7 +69,7 @@ impl RodChain {
         product(force, &self.rates(j, motion))
     }
 
-    /// Work of a force on element `j` that stays what it is on the way between two places, J: exact for small turns.
+    /// Work of a force on element `j` that stays what it is on the way between two places, J: exact for small rotations.
     pub fn work_of<const D: usize>(
         &self,
         (j, force): (usize, &Force<f64>),

@@ -41,8 +41,8 @@ pub(super) fn inner<const D: usize, N: Number>(node: &Node<D, N>) -> [N; 3] {
     [cos, sin, N::of(0.0)]
 }
 
-/// Adds a turn, or a rate of it, to what a node inside an element holds: in the plane the angle of the section there, in space nothing that
-/// turns with a body.
+/// Adds a rotation, or a rate of it, to what a node inside an element holds: in the plane the angle of the section there, in space nothing that
+/// rotates with a body.
 pub fn rotate_inner<const D: usize>(node: &mut Node<D>, turn: f64) {
     if D == 2 {
         node[ANGLE.0][ANGLE.1] += turn;

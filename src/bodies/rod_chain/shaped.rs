@@ -6,9 +6,9 @@ use crate::bodies::connectivity::Node;
 use crate::bodies::stages::rotated;
 use crate::math::space::vector;
 
-/// Axes of frames carried along a line, whose tangents are those at parts in [0, 1] of its elements, by so many smallest rotations an element
+/// Axes of frames transported along a line, whose tangents are those at parts in [0, 1] of its elements, by so many smallest rotations an element
 /// (one where a plane holds it; else the angle that they miss falls with the square of their number), the first of them with this second
-/// axis, and then turned about the tangent by the angles of these twists, rad: position and axes in two nodes each.
+/// axis, and then rotated about the tangent by the angles of these twists, rad: position and axes in two nodes each.
 pub fn transported_nodes<const D: usize>(
     line: &[Node<D>],
     second: [f64; 3],

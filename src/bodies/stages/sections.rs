@@ -2,9 +2,9 @@
 //!
 //! Mesh nodes of plates and shells rotate with their tangent plane: all four vectors of one by its rotation.
 //!
-//! Sections of beams hold their nodes: the line of a beam turns with its sections, roll included. Turned by the smallest rotation of their
+//! Sections of beams hold their nodes: the line of a beam rotates with its sections, roll included. Rotated by the smallest rotation of their
 //! tangents alone, lines and sections would come apart by the roll between the tangent and a stage, times the stiffness of shear. In the
-//! plane there is no roll, and a direction is all that a line turns by.
+//! plane there is no roll, and a direction is all that a line rotates by.
 //!
 //! Stiffeners rotate with the surface that they are on, so that nodes that are tied together rotate alike.
 

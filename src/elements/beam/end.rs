@@ -1,7 +1,7 @@
 //! An end of a beam: the tangent's frame, the section's shear rotation in it, and what both do when slope and section move.
 //!
 //! Source: (1) of `beam/mod.rs`. With the spin `w` of the section along the axes of the tangent's frame, `x = t x t'` and
-//! `v = w - x` across the tangent, the shear rotation changes by `c' = (1 + |c|^2 / 4) v` and the tangent's frame turns about the tangent by
+//! `v = w - x` across the tangent, the shear rotation changes by `c' = (1 + |c|^2 / 4) v` and the tangent's frame rotates about the tangent by
 //! `w . t - t . (c x v) / 2`: the relative rotation has the rational vector `c`.
 
 use super::shear_rotation::turned_by_shear;
@@ -47,7 +47,7 @@ impl<N: Real> End<N> {
         }
     }
 
-    /// Rates of the turn of the tangent's frame and of the shear rotation, from those of the slope and from the angular velocity along the
+    /// Rates of the rotation of the tangent's frame and of the shear rotation, from those of the slope and from the angular velocity along the
     /// section's own axes.
     #[inline(always)]
     pub fn rates(&self, du: &Vector<N>, spin: &[N; 3]) -> (N, [N; 2]) {
@@ -83,7 +83,7 @@ impl<N: Real> End<N> {
 pub(super) type Six<N> = [[N; 6]; 6];
 
 impl<N: Real> End<N> {
-    /// Second derivatives of the turn of the tangent's frame and of the shear rotation while slope and angular velocity change evenly, taken
+    /// Second derivatives of the rotation of the tangent's frame and of the shear rotation while slope and angular velocity change evenly, taken
     /// with the torque about the tangent and what the shear rotation is taken with.
     ///
     /// With `f` this torque, `m` the moment of both along the tangent's frame, `s = t . u' / |u|`, and what is across the tangent as
@@ -93,7 +93,7 @@ impl<N: Real> End<N> {
     /// f t . (w x x) + (w . t) t . (m x (w - 2 x)) + 2 s m . x + Re(conj(c m) v^2) / 2 + f Im(conj(c^2) v^2) / 8
     /// ```
     ///
-    /// as components of a vector that stands still turn against the frame, and `x' = -2 s x` in space.
+    /// as components of a vector that stands still rotate against the frame, and `x' = -2 s x` in space.
     #[inline(always)]
     pub fn second(&self, torque: N, shear_rotation: &[N; 2]) -> Six<N> {
         let ([p, q], half) = (self.shear_rotation, torque.constant(0.5));

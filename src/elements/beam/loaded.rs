@@ -1,7 +1,7 @@
 //! Moments per reference length along an element of a beam: their power is the integral of `m . w`, with the angular velocity `w` of the
 //! sections: that of the tangent's frame, as a rod's, and of the shear rotation against it.
 //!
-//! Source: the equations of `beam/mod.rs`. A frame that is turned by the rational vector `c` turns against the other by
+//! Source: the equations of `beam/mod.rs`. A frame that is rotated by the rational vector `c` rotates against the other by
 //! `(c' + c x c' / 2) / (1 + |c|^2 / 4)` along the axes of that one (M. Borri, L. Trainelli, C. L. Bottasso, Multibody System Dynamics 4
 //! (2000) 129-193).
 

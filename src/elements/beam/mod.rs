@@ -7,14 +7,14 @@
 //!
 //! At both ends there are position `r`, slope `u = dr/ds`, and the axes `e1`, `e2`, `e3` of the section; `e1` is its normal, which
 //! shear makes shear rotation away from the unit tangent `t = u / |u|`. The tangent's frame is `t`, `d = carry(e1, t, e2)`, `t x d`; in it the
-//! section is turned by the rational vector
+//! section is rotated by the rational vector
 //!
 //! ```text
 //! c = 2 (t x e1) / (1 + t . e1),   [c] v = v + (c x v + c x (c x v) / 2) / (1 + |c|^2 / 4),   e_j = [c] d_j
 //! ```
 //!
 //! which has two components, about `d` and about `t x d`. On the tangent's frames stands the rod with its internal twist: its twist
-//! and curvatures `k`. The shear rotation is interpolated between the ends in the carried and twisted frame, and an internal one of either
+//! and curvatures `k`. The shear rotation is interpolated between the ends in the transported and twisted frame, and an internal one of either
 //! component is added with `4 xi (1 - xi)`. With the stretch `n`, the parabola through `|u|` at both ends and in the middle, strains
 //! are, along the axes of the section and by the reference length,
 //!

@@ -1,6 +1,6 @@
 //! Strains of a section that shear rotations away from the normal of the line, with their derivatives.
 //!
-//! Source: (1) and (2) of `beam/mod.rs`. With the shear rotation `c = (0, p, q)`, `D = 1 / (1 + |c|^2 / 4)`, the stretch `n`, turning
+//! Source: (1) and (2) of `beam/mod.rs`. With the shear rotation `c = (0, p, q)`, `D = 1 / (1 + |c|^2 / 4)`, the stretch `n`, rotating
 //! `k = (a, b, b')` of the tangent's frame, `g = q b - p b'`, `m = a + g / 2` they are
 //!
 //! ```text
@@ -30,7 +30,7 @@ pub(super) struct Local<N> {
     pub change: [N; 2],
 }
 
-/// Derivatives of the strains by what they are made of: of the first three by stretch and shear rotation, of the last by turning, shear rotation and its
+/// Derivatives of the strains by what they are made of: of the first three by stretch and shear rotation, of the last by rotating, shear rotation and its
 /// change.
 pub(super) struct Rows<N> {
     forces: [[N; 3]; 3],
@@ -195,7 +195,7 @@ impl<N: Real> Rows<N> {
     }
 }
 
-/// A symmetric matrix over stretch, turning, shear rotation and its change.
+/// A symmetric matrix over stretch, rotating, shear rotation and its change.
 pub(super) type Eight<N> = [[N; 8]; 8];
 
 impl<N: Real> Rows<N> {

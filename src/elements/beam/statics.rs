@@ -102,7 +102,7 @@ impl Chain {
         panic!("no equilibrium");
     }
 
-    /// Sections follow the tangents, which turn by the rational vector that their rate in the step is: else slope and section fall
+    /// Sections follow the tangents, which rotate by the rational vector that their rate in the step is: else slope and section fall
     /// apart in the second order of a step, against a stiff shear. A section without spin stands still.
     fn advance(&mut self, step: &DVector<f64>) {
         let stations = self.line.len();

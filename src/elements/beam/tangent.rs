@@ -2,8 +2,8 @@
 //! internal twist and shear rotations.
 //!
 //! Source: twice the derivative by time of the equations of `beam/mod.rs`. At a point the energy changes by the squares of the rates
-//! of stretch, turning, shear rotation and its change (`beam/shear_rotation.rs`), and by the second derivatives of the first two, those of turning the
-//! rod's; at the ends by those of shear rotation and turn of the tangent's frame (`beam/end.rs`).
+//! of stretch, rotating, shear rotation and its change (`beam/shear_rotation.rs`), and by the second derivatives of the first two, those of rotating the
+//! rod's; at the ends by those of shear rotation and of rotation of the tangent's frame (`beam/end.rs`).
 
 use super::end::End;
 use super::kernel::{Kernel, Placed, Shapes};
@@ -101,7 +101,7 @@ impl<N: Real> Kernel<N> {
         }
     }
 
-    /// Adds a point: squares of the rates there, and the second derivatives of turning taken with its factors.
+    /// Adds a point: squares of the rates there, and the second derivatives of rotating taken with its factors.
     #[inline(always)]
     fn add_point(
         &self,
@@ -203,7 +203,7 @@ impl<N: Real> Kernel<N> {
     }
 }
 
-/// From turns of the tangents' frames and shear rotations at the ends to angular velocities of the sections: rows with columns up to the
+/// From rotations of the tangents' frames and shear rotations at the ends to angular velocities of the sections: rows with columns up to the
 /// diagonal.
 #[inline(always)]
 fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &mut Matrix<N>) {

@@ -23,7 +23,7 @@ fn rates(seed: u64) -> Rates<f64> {
     }
 }
 
-/// Axes turned from those of space.
+/// Axes rotated from those of space.
 fn turned(turn: &Rotation3<f64>) -> [[f64; 3]; 3] {
     [V::x(), V::y(), V::z()].map(|axis| (turn * axis).into())
 }
@@ -216,7 +216,7 @@ fn rotating_everything_leaves_the_energy() {
     }
 }
 
-/// Seen from the last end: tangents and normals turn round, and the third axes.
+/// Seen from the last end: tangents and normals rotate round, and the third axes.
 fn from_the_last_end(at: &At<f64>) -> At<f64> {
     let ([ra, ua, rb, ub], [beta, p, q]) = (at.e, at.inner);
     let round =
@@ -422,7 +422,7 @@ fn packs_are_as_their_elements() {
 
 #[test]
 fn a_straight_beam_has_its_strains() {
-    // Stretched by 1.1, sections with a shear rotation of 0.2 rad about their second axis, which turns evenly by 0.5 rad along the beam.
+    // Stretched by 1.1, sections with a shear rotation of 0.2 rad about their second axis, which rotates evenly by 0.5 rad along the beam.
     let (stretch, angle, twist) = (1.1, 0.2_f64, 0.5);
     let shear_rotation = Rotation3::new(V::y() * angle);
     let axes = [0.0, twist].map(|by| turned(&(Rotation3::new(V::x() * by) * shear_rotation)));

@@ -58,7 +58,7 @@ fn the_slope_at_a_free_end_is_held_by_tension_inside() {
         -1.0,
     ];
     let e = Nodal::<2>::from_column_slice(&columns);
-    // The slope turns and the chord by a sixth of it: the middle does not notice.
+    // The slope rotates and the chord by a sixth of it: the middle does not notice.
     let mode = [0.0, 0.0, 0.0, 0.0, ROPE.length / 6.0, 0.0, 1.0, 0.0];
     let rope = Cable::<2>::new(ROPE, None);
     let held = |element: &Cable<2>| {

@@ -1,7 +1,7 @@
-//! Frames of sections carried along the line of an element, and how what sections see changes with the line, the spins of its ends
+//! Frames of sections transported along the line of an element, and how what sections see changes with the line, the spins of its ends
 //! and the internal twist.
 //!
-//! Source: the equations of `rod/mod.rs`; the gradient is theirs by the variation of a carried frame (1).
+//! Source: the equations of `rod/mod.rs`; the gradient is theirs by the variation of a transported frame (1).
 
 use super::vectors::{Vector, across, add, carry, cross, plus, unit};
 use super::{Force, Rates};
@@ -34,7 +34,7 @@ pub(in crate::elements) const MIDDLE: [f64; 3] = sample(QuadraturePoint {
 pub(in crate::elements) struct Geometry<N> {
     pub length: N,
     pub inverse_length: N,
-    /// Whether the stresses do not notice a turn of the section about the tangent.
+    /// Whether the stresses do not notice a rotation of the section about the tangent.
     pub is_round: bool,
 }
 
@@ -54,7 +54,7 @@ pub(in crate::elements) struct Frame<N> {
     pub middle: Vector<N>,
     pub inverse_size: N,
     pub ends: [End<N>; 2],
-    /// The first end's frame, carried to the middle.
+    /// The first end's frame, transported to the middle.
     pub axes: [Vector<N>; 2],
     /// Twist of the element, rad.
     pub twist: N,
@@ -70,7 +70,7 @@ pub(in crate::elements) struct Motion<N> {
 /// Rates of a frame.
 struct FrameRate<N> {
     middle: Vector<N>,
-    /// Rate of turning of the first end's frame, carried to the middle.
+    /// Rate of rotating of the first end's frame, transported to the middle.
     turn: N,
     twist: N,
 }
@@ -270,7 +270,7 @@ impl<N: Real> Geometry<N> {
         ];
         let flat = plus(&frame.axes[0], p, &times(&frame.axes[1], q));
         let shared = torque * at.inverse;
-        // The moment less what the twist of the carried frame takes.
+        // The moment less what the twist of the transported frame takes.
         let back = carry(z, t, at.inverse, &flat);
         let m = plus(z, -shared, &back);
         let half = times(&cross(z, t), -(turn * at.inverse));
@@ -291,7 +291,7 @@ impl<N: Real> Geometry<N> {
         }
     }
 
-    /// Tangent and axes across it of a section; of round ones, whose stresses do not notice a turn, untwisted.
+    /// Tangent and axes across it of a section; of round ones, whose stresses do not notice a rotation, untwisted.
     #[inline(always)]
     pub fn axes(&self, at: &Section<N>, frame: &Frame<N>) -> [Vector<N>; 3] {
         let [first, second] = &frame.axes;

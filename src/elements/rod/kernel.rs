@@ -1,6 +1,6 @@
 //! The formulas of bending and torsion of a rod, for one element or for several in lanes, or for numbers with derivatives.
 //!
-//! Source: the equations of `rod/mod.rs`; the gradient is theirs by the variation of a carried frame (1).
+//! Source: the equations of `rod/mod.rs`; the gradient is theirs by the variation of a transported frame (1).
 
 use super::geometry::{Geometry, POINTS, PlacedSection, Sum};
 use super::stretch::{Axial, Coupled};

@@ -1,7 +1,7 @@
 //! Moments per reference length along an element of a rod: their power is the integral of `m . w`, with the angular velocity `w` of the
-//! sections as they turn with the line, the spins of the ends and the internal twist.
+//! sections as they rotate with the line, the spins of the ends and the internal twist.
 //!
-//! Source: the equations of `rod/mod.rs`; the angular velocity is that of a carried frame (1).
+//! Source: the equations of `rod/mod.rs`; the angular velocity is that of a transported frame (1).
 
 use super::geometry::{LOADED, PlacedSection, Sum};
 use super::vectors::plus;

@@ -16,7 +16,7 @@
 //! ```
 //!
 //! With `z` the unit tangent at the middle, `D = carry(t, z, d)` of both ends, and the twist `Phi` the angle from the first to
-//! the last about `z`, the section at `xi` in [0, 1] is turned by `phi = Phi xi + 4 xi (1 - xi) beta`, with `beta` the internal
+//! the last about `z`, the section at `xi` in [0, 1] is rotated by `phi = Phi xi + 4 xi (1 - xi) beta`, with `beta` the internal
 //! twist of the element: `d1 = carry(z, t, cos(phi) D_A + sin(phi) z x D_A)`, `d2 = t x d1`. Strains are
 //!
 //! ```text
@@ -122,7 +122,7 @@ pub struct Force<N> {
 /// Which derivative of the force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tangent {
-    /// Minus that along displacements (`d` turned as by [`At::section_rate`]).
+    /// Minus that along displacements (`d` rotated as by [`At::section_rate`]).
     Stiffness,
     /// Minus that by velocities.
     Damping,
@@ -215,7 +215,7 @@ impl Rod {
     }
 
     /// Tangent stiffness, the derivative of minus the force along velocities, symmetric: the second derivatives of the energy
-    /// where `d` is turned about the tangent after the smallest rotation with it. With rates its symmetric part
+    /// where `d` is rotated about the tangent after the smallest rotation with it. With rates its symmetric part
     /// that matters: the stresses that damping adds are taken as given.
     pub fn stiffness(&self, at: &At<f64>, rates: Option<&Rates<f64>>) -> Matrix {
         self.kernel.tangent(at, rates, Tangent::Stiffness)
@@ -226,7 +226,7 @@ impl Rod {
         self.kernel.tangent(at, None, Tangent::Damping)
     }
 
-    /// The formulas with sections as they are turned: round ones do not notice.
+    /// The formulas with sections as they are rotated: round ones do not notice.
     fn material(&self) -> Kernel<f64> {
         let mut kernel = self.kernel.clone();
         kernel.geometry.is_round = false;
@@ -364,7 +364,7 @@ pub(in crate::elements) fn read<S: Simd, const K: usize>(
     vectors
 }
 
-/// Whether the stresses do not notice a turn of the sections about the tangent.
+/// Whether the stresses do not notice a rotation of the sections about the tangent.
 fn is_round(kernel: &Kernel<f64>) -> bool {
     let straight = kernel
         .law

@@ -8,7 +8,7 @@ use crate::elements::line::times;
 use crate::math::lanes::Real;
 
 /// A linear form of vectors (at a section `u'`, `w'`, `z'`; of an element the three of the line, then `z'`), and of the
-/// turn at the middle, the twist and the internal twist (of an element, in the end: both spins and the internal twist).
+/// rotate at the middle, the twist and the internal twist (of an element, in the end: both spins and the internal twist).
 #[derive(Clone, Copy)]
 pub(super) struct Form<N, const K: usize> {
     pub vectors: [Vector<N>; K],

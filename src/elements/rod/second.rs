@@ -13,7 +13,7 @@
 //! x'' = -(x'.x') x - 2 (x.y') x' / |y|   of x = y / |y|, y steady
 //! ```
 //!
-//! with `g_z`, `g_t` the factors of `z'` and `t'` in the gradient, and `alpha` the turn of the first end's frame at the middle.
+//! with `g_z`, `g_t` the factors of `z'` and `t'` in the gradient, and `alpha` the rotation of the first end's frame at the middle.
 
 use super::geometry::{Frame, Geometry, Section};
 use super::kernel::Square;
@@ -77,7 +77,7 @@ impl<N: Real> Geometry<N> {
         }
     }
 
-    /// Turn of a section about its tangent.
+    /// Rotation of a section about its tangent.
     #[inline(always)]
     fn turning(&self, point: &Sample, seen: &Seen<'_, N>) -> Form<N, 3> {
         let zero = self.number(0.0);
@@ -148,7 +148,7 @@ impl<N: Real> Geometry<N> {
         local
     }
 
-    /// Second derivatives of curvatures by `u`, `w` and the turn.
+    /// Second derivatives of curvatures by `u`, `w` and the rotation.
     #[inline(always)]
     pub(super) fn add_stresses(
         &self,
@@ -180,7 +180,7 @@ impl<N: Real> Geometry<N> {
         local.add_multiple(U, U, -(shrink + shrink));
         let zero = [self.number(0.0); 3];
         local.add_symmetric(U, &times(&moment, half * p), &[at.curvature, zero, zero]);
-        // The turn.
+        // The rotation.
         let turning = self.turning(point, seen);
         let other = plus(d2, *first, &times(d1, -*second));
         let own = -(half * (*first * at.strains[1] + *second * at.strains[2]));

@@ -135,7 +135,7 @@ impl Chain {
         part += on_slope;
         force[tip + 6] += m.dot(&t);
         let change = m.cross_matrix() / square - on_slope * u.transpose() * (2.0 / square);
-        // The frame turns about the tangent as slopes change one after the other: half of it for either.
+        // The frame rotates about the tangent as slopes change one after the other: half of it for either.
         let skew = t.cross_matrix() * (0.5 * m.dot(&t) / square);
         let mut part = tangent.fixed_view_mut::<3, 3>(tip + 3, tip + 3);
         part -= change - skew;

@@ -16,7 +16,7 @@ use crate::math::lanes::Real;
 /// `z'` among the vectors of an element.
 const LAST: usize = 3;
 
-/// Summed factors of what has second derivatives of its own: of `z'`, of the turn at the middle, of the twist.
+/// Summed factors of what has second derivatives of its own: of `z'`, of the rotation at the middle, of the twist.
 struct Factors<N> {
     middle: Vector<N>,
     turn: N,
@@ -149,7 +149,7 @@ impl<N: Real> Geometry<N> {
         factors.twist += turn.times_plus(self.number(point.at), *torque * self.inverse_length);
     }
 
-    /// Torques about the tangents at the ends: derivatives of the energy by the turns there.
+    /// Torques about the tangents at the ends: derivatives of the energy by the rotations there.
     #[inline(always)]
     pub fn torques(&self, sum: &Curved<N>) -> [N; 2] {
         let Factors { turn, twist, .. } = sum.factors;
@@ -214,7 +214,7 @@ impl<N: Real> Geometry<N> {
         }
     }
 
-    /// From the turn at the middle and the twist to both spins, from `z'` to the line.
+    /// From the rotation at the middle and the twist to both spins, from `z'` to the line.
     #[inline(always)]
     pub fn whole(&self, frame: &Frame<N>, sum: &mut Curved<N>) -> Matrix<N> {
         let (sum, factors) = (&mut sum.squares, &mut sum.factors);

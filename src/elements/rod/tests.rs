@@ -280,7 +280,7 @@ fn rotating_everything_leaves_the_energy() {
     }
 }
 
-/// Seen from the last end: tangents turn round.
+/// Seen from the last end: tangents rotate round.
 fn from_the_last_end(at: &At<f64>) -> At<f64> {
     let [ra, ua, rb, ub] = at.e;
     At {

@@ -1,6 +1,6 @@
 //! Strains, stress resultants and forces of an element of a plate or shell.
 //!
-//! Membrane strains are sampled where they do not lock and carried to the nine inner places, where membrane and bending meet in one law
+//! Membrane strains are sampled where they do not lock and interpolated to the nine inner places, where membrane and bending meet in one law
 //! (docs/decisions/0076-plates-and-shells.md). All components are covariant, by `xi` and `eta`; the stiffness at a point takes them to the
 //! axes of the section. Twists and shears are the engineering ones.
 //!
@@ -180,7 +180,7 @@ fn products<N: Real>(r: &Grid<N>, s: &Grid<N>, is_rate: bool) -> Components<N> {
     ]
 }
 
-/// Half the metric, carried to the inner places.
+/// Half the metric, interpolated to the inner places.
 #[inline(always)]
 pub(super) fn metric<N: Real>(grid: &Grid<N>) -> Components<N> {
     products(grid, grid, false)
@@ -479,7 +479,7 @@ pub(super) fn at_samples<N: Real>(membrane: &Components<N>) -> Components<N> {
     ]
 }
 
-/// Turns the second derivatives at an inner place into the forces of moments on them, against the curvatures. Returns those on the first
+/// Converts the second derivatives at an inner place into the forces of moments on them, against the curvatures. Returns those on the first
 /// derivatives.
 #[inline(always)]
 fn turn_into_forces<N: Real>(
@@ -502,7 +502,7 @@ fn turn_into_forces<N: Real>(
     ]
 }
 
-/// Turns the first derivatives into the forces on them, against the strains: those of curvatures at inner places, and those of membrane
+/// Converts the first derivatives into the forces on them, against the strains: those of curvatures at inner places, and those of membrane
 /// forces at samples.
 #[inline(always)]
 fn forces_on_slopes<N: Real>(

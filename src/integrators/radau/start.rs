@@ -13,7 +13,7 @@ use super::{C, GAMMA, Radau, dense, product, size};
 use crate::system::Dynamics;
 
 /// Acceleration, over that of slow directions, from which on stiff directions hold most of it. Below, they hold what is balanced
-/// there, as the centripetal part of what turns.
+/// there, as the centripetal part of what rotates.
 const DOMINANT: f64 = 2.0;
 
 impl Radau {

@@ -147,7 +147,7 @@ impl<T: Number> General<T> {
         })
     }
 
-    /// Turns the blocks below a factored diagonal block into those of L, and takes their products with the
+    /// Converts the blocks below a factored diagonal block into those of L, and takes their products with the
     /// blocks above out of the later columns.
     fn eliminate(&mut self, pattern: &Pattern, column: &Column, pivots: &[usize]) {
         let size = column.size;

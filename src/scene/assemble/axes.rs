@@ -46,7 +46,7 @@ impl<const D: usize> Builder<'_, D> {
         })
     }
 
-    /// In space, the turn that a joint with an axis lets its bodies make.
+    /// In space, the rotation that a joint with an axis lets its bodies make.
     pub(crate) fn turn_of(&self, joint: &ResolvedJoint<'_>) -> Option<AxisRotation<D>> {
         self.turn(joint.pivot()?)
     }
@@ -59,7 +59,7 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    /// The turn about the axis of a joint, zero at the start.
+    /// The rotation about the axis of a joint, zero at the start.
     fn turn(&self, pivot: Pivot<'_>) -> Option<AxisRotation<D>> {
         let (ends, axis) = (self.ends(pivot.ends), super::unit(pivot.axis?));
         let across = normal(&axis, 0);

@@ -20,7 +20,7 @@ use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Reduced, Rigid};
 use crate::scene::{Error, LineBody, LineModel, RigidBody, SectionNumbers, Strain};
 
-/// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
+/// Rotations an element in which the axes of a rod are transported along a shape that no plane holds.
 const STEPS: u32 = 256;
 
 /// A rigid body about its centre of mass: where that is, m, the angle of its frame, rad, mass and that of the fluid which moves along, kg,
@@ -119,7 +119,7 @@ impl<const D: usize> Builder<'_, D> {
         );
     }
 
-    /// A rigid body of space that turns: its principal axes in two nodes. Gives back how far along them from the centre of
+    /// A rigid body of space that rotates: its principal axes in two nodes. Gives back how far along them from the centre of
     /// all its mass the origin of its frame is, m.
     fn frame(&mut self, rigid: Rigid<'_>) -> [f64; 3] {
         let (solid, body) = (self.resolved.solid(rigid), rigid.body);
@@ -419,7 +419,7 @@ fn planar_beam(
         stiffness: GAUSS_3.map(|point| beam.planar_stiffness(&numbers(point.at)).into()),
         damping_times: [axial_time, time, time],
     };
-    // Against turns about the first axis, which is across the plane.
+    // Against rotation about the first axis, which is across the plane.
     let inertia = planar_inertia(length, |xi| beam.rotary_inertia_of(&numbers(xi))[(1, 1)]);
     let beam = Planar::new(parameters, &shape);
     (SectionElement::Planar(Box::new(beam)), inertia)

@@ -19,9 +19,9 @@ pub(super) struct BodyNodes {
     pub axes: Vec<usize>,
     /// From which node on they hold numbers that do not move.
     pub still: usize,
-    /// From which node on these are angles of sections in the plane, which turn.
+    /// From which node on these are angles of sections in the plane, which rotate.
     pub angles: usize,
-    /// Whether axes are those of sections, which turn with a line that deforms.
+    /// Whether axes are those of sections, which rotate with a line that deforms.
     pub are_sections: bool,
 }
 
@@ -165,7 +165,7 @@ impl<const D: usize> Motions<D> {
                 let moved = velocity + spun(*spin, way.into());
                 add_node(rate, 1.0, &[moved.into(), spun(*spin, x[1].into()).into()]);
             }
-            // Sections turn with the line that deforms: they begin without a rate of shear.
+            // Sections rotate with the line that deforms: they begin without a rate of shear.
             for (line, second) in (nodes.start..).zip(axes) {
                 if !are_sections || self.deformation[line] == no_node() {
                     continue;

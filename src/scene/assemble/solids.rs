@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::scene::Inertia;
 use crate::scene::resolved::{Place, Resolved, Rigid};
 
-/// A rigid body of space that turns, with all that moves with it.
+/// A rigid body of space that rotates, with all that moves with it.
 pub(super) struct RotatingSolid {
     /// Mass, kg.
     pub mass: f64,

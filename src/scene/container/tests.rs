@@ -1,4 +1,4 @@
-//! Files of reduced models: read, turned, and refused by name.
+//! Files of reduced models: read, rotated, and refused by name.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::{Map, Value, json};
@@ -176,7 +176,7 @@ fn a_file_is_read() -> Result<(), String> {
     Ok(())
 }
 
-/// The same body in axes that are turned about another origin: `x' = R (x - o)`.
+/// The same body in axes that are rotated about another origin: `x' = R (x - o)`.
 fn turned(file: &File, rotation: &Matrix3<f64>, origin: &Vector3<f64>) -> File {
     let mut other = file.clone();
     let vectors = |numbers: &[f64], stride: usize| {
@@ -238,7 +238,7 @@ fn axes_and_origin_of_the_file_do_not_matter() -> Result<(), String> {
         let rotation = Rotation3::new(Vector3::from_column_slice(&drawn[..3]) * 3.0).into_inner();
         let origin = Vector3::from_column_slice(&drawn[3..]);
         let other = Container::from_bytes(&turned(&file, &rotation, &origin).bytes())?;
-        // Principal axes may change their order and signs: a turn by right angles from the one to the other.
+        // Principal axes may change their order and signs: a rotation by right angles from the one to the other.
         let between = other.axes.transpose() * rotation * first.axes;
         for part in &between {
             assert!(

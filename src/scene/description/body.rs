@@ -95,7 +95,7 @@ pub struct LineBody {
     /// Kinematics of its sections, as its element says or as chosen.
     #[serde(skip)]
     pub sections: LineModel,
-    /// Against gravity as the scene was written, of any length; zero without gravity. A parameter that changes gravity later does not turn sections.
+    /// Against gravity as the scene was written, of any length; zero without gravity. A parameter that changes gravity later does not rotate sections.
     #[serde(skip)]
     pub vertical: [f64; 3],
 }
@@ -161,7 +161,7 @@ pub struct RigidBody {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: Option<f64>,
     /// Inertia about the centre of mass, kg m^2: a number in the plane; in space the moments about the axes of the body's
-    /// frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not turn.
+    /// frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not rotate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<Inertia>,
     /// Shape. With `density` it gives mass and inertia. Beside `mass` and `inertia` it is drawn only.
@@ -298,7 +298,7 @@ pub struct InitialMotion {
     pub spin: Spin,
     /// Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,
     /// 0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; of plates and shells in `s1` and `s2`, e.g. `["0", "0", "s1*s2"]`.
-    /// Cables, rods, beams, plates and shells only. Sections of rods and beams turn with the line.
+    /// Cables, rods, beams, plates and shells only. Sections of rods and beams rotate with the line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(length(min = 2, max = 3))]
     pub deformation: Option<Vec<String>>,
@@ -321,14 +321,14 @@ pub struct Mass {
     /// Mass, kg.
     #[schemars(range(min = 0.0))]
     pub mass: f64,
-    /// Moment of inertia that turns with the slope, kg m^2; markers of cables only.
+    /// Moment of inertia that rotates with the slope, kg m^2; markers of cables only.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub inertia: f64,
 }
 
 impl LineBody {
-    /// Whether its sections turn about its line: a rod or a beam.
+    /// Whether its sections rotate about its line: a rod or a beam.
     pub fn is_rod(&self) -> bool {
         self.sections != LineModel::Cable
     }
@@ -421,7 +421,7 @@ impl LineBody {
         }
     }
 
-    /// Inertia of a section against turns about the line and the two axes, per length, kg m.
+    /// Inertia of a section against rotation about the line and the two axes, per length, kg m.
     pub fn rotary_inertia_of(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
         match &numbers.given {
             Some(given) => given.inertia.fixed_view::<3, 3>(3, 3).into_owned(),

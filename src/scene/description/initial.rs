@@ -41,8 +41,8 @@ pub enum InitialState {
     /// stable where loads have a potential: an unstable one, as that of a straight column above its buckling load, is
     /// left to where gravity pulls, else up or to the right. Follower forces have none; there it is where all forces balance.
     StaticEquilibrium,
-    /// Equilibrium in the motion that all bodies start with, by motions, joints and their own `motion`: a steady turn about
-    /// one point, in space one axis, with centrifugal forces, or a translation. What turns starts stretched and does not ring.
+    /// Equilibrium in the motion that all bodies start with, by motions, joints and their own `motion`: a steady rotation about
+    /// one point, in space one axis, with centrifugal forces, or a translation. What rotates starts stretched and does not ring.
     Steady,
 }
 

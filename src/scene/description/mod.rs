@@ -83,7 +83,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "SceneVector::is_unsaid")]
     pub gravity: SceneVector,
     /// Angular velocity of the frame that the scene is described in, about its origin, rad/s: a number in the plane,
-    /// counter-clockwise, three components in space. Gravity and the ground turn with the frame.
+    /// counter-clockwise, three components in space. Gravity and the ground rotate with the frame.
     #[serde(default)]
     pub rotation: Spin,
     /// Bodies; at least one.
@@ -171,7 +171,7 @@ impl Scene {
         }
     }
 
-    /// Whether the frame turns that it is described in.
+    /// Whether the frame rotates that it is described in.
     pub fn turns(&self) -> bool {
         self.rotation.full() != [0.0; 3]
     }

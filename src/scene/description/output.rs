@@ -36,7 +36,7 @@ kinds! {
         /// How a rigid body or the section of a rod in space stands, as a unit quaternion, scalar first: `w >= 0` at the start, and from there on without jumps, so that it changes
         /// its sign with every full turn.
         Quaternion(AtFrame),
-        /// How a rigid body or the section of a rod in space stands, as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body turns on beyond,
+        /// How a rigid body or the section of a rod in space stands, as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body rotates on beyond,
         /// the vector jumps to its opposite.
         RotationVector(AtFrame),
         /// Rate of the angle, rad/s; in space the angular velocity of a rigid body or of the section of a rod (`axes`).
@@ -113,6 +113,9 @@ kinds! {
         /// Tension of a load that pulls along a line, N, negative where it pushes: of a `reeving`, a `spring_damper`, a `table_spring` or
         /// `force_law` between markers.
         Tension(OfLoad),
+        /// Length of the line that a load pulls along, m, and its rate: the distance of both markers of a `spring_damper`, a `table_spring` or a
+        /// `force_law`, the path of a `reeving`.
+        Length(OfLoad),
         /// Kinetic, strain and gravitational energy, and that of springs where there are any, J.
         Energy(OfScene),
         /// Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
@@ -129,15 +132,15 @@ kinds! {
         /// Largest residual of the constraints, relative: of positions and of velocities.
         Residual(OfScene),
         /// Natural frequencies of the scene at rest in the initial configuration, rad/s, without dampers; an unstable
-        /// mode is a negative number. In a turning frame the imaginary parts of the eigenvalues without dampers. Refused
+        /// mode is a negative number. In a rotating frame the imaginary parts of the eigenvalues without dampers. Refused
         /// where a force follows its marker, and where cables, rods or beams rotate initially or by a prescribed motion: see `eigenvalue`.
         NaturalFrequency(FrequencyOutput),
         /// Eigenvalues `s = -decay_rate + i frequency` of small motions `c e^(s t)` about the initial state, as
         /// `decay_rate` in 1/s, negative where the motion grows, and `frequency` in rad/s, slowest (least size of `s`) first;
         /// conjugate pairs once, real ones (`frequency` 0) each by itself. With dampers, gyroscopic forces and forces that
         /// follow, inputs held. Of a state in motion or out of equilibrium they are those of the equations of motion at
-        /// that instant, as seen from the frame of the scene; cables that turn initially are refused: describe them in a frame
-        /// that turns with them (`rotation`); so are thin rods of space and reduced bodies that turn initially.
+        /// that instant, as seen from the frame of the scene; cables that rotate initially are refused: describe them in a frame
+        /// that rotates with them (`rotation`); so are thin rods of space and reduced bodies that rotate initially.
         Eigenvalue(EigenvalueOutput),
     }
 }
@@ -423,7 +426,9 @@ impl Output {
             }
             Self::GearForce(of) | Self::GearTorque(of) => &of.gear,
             Self::LatchForce(of) | Self::LatchTorque(of) | Self::LatchState(of) => &of.latch,
-            Self::LoadForce(of) | Self::LoadMoment(of) | Self::Tension(of) => &of.load,
+            Self::LoadForce(of) | Self::LoadMoment(of) | Self::Tension(of) | Self::Length(of) => {
+                &of.load
+            }
             Self::Energy(_)
             | Self::Work(_)
             | Self::Momentum(_)

@@ -223,68 +223,50 @@ impl Profile {
         }
     }
 
+    /// Width, height, thickness of walls along the second axis and along the first, m, of a shape of such walls.
+    pub fn walls(&self) -> Option<[f64; 4]> {
+        let mut shape = self.clone();
+        let lengths = shape.lengths().into_iter();
+        let lengths: Vec<f64> = lengths.map(|(.., length)| *length).collect();
+        lengths.try_into().ok()
+    }
+
     /// Corners around the shape and around its holes, where it is a polygon.
     pub fn loops(&self) -> Option<Vec<Vec<[f64; 2]>>> {
+        if let Self::Polygon { outline, holes } = self.clone() {
+            return Some([outline].into_iter().chain(holes).collect());
+        }
+        let [width, height, web, flange] = self.walls()?;
+        let [y, z] = [0.5 * width, 0.5 * height];
         let rectangle = |y: f64, z: f64| vec![[-y, -z], [y, -z], [y, z], [-y, z]];
-        Some(match self.clone() {
-            Self::Box {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                let [y, z] = [0.5 * width, 0.5 * height];
-                let hole = rectangle(y - web_thickness, z - flange_thickness);
-                vec![rectangle(y, z), hole]
-            }
-            Self::I {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                let [y, z, s] = [0.5 * width, 0.5 * height, 0.5 * web_thickness];
-                let f = z - flange_thickness;
+        let lower = [[0.0, 0.0], [width, 0.0], [width, flange], [web, flange]];
+        let outline: Vec<_> = match self {
+            Self::I { .. } => {
+                let [s, f] = [0.5 * web, z - flange];
                 let right = [[y, -z], [y, -f], [s, -f], [s, f], [y, f], [y, z]];
                 let left = right.map(|[y, z]| [-y, -z]);
-                vec![right.into_iter().chain(left).collect()]
+                right.into_iter().chain(left).collect()
             }
-            Self::C {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                let (t, f) = (web_thickness, flange_thickness);
-                let lower = [[0.0, 0.0], [width, 0.0], [width, f], [t, f]];
+            Self::C { .. } => {
                 let upper = lower.map(|[y, z]| [y, height - z]).into_iter().rev();
-                vec![lower.into_iter().chain(upper).collect()]
+                lower.into_iter().chain(upper).collect()
             }
-            Self::T {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                let [y, s, f] = [0.5 * width, 0.5 * web_thickness, height - flange_thickness];
+            Self::T { .. } => {
+                let [s, f] = [0.5 * web, height - flange];
                 let right = [[s, 0.0], [s, f], [y, f], [y, height]];
                 let left = right.map(|[y, z]| [-y, z]).into_iter().rev();
-                vec![right.into_iter().chain(left).collect()]
+                right.into_iter().chain(left).collect()
             }
-            Self::L {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                let (t, f) = (web_thickness, flange_thickness);
-                let lower = [[0.0, 0.0], [width, 0.0], [width, f], [t, f]];
-                let upper = [[t, height], [0.0, height]];
-                vec![lower.into_iter().chain(upper).collect()]
+            Self::L { .. } => {
+                let upper = [[web, height], [0.0, height]];
+                lower.into_iter().chain(upper).collect()
             }
-            Self::Polygon { outline, holes } => [outline].into_iter().chain(holes).collect(),
+            Self::Box { .. } => {
+                return Some(vec![rectangle(y, z), rectangle(y - web, z - flange)]);
+            }
             _ => return None,
-        })
+        };
+        Some(vec![outline])
     }
 
     /// Whether finite elements give its shear compliance.

@@ -46,7 +46,7 @@ impl Inertia {
         }
     }
 
-    /// Whether there is any: the body turns.
+    /// Whether there is any: the body rotates.
     pub fn is_some(&self) -> bool {
         match self {
             Self::Number(number) => *number > 0.0,
@@ -102,13 +102,13 @@ const ROUNDOFF: f64 = 1e-12;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Orientation {
-    /// Turned from the global axes about an axis, in global components, by its length as angle, rad.
+    /// Rotated from the global axes about an axis, in global components, by its length as angle, rad.
     #[schemars(title = "RotationVector")]
     RotationVector([f64; 3]),
-    /// Turned about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
+    /// Rotated about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
     #[schemars(title = "Cardan")]
     Cardan([f64; 3]),
-    /// Turned about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
+    /// Rotated about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
     /// nutation, spin), rad.
     #[schemars(title = "Euler")]
     Euler([f64; 3]),

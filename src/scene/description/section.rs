@@ -74,7 +74,7 @@ pub struct Station {
     pub at: f64,
     /// Cross section there.
     pub section: Section,
-    /// Angle of rods and beams about the tangent by which the section's axes are turned there, without stress, from where they would be
+    /// Angle of rods and beams about the tangent by which the section's axes are rotated there, without stress, from where they would be
     /// untwisted, rad.
     #[serde(default)]
     pub twist: f64,
@@ -285,4 +285,41 @@ impl SectionNumbers {
 pub fn between(first: &Station, last: &Station, part: f64) -> (SectionNumbers, f64) {
     let numbers = first.section.between(&last.section, part);
     (numbers, first.twist + part * (last.twist - first.twist))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between a square and a circle the shear compliance is linear, as there is no shape in between; it does not fall back to that of the
+    /// area alone.
+    #[test]
+    fn shear_between_shapes_of_two_kinds_is_mixed() {
+        let ends = [
+            Profile::Rectangle {
+                width: 0.1,
+                height: 0.1,
+            },
+            Profile::Circle { radius: 0.05 },
+        ];
+        let stations = [0.0, 1.0].map(|at| Station {
+            at,
+            section: Section {
+                shape: Some(ends[at as usize].clone()),
+                ..Section::default()
+            },
+            twist: 0.0,
+        });
+        let [first, last] = &stations;
+        let found = between(first, last, 0.25).0.shear.expect("compliance");
+        // Cowper, without lateral contraction: 5/6 of a rectangle, 6/7 of a circle, in compliance per (1 + nu) / E.
+        let wanted = 0.75 * 2.0 * 6.0 / 5.0 / 0.01 + 0.25 * 2.0 * 7.0 / 6.0 / (PI * 0.0025);
+        for k in 0..2 {
+            let compliance = found.compliance[0][(k, k)];
+            assert!(
+                (compliance / wanted - 1.0).abs() < 1e-12,
+                "{compliance} {wanted}"
+            );
+        }
+    }
 }

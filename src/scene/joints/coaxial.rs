@@ -40,7 +40,7 @@ impl Resolved<'_> {
 fn bodies(joint: &ResolvedJoint<'_>) -> Option<[Option<usize>; 2]> {
     let rigid = |place: Place<'_>| match place {
         Place::Point(..) => Some(place.body_index()),
-        // Markers of a body that deforms turn each on its own.
+        // Markers of a body that deforms rotate each on its own.
         Place::Along(..) | Place::Interface(..) | Place::Patch(..) => None,
     };
     let second = rigid(joint.ends.second.place)?;

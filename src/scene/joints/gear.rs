@@ -11,7 +11,7 @@ pub struct Gear {
     pub name: String,
     /// The joints: the angle of those with an axis, else the displacement.
     pub joints: [String; 2],
-    /// How much the coordinate of the second changes with that of the first: 1, m/rad, rad/m; negative where they turn opposite ways.
+    /// How much the coordinate of the second changes with that of the first: 1, m/rad, rad/m; negative where they rotate opposite ways.
     pub ratio: f64,
 }
 

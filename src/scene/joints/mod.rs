@@ -263,19 +263,19 @@ joints! {
     Spherical(spherical::Spherical) from 3,
     /// Holds the position and a right angle between an axis of each body, in space: a cross between two forks.
     Universal(universal::Universal) from 3,
-    /// Holds the position and turns both bodies alike about an axis of each, in space: the homokinetic joint of drive shafts.
+    /// Holds the position and lets both bodies rotate alike about an axis of each, in space: the homokinetic joint of drive shafts.
     ConstantVelocity(constant_velocity::ConstantVelocity) from 3,
     /// Holds the position and the direction, in space how bodies stand to each other.
     Weld(weld::Weld) from 2,
     /// Holds the marker on a line of the first one, which may move. The marker rotates freely.
     PointOnLine(point_on_line::PointOnLineJoint) from 2,
-    /// Holds the marker on a line of the first one, in space, and lets it turn about that line only.
+    /// Holds the marker on a line of the first one, in space, and lets it rotate about that line only.
     Cylindrical(cylindrical::Cylindrical) from 3,
-    /// Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
+    /// Holds the marker on a line of the first one, in space, along which it goes as it rotates about it.
     Screw(screw::Screw) from 3,
     /// Holds the marker on a line of the first one, and the direction, in space how bodies stand to each other.
     Prismatic(prismatic::Prismatic) from 2,
-    /// Holds the marker in a plane of the first one, in space, and lets it turn in that plane only.
+    /// Holds the marker in a plane of the first one, in space, and lets it rotate in that plane only.
     Planar(planar::Planar) from 3,
     /// Holds the direction, in space how bodies stand to each other.
     Orientation(orientation::OrientationJoint) from 2,

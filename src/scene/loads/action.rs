@@ -99,7 +99,7 @@ pub struct Action<'a> {
     pub kind: ActionKind,
     /// Marker, joint or line body that it acts on, depending on its kind; in a joint on the second marker, and opposite on the first.
     pub on: LoadPlace<'a>,
-    /// Whether it turns with the marker.
+    /// Whether it rotates with the marker.
     pub follower: bool,
     /// Components, as many as the kind has. Components that vary along a body are zero here.
     pub components: Vec<Signal>,

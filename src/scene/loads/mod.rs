@@ -14,6 +14,7 @@ mod measure;
 mod number;
 mod place;
 mod reeving;
+mod rest_length;
 mod spring_damper;
 mod table_spring;
 
@@ -21,6 +22,7 @@ pub use action::Action;
 pub use fluid::ResolvedFluid;
 pub use number::{LoadNumber, NumberMut};
 pub use place::{Exerts, LoadExtent, LoadPlace};
+use rest_length::RestLength;
 
 // What follows is there for the files of the kinds too.
 use std::ops::Deref;
@@ -337,40 +339,7 @@ impl<'a> ResolvedLoadKind<'a> {
     }
 }
 
-/// Length without force of a load, m, which an input may set.
-pub struct RestLength<'s> {
-    /// Its course in time; that at the start if there is none.
-    course: &'s mut Option<Signal>,
-    /// Length at the start, m; none where it changes in time.
-    start: Option<f64>,
-}
-
 impl<'a> Resolved<'a> {
-    /// Makes the length without force of a spring-damper or a rope, which nothing else changes, an input; what it was, m.
-    ///
-    /// # Errors
-    /// There is no such load, or its length changes in time.
-    pub(super) fn set_rest_length(
-        &mut self,
-        path: &str,
-        name: &str,
-        first: usize,
-    ) -> Result<f64, Error> {
-        let wanted = "a spring_damper or a reeving of this scene";
-        let length = self.require_load(path, name, wanted, |load| match load {
-            ResolvedLoadKind::SpringDamper(spring) => Some(spring.rest_length()),
-            ResolvedLoadKind::Reeving(rope) => Some(rope.rest_length()),
-            _ => None,
-        })?;
-        let Some(start) = length.start else {
-            let wanted = "a load whose length is a number";
-            let found = format!("{}, whose length changes in time", quoted(name));
-            return Err(expected(path, wanted, found));
-        };
-        *length.course = Some(Signal::Input(first));
-        Ok(start)
-    }
-
     /// Loads with their numbers.
     pub fn numbered_loads(&self) -> impl Iterator<Item = (LoadId, &ResolvedLoad<'a>)> {
         let loads = self.loads.iter().enumerate();

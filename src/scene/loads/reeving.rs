@@ -28,7 +28,7 @@ pub struct ReevingLoad {
     /// Length of the rope without stress, m; by default that of its path at the start. A drum winds up from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<Value>,
-    /// Name of a joint with an angle that turns a drum. The drum winds up the rope from either of its ends.
+    /// Name of a joint with an angle that rotates a drum. The drum winds up the rope from either of its ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drum: Option<String>,
     /// Radius of the drum, m: a positive angle of the joint winds up, of a negative radius it pays out. Needed with `drum`.
@@ -88,11 +88,7 @@ impl SceneLoad for ReevingLoad {
             "s",
             self.damping_time.unwrap_or_default(),
         )?;
-        if let Some(Value::Number(length)) = &self.length {
-            positive(&at("length"), "m", *length)?;
-        }
-        let rest = self.length.as_ref();
-        let rest = rest.map(|rest| value(&at("length"), rest, false));
+        let length = rest_length::course(path, self.length.as_ref(), positive)?;
         let drum = match (&self.drum, self.drum_radius) {
             (None, None) => None,
             (None, Some(radius)) => {
@@ -115,17 +111,12 @@ impl SceneLoad for ReevingLoad {
             given: self,
             path: rope,
             drum,
-            length: rest.transpose()?.map(Signal::Function),
+            length,
         })
     }
 
     fn timed(&self) -> Option<TimedKey<'_>> {
-        Some(TimedKey {
-            key: "length",
-            values: std::slice::from_ref(self.length.as_ref()?),
-            // The rate at which the length changes does work.
-            order: 1,
-        })
+        rest_length::timed(self.length.as_ref())
     }
 
     fn numbers(&mut self, _on: LoadExtent) -> Vec<LoadNumber<'_>> {
@@ -191,17 +182,10 @@ impl ReevingLoad {
 impl ResolvedReeving<'_> {
     /// Length without stress at the start if no input sets it, m; none where it changes in time.
     fn length_at_start(&self) -> Option<f64> {
-        match &self.given.length {
-            None => {
-                let spans = self.path.windows(2);
-                let span = |span: &[RopePoint<'_>]| {
-                    length(difference(span[1].position(), span[0].position()))
-                };
-                Some(spans.map(span).sum())
-            }
-            Some(Value::Number(length)) => Some(*length),
-            Some(_) => None,
-        }
+        let span =
+            |span: &[RopePoint<'_>]| length(difference(span[1].position(), span[0].position()));
+        let drawn = || self.path.windows(2).map(span).sum();
+        rest_length::at_start(self.given.length.as_ref(), drawn)
     }
 
     /// Length without stress, which an input may set.

@@ -44,26 +44,16 @@ impl SceneLoad for SpringDamper {
     fn resolve<'a>(&'a self, path: &str, scene: &Resolved<'a>) -> Found<Self::Acting<'a>> {
         let ends = scene.require_pair(path, &self.markers, self.point)?;
         spring_damper(path, self.stiffness, self.damping, spring_units(false))?;
-        let place = format!("{path}.length");
-        if let Some(Value::Number(length)) = &self.length {
-            not_negative(&place, "m", *length)?;
-        }
-        let length = self.length.as_ref();
-        let length = length.map(|length| value(&place, length, false));
+        let length = rest_length::course(path, self.length.as_ref(), not_negative)?;
         Ok(ResolvedSpring {
             given: self,
             ends,
-            length: length.transpose()?.map(Signal::Function),
+            length,
         })
     }
 
     fn timed(&self) -> Option<TimedKey<'_>> {
-        Some(TimedKey {
-            key: "length",
-            values: std::slice::from_ref(self.length.as_ref()?),
-            // The rate at which a rest length changes does work.
-            order: 1,
-        })
+        rest_length::timed(self.length.as_ref())
     }
 
     fn numbers(&mut self, _on: LoadExtent) -> Vec<LoadNumber<'_>> {
@@ -79,11 +69,7 @@ impl ResolvedSpring<'_> {
     /// Length at rest, which an input may set.
     pub(super) fn rest_length(&mut self) -> RestLength<'_> {
         RestLength {
-            start: match &self.given.length {
-                None => Some(self.ends.distance()),
-                Some(Value::Number(length)) => Some(*length),
-                Some(_) => None,
-            },
+            start: rest_length::at_start(self.given.length.as_ref(), || self.ends.distance()),
             course: &mut self.length,
         }
     }

@@ -213,7 +213,7 @@ impl<'a> Resolved<'a> {
                 self.latch(&at("latch"), &of.latch, output)?
             }
             Output::LoadForce(of) | Output::LoadMoment(of) => self.exerting(path, of, output)?,
-            Output::Tension(of) => self.pulling(&at("load"), &of.load)?,
+            Output::Tension(of) | Output::Length(of) => self.pulling(&at("load"), &of.load)?,
             Output::Energy(_)
             | Output::Work(_)
             | Output::Momentum(_)

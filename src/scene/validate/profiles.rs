@@ -42,63 +42,26 @@ impl Profile {
             Self::HollowEllipse {
                 width, inner_width, ..
             } => below("inner_width", inner_width, width, "the width")?,
-            Self::Box {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                below(
-                    "web_thickness",
-                    web_thickness,
-                    0.5 * width,
-                    "half of the width",
-                )?;
-                let most = 0.5 * height;
-                below(
-                    "flange_thickness",
-                    flange_thickness,
-                    most,
-                    "half of the height",
-                )?;
-            }
-            Self::I {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            }
-            | Self::C {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                below("web_thickness", web_thickness, width, "the width")?;
-                let most = 0.5 * height;
-                below(
-                    "flange_thickness",
-                    flange_thickness,
-                    most,
-                    "half of the height",
-                )?;
-            }
-            Self::T {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            }
-            | Self::L {
-                width,
-                height,
-                web_thickness,
-                flange_thickness,
-            } => {
-                below("web_thickness", web_thickness, width, "the width")?;
-                below("flange_thickness", flange_thickness, height, "the height")?;
-            }
             Self::Polygon { .. } => self.validate_loops(place)?,
+            Self::Box { .. }
+            | Self::I { .. }
+            | Self::C { .. }
+            | Self::T { .. }
+            | Self::L { .. } => {
+                let [width, height, web, flange] = self.walls().expect("walls of such a shape");
+                let (webs, flanges) = match self {
+                    Self::Box { .. } => (2.0, 2.0),
+                    Self::I { .. } | Self::C { .. } => (1.0, 2.0),
+                    _ => (1.0, 1.0),
+                };
+                let of = |count: f64, edge: &str| match count {
+                    2.0 => format!("half of the {edge}"),
+                    _ => format!("the {edge}"),
+                };
+                below("web_thickness", web, width / webs, &of(webs, "width"))?;
+                let most = height / flanges;
+                below("flange_thickness", flange, most, &of(flanges, "height"))?;
+            }
         }
         self.validate_solution(place)
     }

@@ -195,14 +195,15 @@ fn nature(source: Source) -> Option<Nature> {
         Source::Time | Source::Parameter(_) | Source::Input(_) => return None,
     };
     let (measure, is_force, counts) = match quantity {
-        Position(..) | Deflection(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => {
-            (Measure::Displacement, false, true)
-        }
+        Position(..) | Deflection(..) | CenterOfMass(_) | Travel(_) | Displacement(_)
+        | Length(_) => (Measure::Displacement, false, true),
         Angle(_) | Direction(..) | Orientation(..) | Quaternion(..) | RotationVector(..) => {
             (Measure::Rotation, false, true)
         }
         Velocity(..) | SlidingVelocity(_) | AngularVelocity(..) | JointVelocity(_)
-        | LoadForce(..) | LoadMoment(..) | Tension(_) => (Measure::Rate, false, true),
+        | LoadForce(..) | LoadMoment(..) | Tension(_) | LengthRate(_) => {
+            (Measure::Rate, false, true)
+        }
         CouplingForce(..) | CouplingMoment(..) => (Measure::Rate, true, true),
         Strain(_)
         | Curvature(_)

@@ -109,7 +109,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
         Kind::Displacement => vec![("displacement", "Displacement of {}", Some(METRE), Scalar, Read::Joint(Displacement))],
         Kind::Deflection => vec![("deflection", "Deflection of {}", Some(METRE), Vector, Read::Deflected(Deflection))],
         Kind::GearForce | Kind::GearTorque | Kind::LatchForce | Kind::LatchTorque | Kind::LatchState | Kind::LoadForce
-        | Kind::LoadMoment | Kind::Tension => exerted(kind),
+        | Kind::LoadMoment | Kind::Tension | Kind::Length => exerted(kind),
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation))],
         Kind::Quaternion => vec![("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion))],
@@ -174,7 +174,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<OutputRow> {
     }
 }
 
-/// Lists the rows of forces and moments of gears, latches and loads.
+/// Lists the rows of gears, latches and loads.
 #[rustfmt::skip] // a table
 fn exerted(kind: OutputKind) -> Vec<OutputRow> {
     use OutputKind as Kind;
@@ -186,6 +186,10 @@ fn exerted(kind: OutputKind) -> Vec<OutputRow> {
         Kind::LatchForce => vec![("latch_force", "Force of {} on the displacement of its joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
         Kind::LatchTorque => vec![("latch_torque", "Torque of {} on the angle of its joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
         Kind::LatchState => vec![("latch_state", "State of {}: 1 closed, 0 open", None, Scalar, Read::Joint(LatchState))],
+        Kind::Length => vec![
+            ("length", "Length of {}", Some(METRE), Scalar, Read::Load(|load, _| Length(load))),
+            ("length_rate", "Rate of the length of {}", Some(METRE_PER_SECOND), Scalar, Read::Load(|load, _| LengthRate(load))),
+        ],
         Kind::Tension => vec![("tension", "Tension of {}", Some(NEWTON), Scalar, Read::Load(|load, _| Tension(load)))],
         Kind::LoadForce => vec![("force", "Force of {}", Some(NEWTON), Vector, Read::Load(LoadForce))],
         _ => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Rotational, Read::Load(LoadMoment))],

@@ -1,5 +1,5 @@
 //! A section of a rod or beam that the ground holds. Where it is, along which direction a rod's slope points, and how its section has
-//! turned from the start are coordinates of nodes: rows are all that it takes, and the slope stays free to stretch.
+//! rotated from the start are coordinates of nodes: rows are all that it takes, and the slope stays free to stretch.
 //!
 //! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eq. 9 (linear constraints in nodal coordinates), for the coordinates of
 //! `body/frame/section_frame.rs`.

@@ -1,7 +1,7 @@
 //! The direction of the second end keeps its angle from that of the first.
 //!
 //! Where both ends keep the length of their directions (rigid bodies, the ground), the second is the
-//! first one turned: linear. A cable's slope may stretch, and directions of reduced bodies are no coordinates: against the ground only the
+//! first one rotated: linear. A cable's slope may stretch, and directions of reduced bodies are no coordinates: against the ground only the
 //! component across is held, which is linear in directions too; otherwise the cross product vanishes, which is not.
 
 use nalgebra::SMatrix;
@@ -75,13 +75,13 @@ impl<const D: usize> AngleBetween<D> {
         (theta + N::of(self.angle)).sin_cos()
     }
 
-    /// The first direction, turned by the angle with this sine and cosine.
+    /// The first direction, rotated by the angle with this sine and cosine.
     #[inline(always)]
     fn turned<N: Number>(&self, view: &View<'_, D, N>, turn: (N, N)) -> Vector<D, N> {
         turned(self.ends[0].lift().direction(view.x), turn)
     }
 
-    /// The turned first direction, and its first two derivatives in time but for the part of
+    /// The rotated first direction, and its first two derivatives in time but for the part of
     /// accelerations.
     fn turned_with_rates<N: Number>(&self, view: &View<'_, D, N>) -> [Vector<D, N>; 3] {
         let [_, rate, second] = self.drive.map_or([N::of(0.0); 3], |i| view.drives[i]);

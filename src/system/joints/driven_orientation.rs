@@ -1,6 +1,6 @@
 //! What drives the orientation of a rigid body in space: with `G_i` the axes that it is to have and `e_i` those that it has,
-//! `k . sum G_i x e_i / 2 = 0` for each axis `k` of space, a vector along the axis about which the body is turned away, as
-//! large as the sine of the angle. Where it holds its derivative by a small turn is that turn, so that multipliers are the moment.
+//! `k . sum G_i x e_i / 2 = 0` for each axis `k` of space, a vector along the axis about which the body is rotated away, as
+//! large as the sine of the angle. Where it holds its derivative by a small rotation is that rotation, so that multipliers are the moment.
 //! A quaternion and its opposite have the same axes: nothing jumps over full turns.
 //!
 //! Source: M. D. Shuster, A survey of attitude representations, J. Astronautical Sciences 41 (1993) 439-517 (the skew part of
@@ -29,7 +29,7 @@ pub struct DrivenOrientation {
 }
 
 impl DrivenOrientation {
-    /// The turn, rad, that takes the body to where it is to be; at most half a turn.
+    /// The rotation, rad, that takes the body to where it is to be; at most half a turn.
     pub fn missing<const D: usize>(&self, x: &[Node<D>], drives: &[[f64; 3]]) -> Vector3<f64> {
         let [wanted, ..] = self.course(drives);
         rotation_vector(&product(&wanted, &inverse(self.standing(x))))

@@ -8,7 +8,7 @@ use crate::math::jet::Number;
 use crate::system::direction::{AxisRotation, Direction};
 use crate::system::end::{Add, Attachment, bilinear};
 
-/// A driven turn.
+/// A driven rotation.
 #[derive(Clone, Debug)]
 pub struct DrivenRotation<const D: usize> {
     /// Driven rotation about an axis.

@@ -1,4 +1,4 @@
-//! A homokinetic joint between two shafts in space: what it transmits turns both at the same rate, whatever the angle between their axes.
+//! A homokinetic joint between two shafts in space: what it transmits rotates both at the same rate, whatever the angle between their axes.
 //! With unit vectors `n` and `m = a x n` across the axis `a` of the first shaft and `n'`, `m'` likewise of the second,
 //! `g = m . n' - n . m' = 0` says that one shaft stands to the other by a rotation about an axis in the plane that halves the angle
 //! between both. The rate of `g` is `(a + a') . (w' - w)`, so that the moment is along `a + a'`. It vanishes where both axes are opposite.
@@ -14,7 +14,7 @@ use crate::math::space::Vector;
 use crate::system::direction::Direction;
 use crate::system::end::{Add, Attachment, bilinear};
 
-/// Two shafts that turn alike.
+/// Two shafts that rotate alike.
 #[derive(Clone, Debug)]
 pub struct Homokinetic<const D: usize> {
     /// Unit vectors `n` and `m` across the axis of the first shaft.

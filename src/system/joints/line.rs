@@ -1,4 +1,4 @@
-//! A point on a line of a body: `(A u1) x (r2 - r1) = 0`, `A` the fixed turn from the direction `u1` of the first
+//! A point on a line of a body: `(A u1) x (r2 - r1) = 0`, `A` the fixed rotation from the direction `u1` of the first
 //! end to the line. On the ground the line stands still and the row is linear.
 
 use nalgebra::SMatrix;
@@ -9,7 +9,7 @@ use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, normals, perpendicular};
 use crate::system::end::{Add, Attachment, bilinear};
 
-/// The second end on a line through the first, which turns with it.
+/// The second end on a line through the first, which rotates with it.
 #[derive(Clone, Debug)]
 pub struct PointOnLine<const D: usize> {
     /// The ends.

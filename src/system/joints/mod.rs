@@ -307,7 +307,7 @@ constraints! {
         LinearConstraint(LinearConstraint<D>),
         /// A right angle.
         Perpendicular(Perpendicular<D>),
-        /// A driven turn.
+        /// A driven rotation.
         DrivenRotation(DrivenRotation<D>),
     }
     many: {

@@ -1,6 +1,6 @@
 //! A moment per reference length of a rod or beam, about global axes (dead) or about the axes of the sections (a follower). Its power is
 //! the integral of `m . w`, with the angular velocity `w` of the sections, so that it adds `-m` to the rate `M'` of the moment in a
-//! section. Where it is dead, its work depends on the way on which sections turn: it has no potential.
+//! section. Where it is dead, its work depends on the way on which sections rotate: it has no potential.
 //!
 //! Source: S. S. Antman, Nonlinear Problems of Elasticity, 2nd ed. (2005), section 8.2 (balance of moments of a rod); H. Ziegler, Principles
 //! of Structural Stability, 2nd ed. (1977), section 5.2 (moments without a potential).
@@ -20,7 +20,7 @@ pub struct DistributedMoment {
     pub on: usize,
     /// The first end of that.
     pub end: Marker,
-    /// Whether it turns with the sections.
+    /// Whether it rotates with the sections.
     pub follower: bool,
     /// Components along global axes or those of the sections, N m/m.
     pub density: LineLoad<3>,
@@ -79,7 +79,7 @@ impl<const D: usize> ForceElement<D> for DistributedMoment {
         [sum, N::of(0.0)]
     }
 
-    /// Exact for small turns.
+    /// Exact for small rotations.
     fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let rod = self.rod(before);
         let work = (0..rod.count()).map(|element| {

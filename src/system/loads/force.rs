@@ -15,7 +15,7 @@ use crate::system::signal::Signal;
 pub struct Force<const D: usize = 2> {
     /// Where it acts.
     pub marker: Marker,
-    /// Whether it turns with the marker.
+    /// Whether it rotates with the marker.
     pub follower: bool,
     /// Components, N.
     pub components: [Signal; D],

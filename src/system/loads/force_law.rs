@@ -40,8 +40,8 @@ impl<const D: usize> ForceLaw<D> {
         }
     }
 
-    /// Length or coordinate, and its rate. The turns of an angle that the law does not depend on are not counted.
-    fn read<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+    /// Length or coordinate, and its rate. The rotations of an angle that the law does not depend on are not counted.
+    pub fn read<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let rate = self.on.rate(at.x, at.v);
         if self.law.depends()[0] {
             [self.on.value(at.x, at.angles.1), rate]

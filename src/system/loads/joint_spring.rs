@@ -20,7 +20,7 @@ pub struct JointSpring<const D: usize = 2> {
 }
 
 impl<const D: usize> JointSpring<D> {
-    /// How far it is from rest; a damper alone has none, and is not asked how far it has turned.
+    /// How far it is from rest; a damper alone has none, and is not asked how far it has rotated.
     fn stretch<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         if self.stiffness == 0.0 {
             return N::of(0.0);

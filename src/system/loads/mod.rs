@@ -110,12 +110,12 @@ pub trait ForceElement<const D: usize>: Clone {
     /// Calls with every time-dependent size of the load.
     fn each_signal<'a>(&'a self, _call: &mut dyn FnMut(&'a Signal)) {}
 
-    /// Whether the load has a potential, so that its tangent is symmetric. A force that turns with a body has none, nor has drag.
+    /// Whether the load has a potential, so that its tangent is symmetric. A force that rotates with a body has none, nor has drag.
     fn is_conservative(&self) -> bool {
         true
     }
 
-    /// Whether the load turns what it acts on.
+    /// Whether the load rotates what it acts on.
     fn is_moment(&self) -> bool {
         false
     }

@@ -80,15 +80,21 @@ impl<N: Number> Taut<N> {
 }
 
 impl<const D: usize> Reeving<D> {
-    /// The rope where it is taut.
-    fn taut<N: Number>(&self, at: Instant<'_, D, N>) -> Option<Taut<N>> {
-        let (mut path, mut growth) = (N::of(0.0), N::of(0.0));
+    /// Length of its path, m, and the rate of that, m/s.
+    pub fn path<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        let mut path = [N::of(0.0); 2];
         for span in self.points.array_windows() {
             let (unit, length) = line(span, at.x);
             let [a, b] = span.map(|end| end.lift().velocity(at.v));
-            path += length;
-            growth += unit.dot(&(b - a));
+            path[0] += length;
+            path[1] += unit.dot(&(b - a));
         }
+        path
+    }
+
+    /// The rope where it is taut.
+    fn taut<N: Number>(&self, at: Instant<'_, D, N>) -> Option<Taut<N>> {
+        let [path, growth] = self.path(at);
         let (mut free, mut change) = (self.length.value(at), self.length.rate(at));
         if let Some(Drum {
             angle,

@@ -1,5 +1,5 @@
 //! A moment on a rigid body of space, and its opposite on another: about directions that stay where they are in space (a dead
-//! moment), or that turn with a body (a follower, or the axis of a joint). On the axes `e_k` of a body it is the
+//! moment), or that rotate with a body (a follower, or the axis of a joint). On the axes `e_k` of a body it is the
 //! forces `M x e_k / 2`, whose moment is `M`. A dead moment about more than one axis does work that depends on the way and
 //! has no potential.
 //!
@@ -20,7 +20,7 @@ use crate::system::signal::Signal;
 pub struct SpatialMoment<const D: usize> {
     /// The second end takes the moment, the first one its opposite.
     pub ends: [Attachment<D>; 2],
-    /// Whether it is the torque of a joint, about whose axis bodies turn against each other alone: it has a potential.
+    /// Whether it is the torque of a joint, about whose axis bodies rotate against each other alone: it has a potential.
     pub is_torque: bool,
     /// Sizes, N m, and what they are about.
     pub parts: Vec<(Signal, Direction<D>)>,
@@ -96,7 +96,7 @@ impl<const D: usize> ForceElement<D> for SpatialMoment<D> {
         [self.moment(at).dot(&(second - first)), N::of(0.0)]
     }
 
-    /// Exact for small turns.
+    /// Exact for small rotations.
     fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let [first, second] = self.ends.each_ref().map(|end| {
             let Attachment::Body(marker) = end else {

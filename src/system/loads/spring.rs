@@ -55,6 +55,12 @@ impl<const D: usize> Spring<D> {
         self.length.value(at)
     }
 
+    /// Distance of its ends, m, and the rate of that, m/s.
+    pub fn path<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        let span = self.span(at);
+        [span.length, span.speed]
+    }
+
     /// Force with which it pulls, N.
     pub fn tension<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let span = self.span(at);

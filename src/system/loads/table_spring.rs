@@ -19,11 +19,13 @@ pub struct TableSpring<const D: usize = 2> {
 }
 
 impl<const D: usize> TableSpring<D> {
-    fn rate<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    /// Rate of that coordinate, m/s or rad/s.
+    pub fn rate<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.on.rate(at.x, at.v)
     }
 
-    fn value<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    /// Coordinate that it acts along, m or rad.
+    pub fn value<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.on.value(at.x, at.angles.1)
     }
 

@@ -58,7 +58,7 @@ pub trait Dynamics {
     fn set_stage(&mut self, stage: usize);
     /// Solves for the first stages in place, as many as there are vectors. `forward`, a square matrix by rows, takes
     /// the right-hand sides to one for the real factors, where their number is odd, then to real and imaginary part
-    /// of one for the complex factors; `back` takes the solutions to the stages. The tangent may be turned along to
+    /// of one for the complex factors; `back` takes the solutions to the stages. The tangent may be rotated along to
     /// the configurations set before, so the result is exact only to first order in the way from the
     /// linearization.
     fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]);
@@ -259,7 +259,7 @@ impl<'a, const D: usize> DrivenSystem<'a, D> {
         self.system.renew(state, size, self.work)
     }
 
-    /// The largest turn from one state to another, as [`Dynamics::largest_rotation`].
+    /// The largest rotation from one state to another, as [`Dynamics::largest_rotation`].
     pub fn rotation_between(&mut self, [from, to]: [&State; 2]) -> f64 {
         let [from, to] = [from, to].map(|state| self.system.nodes_of(state, self.work));
         self.system.bodies.largest_rotation_between(&from, &to)

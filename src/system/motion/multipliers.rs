@@ -142,7 +142,7 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Turns free accelerations in `work.acceleration` into constrained ones, at the coordinates and rates in `work`, and finds multipliers.
+    /// Converts free accelerations in `work.acceleration` into constrained ones, at the coordinates and rates in `work`, and finds multipliers.
     pub(in crate::system) fn constrain(&self, work: &mut Workspace<D>) {
         self.jacobians(work);
         self.ask_accelerations(work);
@@ -181,7 +181,7 @@ impl<const D: usize> System<D> {
             scratch,
             ..
         } = work;
-        // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
+        // Accelerations that do not follow from the coordinates': of what is driven, and of axes that rotate.
         let is_still = self.driven.is_empty() && !self.bodies.pays_out();
         let is_driven = !(is_still && self.bodies.has_no_frames());
         if is_driven {

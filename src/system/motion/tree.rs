@@ -1,5 +1,5 @@
-//! Mechanisms of rigid bodies in space without loops whose joints hold points and turns: revolute and ball joints, hinges,
-//! universal and constant-velocity joints, welds, driven turns. Their constraints are satisfied by an elimination from the leaves to the roots
+//! Mechanisms of rigid bodies in space without loops whose joints hold points and rotations: revolute and ball joints, hinges,
+//! universal and constant-velocity joints, welds, driven rotations. Their constraints are satisfied by an elimination from the leaves to the roots
 //! ([`Articulated`]) instead of one of the multipliers; both solve the same equations.
 
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ pub(in crate::system) struct Tree<const D: usize> {
     links: Vec<Link>,
     /// For every link that a joint holds.
     pins: Vec<Option<Pin<D>>>,
-    /// Rows of the turns that are held.
+    /// Rows of the rotations that are held.
     turns: Vec<usize>,
 }
 
@@ -257,7 +257,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Factors the tree at the nodal coordinates in `work`, unless it is that already. False where there is no tree, or where
-    /// turns that a joint holds depend on each other: then multipliers are to be used.
+    /// rotations that a joint holds depend on each other: then multipliers are to be used.
     pub(in crate::system) fn factor_tree(&self, work: &mut Workspace<D>) -> bool {
         let Some(tree) = self.tree() else {
             return false;
@@ -345,7 +345,7 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Turns free accelerations into constrained ones as [`System::constrain`] does, but for multipliers; false where there is
+    /// Converts free accelerations into constrained ones as [`System::constrain`] does, but for multipliers; false where there is
     /// no tree.
     pub(in crate::system) fn constrain_tree(&self, work: &mut Workspace<D>) -> bool {
         if !self.factor_tree(work) {

@@ -1,4 +1,4 @@
-//! How fast a line turns across itself.
+//! How fast a line rotates across itself.
 
 use crate::bodies::LineChain;
 use crate::math::space::{Vector, components};

@@ -287,7 +287,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
-    /// Potential energy of gravity, zero at the origin, and of the centrifugal force in a turning frame,
+    /// Potential energy of gravity, zero at the origin, and of the centrifugal force in a rotating frame,
     /// J.
     pub fn gravity_energy(&self, system: &System<D>) -> N {
         let falls = system.weight.iter().zip(&self.x);

@@ -103,6 +103,18 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
     }
 
+    /// Length of the line that a load pulls along, m, and the rate of that, m/s.
+    pub fn length(&self, system: &System<D>, load: usize) -> [N; 2] {
+        let at = self.instant(system);
+        match &system.loads[load] {
+            AppliedLoad::Reeving(rope) => rope.path(at),
+            AppliedLoad::Spring(spring) => spring.path(at),
+            AppliedLoad::TableSpring(spring) => [spring.value(at), spring.rate(at)],
+            AppliedLoad::ForceLaw(law) => law.read(at),
+            _ => [N::of(0.0); 2],
+        }
+    }
+
     /// Force (N) and moment (N m), in the plane its third component, of a load on its second end, or on the one that it has; of
     /// contact along or over a body the whole force, without a moment.
     pub fn exerted(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {

@@ -18,7 +18,7 @@ use crate::system::{Evaluation, System};
 
 /// Most elements along a direction of which the ends tell too: shapes that are symmetric have no jump in their middle.
 const FEW: usize = 2;
-/// Places of an element at which its tangents are compared: between two of them it turns by less than half a turn.
+/// Places of an element at which its tangents are compared: between two of them it rotates by less than half a turn.
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
 /// A line of the mesh, at this configuration of its nodes.

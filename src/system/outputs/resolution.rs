@@ -144,7 +144,7 @@ pub(super) fn too_far<const D: usize, N: Number>(
     now * ((fourth(now.norm_squared()) - fourth(rest)) * N::of(STIFFENING))
 }
 
-/// Rotation vector by which the tangent of an element, here from its first end to its last, turns, rad. Of an element that folds back on itself it
+/// Rotation vector by which the tangent of an element, here from its first end to its last, rotates, rad. Of an element that folds back on itself it
 /// is as long as all rotations on the way together, which have opposite directions there.
 pub(super) fn bend<N: Number, const PLACES: usize>(tangents: [Vector3<N>; PLACES]) -> Vector3<N> {
     let (mut sum, mut way, mut folds) = (Vector3::zeros(), N::of(0.0), false);

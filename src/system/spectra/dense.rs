@@ -87,7 +87,7 @@ pub(super) fn quadratic(
     let n = stiffness.nrows();
     let size = stiffness.amax();
     let skew = (stiffness - stiffness.transpose()).amax();
-    // Stiffness of bodies that turn is what is left of terms as large as squares of gyroscopic rates.
+    // Stiffness of bodies that rotate is what is left of terms as large as squares of gyroscopic rates.
     let gyroscopic = 0.5 * (damping - damping.transpose()).amax();
     let noise = ROUNDOFF * (2 * n) as f64 * size.max(gyroscopic * gyroscopic);
     let root = if skew <= 1e-13 * size {

@@ -282,7 +282,7 @@ pub(super) fn slowest<const D: usize>(
     Err(missing)
 }
 
-/// Number of eigenvalues inside a circle about 0, of which so many were found. Determinants of parts of the system turn faster
+/// Number of eigenvalues inside a circle about 0, of which so many were found. Determinants of parts of the system rotate faster
 /// than that of the whole: too few show where steps round the circle are too large.
 fn present<const D: usize>(
     linear: &Linearization<'_, D>,

@@ -1,12 +1,12 @@
 //! The equations of motion linearized at a state, exactly: `x'' + R x' + K x = 0` for small motions that keep
-//! the constraints, with whatever is not symmetric in `R` and `K`: forces that follow, a turning frame, dampers that
-//! move, constraints whose directions turn.
+//! the constraints, with whatever is not symmetric in `R` and `K`: forces that follow, a rotating frame, dampers that
+//! move, constraints whose directions rotate.
 //!
 //! Loads, constraints and damped elements are differentiated one by one on numbers that carry derivatives; the rest
-//! is assembled as solves use it. While constraints turn, small motions are measured along with their tangent plane
+//! is assembled as solves use it. While constraints rotate, small motions are measured along with their tangent plane
 //! (parallel transport in the mass norm): with `D = Q'` the rates of the orthonormal rows `Q`, velocities follow
 //! displacements `d` by `-Q^T D d`, and `K` becomes `P (K - (R - M') Q^T D - D^T D) P`, `P = I - Q^T Q`, with the rate `M'` of the
-//! mass over axes that stand still, which rigid bodies of space have that turn. So what turns freely and steadily has the
+//! mass over axes that stand still, which rigid bodies of space have that rotate. So what rotates freely and steadily has the
 //! eigenvalue 0 whatever its coordinates are.
 //!
 //! Sources: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), section 3.1; J. M. Lee, Introduction to
@@ -155,7 +155,7 @@ impl<const D: usize> System<D> {
                 if load.is_damped() && !at_rest {
                     made.terms.is_damped = true;
                     let by_rates = probe.differentiate(nodes, true, &force);
-                    // Axes that turn change their rates where they are turned.
+                    // Axes that rotate change their rates where they are rotated.
                     let motion = work.kinematics.motion().pair();
                     blocks.add_by_rates_of_axes(&by_rates, &self.bodies, motion);
                     let by_rates = by_rates.pulled(&self.bodies, &work.kinematics.x);

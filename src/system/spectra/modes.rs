@@ -44,7 +44,7 @@ pub(super) fn in_basis<const D: usize>(
     Some(modes)
 }
 
-/// Modes at rest, without dampers and without the gyroscopic forces of a turning frame, ascending: so many at least, or all that there are.
+/// Modes at rest, without dampers and without the gyroscopic forces of a rotating frame, ascending: so many at least, or all that there are.
 ///
 /// # Errors
 /// Loads that follow, and what the iteration does not find.

@@ -1,4 +1,4 @@
-//! Directions that constraints hold, and what their turning adds to the linearized equations (`linearization.rs`).
+//! Directions that constraints hold, and what their rotating adds to the linearized equations (`linearization.rs`).
 
 use super::linearization::Linearization;
 use crate::bodies::{Node, map_node, no_node};

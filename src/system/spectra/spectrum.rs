@@ -39,13 +39,13 @@ pub enum SpectrumError {
     /// A force that follows a marker of this body has no potential: there are no natural frequencies.
     #[error("expected forces with a potential, found one that follows body {0}")]
     NotConservative(usize),
-    /// Cables turn as a whole at this rate, rad/s.
+    /// Cables rotate as a whole at this rate, rad/s.
     #[error(
         "expected cables that do not turn as a whole, found {0} rad/s: describe the scene in a frame that turns \
          with them (\"rotation\")"
     )]
     Turns(f64),
-    /// A thin rigid rod of space, a section of a rod or a reduced body turns at this rate, rad/s.
+    /// A thin rigid rod of space, a section of a rod or a reduced body rotates at this rate, rad/s.
     #[error(
         "expected thin rods, rods and reduced bodies that do not turn in space, found one at {0} rad/s: describe the \
          scene in a frame that turns with them (\"rotation\")"
@@ -106,7 +106,7 @@ fn at<'a, const D: usize>(
 /// Lowest natural frequencies at rest, without dampers, rad/s: roots of the eigenvalues of `K`, those of negative
 /// ones negative.
 ///
-/// In a turning frame they are the imaginary parts of the eigenvalues of `q'' + G q' + K q = 0` with the gyroscopic
+/// In a rotating frame they are the imaginary parts of the eigenvalues of `q'' + G q' + K q = 0` with the gyroscopic
 /// matrix `G`; that a motion grows is said by minus its rate.
 ///
 /// # Errors
@@ -260,8 +260,8 @@ fn refuse_paid_out<const D: usize>(
     Ok(())
 }
 
-/// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an
-/// eigenvalue for longer than an instant, and in the frame that turns with them gyroscopic forces act.
+/// Refuses cables that rotate as a whole and as fast as they please: their stiffness rotates with them, so nothing is an
+/// eigenvalue for longer than an instant, and in the frame that rotates with them gyroscopic forces act.
 fn refuse_rotating<const D: usize>(
     system: &System<D>,
     linear: &Linearization<'_, D>,
@@ -342,7 +342,7 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
         inertia += Matrix3::identity() * u.norm_squared() - u * u.transpose();
         momentum += u.cross(&rate);
     }
-    // A straight cable does not notice a turn about itself.
+    // A straight cable does not notice a rotation about itself.
     let solved = inertia
         .svd(true, true)
         .solve(&momentum, 1e-12 * inertia.norm());
@@ -352,7 +352,7 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
 /// The equations linearized at rest, assembled in `work` too.
 ///
 /// # Errors
-/// Loads that follow, cables that turn as a whole.
+/// Loads that follow, cables that rotate as a whole.
 pub(super) fn at_rest<'a, const D: usize>(
     system: &'a System<D>,
     inputs: &[f64],

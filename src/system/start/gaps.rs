@@ -23,7 +23,7 @@ impl<const D: usize> System<D> {
         points.iter().sum::<Vector<D>>() / points.len() as f64
     }
 
-    /// Moves a body as a whole, turning it about a point.
+    /// Moves a body as a whole, rotating it about a point.
     pub(super) fn move_body(
         &self,
         (nodes, about): (Range<usize>, Vector<D>),
@@ -150,7 +150,7 @@ impl<const D: usize> System<D> {
         gaps
     }
 
-    /// Derivatives of the gaps by translations (relative to `size`) and turns of all bodies.
+    /// Derivatives of the gaps by translations (relative to `size`) and rotations of all bodies.
     pub(super) fn rigid_jacobian(
         &self,
         x: &[Node<D>],

@@ -72,7 +72,7 @@ impl<const D: usize> System<D> {
         self.rotation = [0.0; 3];
     }
 
-    /// Turns about a point at a rate, rad/s: loads get the centrifugal force.
+    /// Rotates about a point at a rate, rad/s: loads get the centrifugal force.
     pub(in crate::system) fn turn(&mut self, rate: [f64; 3], center: Vector<D>) {
         let arm = frame_acceleration(rate, center, Vector::zeros());
         let mut arms = vec![[arm.into(), [0.0; D]]; self.bodies.reference.len()];

@@ -27,7 +27,7 @@ const EXACT: f64 = 1e-15;
 /// Part of the largest entry below which what others leave of a joint is nothing.
 const DEPENDENT: f64 = 1e-9;
 
-/// Turn, rad, from which on a body whose orientation is driven is turned at once.
+/// Rotation, rad, from which on a body whose orientation is driven is rotated at once.
 const FAR: f64 = 0.1;
 
 /// Gap, in sizes of the largest body, from which on joints as described cannot be meant.
@@ -284,7 +284,7 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Turns bodies, each about its centre, whose orientations are driven to where they are to be: conditions that are sines of
+    /// Rotates bodies, each about its centre, whose orientations are driven to where they are to be: conditions that are sines of
     /// angles lead there from less than a quarter of a turn away.
     fn rotate_driven(&self, x: &mut [Node<D>], work: &Workspace<D>) {
         for constraint in &self.constraints {
@@ -311,7 +311,7 @@ impl<const D: usize> System<D> {
             *value = angle.value(x, 0.0);
         }
         for load in &self.loads {
-            // What a coupling turns along with may have turned fully before.
+            // What a coupling rotates along with may have rotated fully before.
             if let AppliedLoad::Bushing(bushing) = load
                 && let BushingMeasure::Angle(turning) = &bushing.measure
             {
@@ -357,7 +357,7 @@ impl<const D: usize> System<D> {
             let jacobian = self.rigid_jacobian(x, work, size);
             let gaps = DVector::from_vec(gaps);
             let step = Least::new(&jacobian, DEPENDENT).solve(&gaps);
-            // Far from the solution a long step may turn bodies over.
+            // Far from the solution a long step may rotate bodies over.
             let turn = |body: usize| {
                 let mut turn = [0.0; 3];
                 for (i, k) in spins(D).enumerate() {

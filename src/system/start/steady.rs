@@ -1,4 +1,4 @@
-//! Steady motions: all bodies turn together about one point, in space about one axis, at a constant rate, or move on
+//! Steady motions: all bodies rotate together about one point, in space about one axis, at a constant rate, or move on
 //! together.
 //!
 //! The velocity field `V + omega x r` is the one that motions and joints ask for, in the least-squares sense, and
@@ -58,7 +58,7 @@ impl<const D: usize> Steady<D> {
         })
     }
 
-    /// One of the motions that all others are combined of: translations along the axes, then turns that move a point at
+    /// One of the motions that all others are combined of: translations along the axes, then rotations that move a point at
     /// this distance (m) from their axis by 1.
     fn unit(k: usize, size: f64) -> Self {
         let (mut velocity, mut rate) = (Vector::zeros(), [0.0; 3]);
@@ -142,7 +142,7 @@ impl<const D: usize> System<D> {
                     .map(|(node, c)| product(c, &field[*node]))
                     .sum()
             };
-            // What is no coordinate of a node turns along.
+            // What is no coordinate of a node rotates along.
             if linear.joint.is_some() {
                 let target = linear.target.derivatives(&work.kinematics.drives)[1];
                 rows.push((fields.iter().map(of).collect(), target));
@@ -167,7 +167,7 @@ impl<const D: usize> System<D> {
     }
 
     /// The part that rows leave free, closest to given rates in the mass norm, and where that does not tell, as how a thin
-    /// rod turns about itself, in the sum of squares.
+    /// rod rotates about itself, in the sum of squares.
     fn free_part(
         &self,
         mut free: Vec<DVector<f64>>,

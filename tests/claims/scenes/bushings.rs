@@ -80,7 +80,7 @@ fn dampers(name: &'static str, is_along: bool) -> Specimen {
     let damping =
         |of: [f64; 3]| first.axes * Matrix3::from_diagonal(&of.into()) * first.axes.transpose();
     let force = -damping(along) * second.velocity;
-    // Forces stand at one point: none turns the bodies.
+    // Forces stand at one point: none rotates the bodies.
     let moment = -damping(about) * second.spin;
     let mut specimen = Specimen::new(name, scene);
     specimen = if is_along {

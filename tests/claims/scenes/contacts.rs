@@ -191,7 +191,7 @@ fn line(extra: &Value) -> Value {
     body
 }
 
-/// All of it is below a plane that is inclined to it, and it turns: depth and its rate are linear in `s`.
+/// All of it is below a plane that is inclined to it, and it rotates: depth and its rate are linear in `s`.
 fn along_a_rigid_body() -> Specimen {
     let (mass, normal) = (2.5, [0.28, 0.96]);
     let (velocity, spin) = ([0.0, -0.4], 0.7);

@@ -224,7 +224,7 @@ fn stopped(is_read: bool) -> Specimen {
     specimen.claim("energy.spring", "J", 0.5 * stored)
 }
 
-/// A block of the plane and the bar that it slides along, both at rest, the bar turned and shifted.
+/// A block of the plane and the bar that it slides along, both at rest, the bar rotated and shifted.
 fn bar_and_block(masses: [f64; 2]) -> (Value, [f64; 2]) {
     let turned: f64 = 0.4;
     let along = [turned.cos(), turned.sin()];
@@ -292,7 +292,7 @@ fn driven_in_the_plane() -> Specimen {
     claimed(specimen, WAY, "rail", done)
 }
 
-/// In space: the same along an axis of no symmetry; the bodies turn together.
+/// In space: the same along an axis of no symmetry; the bodies rotate together.
 fn driven_in_space() -> Specimen {
     let direction = [0.3, -0.9, 0.6];
     let [first, mut second] = ["u", "v"].map(body);
@@ -389,7 +389,7 @@ fn gears() -> Specimen {
     specimen.claim("pair.gear_torque", "N.m", j2 * ratio * turning)
 }
 
-/// A pinion and its rack, in the plane; the pinion turns past full turns.
+/// A pinion and its rack, in the plane; the pinion rotates past full turns.
 fn rack() -> Specimen {
     let (ratio, weight, rate) = (0.35, 9.0, 8.0);
     let [inertia, mass] = [0.2, 1.4];
@@ -435,7 +435,7 @@ fn rack() -> Specimen {
 /// Name, what is free, which translations and which rotations that is.
 type Free<'a> = (&'a str, &'a [&'a str], [f64; 3], [f64; 3]);
 
-/// Bodies at rest that may go along and turn about named axes of the ground, pushed and turned: of two rotations the joint holds
+/// Bodies at rest that may go along and rotate about named axes of the ground, pushed and rotated: of two rotations the joint holds
 /// the moment across both.
 fn let_go() -> Specimen {
     let off = Vector3::new(0.02, 0.05, -0.03);

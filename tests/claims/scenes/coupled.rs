@@ -54,7 +54,7 @@ fn rope() -> Specimen {
     let mut specimen = Specimen::new("rope", scene);
     let minor = stiffness * rigidity - twisting * twisting;
     let (stretch, twist) = (rigidity * force / minor, -twisting * force / minor);
-    // About the tangent -z, by which y turns towards x.
+    // About the tangent -z, by which y rotates towards x.
     let angle = twist * LENGTH;
     let curvature = moment / (YOUNG * second);
     let (bend, radius) = (curvature * LENGTH, (1.0 - off * curvature) / curvature);

@@ -1,4 +1,4 @@
-//! Frames that turn, and geometry of cables in free flight.
+//! Frames that rotate, and geometry of cables in free flight.
 
 use nalgebra::Vector3;
 use serde_json::json;
@@ -27,7 +27,7 @@ fn turning() -> Specimen {
         .claim("energy.gravity", "J", potential)
 }
 
-/// A particle in a frame that turns about an axis of space.
+/// A particle in a frame that rotates about an axis of space.
 fn turning_in_space() -> Specimen {
     let (m, rate, place) = (1.7, [0.4, -0.7, 0.9], [0.6, -0.4, 0.8]);
     let [w, r, v, g] = [rate, place, [0.5, 1.2, -0.3], [0.3, -2.0, -8.0]].map(Vector3::from);
@@ -48,7 +48,7 @@ fn turning_in_space() -> Specimen {
     .claim("energy.gravity", "J", potential)
 }
 
-/// A straight cable in free flight that turns.
+/// A straight cable in free flight that rotates.
 fn line() -> Specimen {
     let (rho, area, spin, speed) = (1300.0, 2e-3, 0.7, [0.4, -0.9]);
     let (from, to) = ([0.2, 0.1], [0.8, 0.9]);

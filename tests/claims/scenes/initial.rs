@@ -1,4 +1,4 @@
-//! Where a simulation starts from: loads that act only while an equilibrium is looked for, steady turns,
+//! Where a simulation starts from: loads that act only while an equilibrium is looked for, steady rotations,
 //! velocities of deformation.
 
 use serde_json::{Value, json};
@@ -37,7 +37,7 @@ const STIFFNESS: f64 = 4.0;
 const REST: f64 = 0.1;
 const INERTIA: f64 = 0.5;
 
-/// Levers on springs of their own, turned by moments, torques and a follower force, and let go.
+/// Levers on springs of their own, rotated by moments, torques and a follower force, and let go.
 fn levers() -> Specimen {
     let (mut bodies, mut joints, mut loads, mut outputs) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -160,7 +160,7 @@ fn bars() -> Specimen {
     specimen
 }
 
-/// A bar that is turned about its end: `r = A sin(a s)`, `a = w sqrt(rho/E)`, and at the tip `EA (r' - 1) = F`.
+/// A bar that is rotated about its end: `r = A sin(a s)`, `a = w sqrt(rho/E)`, and at the tip `EA (r' - 1) = F`.
 fn turned(name: &'static str, initial: Value, force: f64) -> Specimen {
     let rate = 3.0;
     let mut body = bar("bar", [0.0, 0.0], [1.0, 0.0], 4);

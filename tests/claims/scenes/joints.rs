@@ -132,7 +132,7 @@ fn angles_from_another() -> Specimen {
 }
 
 /// Two free bodies welded at their centres of mass, and two with their directions held: a moment on one
-/// turns both.
+/// rotates both.
 fn welded_pair() -> Specimen {
     let scene = json!({
         "name": "welded_pair", "dimension": 2,
@@ -238,7 +238,7 @@ fn angle_of_a_joint() -> Specimen {
         .claim_within("a.c.angle", "rad", -0.5, 1e-6)
 }
 
-/// A block slides on a line of an arm that is turned at a steady rate: away from the pivot as a hyperbolic cosine.
+/// A block slides on a line of an arm that is rotated at a steady rate: away from the pivot as a hyperbolic cosine.
 fn telescope() -> Specimen {
     let (m, a0, w, r0, t) = (1.3, 0.2, 1.5, 0.4, 0.6);
     let along = |angle: f64, r: f64| turned(angle, [0.6 * r, 0.8 * r]);
@@ -302,11 +302,11 @@ fn rams() -> Specimen {
         .vector("cart.c.acceleration", "m/s2", times(dot(g, line), line))
         .vector("cart.c.position", "m", foot)
         .claim("cart.c.angle", "rad", 0.45)
-        // A slider leaves the turn free.
+        // A slider leaves the rotation free.
         .claim("bead.c.angular_acceleration", "rad/s2", 1.2 / 0.3)
 }
 
-/// A bead in the slot of a lever that turns at a steady rate; the slot does not pass through the pivot.
+/// A bead in the slot of a lever that rotates at a steady rate; the slot does not pass through the pivot.
 fn slotted_lever() -> Specimen {
     let (g, m, tilt, rate, speed) = ([0.6, -9.0], 1.5, 0.3, 2.0, 0.7);
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];

@@ -338,7 +338,7 @@ fn kinks() -> Specimen {
         .claim("a.c.velocity[1]", "m/s", v)
 }
 
-/// Work of a force on a free body, and what a damper takes from one that turns.
+/// Work of a force on a free body, and what a damper takes from one that rotates.
 fn works() -> Specimen {
     let (force, speed, j, d, spin) = ([3.0, -2.0], [0.4, 0.1], 0.4, 0.6, 2.5);
     let mut turning = body("wheel", [3.0, 0.0], 0.2);
@@ -387,7 +387,7 @@ fn works_of_what_moves() -> Specimen {
 }
 
 /// Beads that are held: one on a spring whose length at rest shrinks, one on a damper to a point that comes in
-/// and moves, one that turns against a damper.
+/// and moves, one that rotates against a damper.
 fn held() -> Specimen {
     let (k, d, dr, t) = (30.0, 1.5, 0.8, 0.5);
     let hold = |name: &str, of: &str, place: [f64; 2]| json!({"name": name, "kind": "position", "marker": of, "value": place});

@@ -112,7 +112,7 @@ pub fn clamp(name: &str, marker: &str) -> Value {
     json!({"name": name, "kind": "weld", "markers": ["ground", marker]})
 }
 
-/// A vector turned counter-clockwise.
+/// A vector rotated counter-clockwise.
 pub fn turned(angle: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [cos * x - sin * y, sin * x + cos * y]

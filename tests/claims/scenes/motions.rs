@@ -103,7 +103,7 @@ fn angles() -> Specimen {
         }
         specimen = specimen.claim(&format!("turn{n}.reaction_moment"), "N.m", 0.4 * course[2]);
         if n < 2 {
-            // Both wheels turn against each other.
+            // Both wheels rotate against each other.
             let moment = 0.2 * course[2];
             specimen = specimen.claim(&format!("bend{n}.reaction_moment"), "N.m", moment);
         }
@@ -400,7 +400,7 @@ fn steps() -> Specimen {
     specimen
 }
 
-/// The slope at the end of a cable turns as it is driven, also while it stretches.
+/// The slope at the end of a cable rotates as it is driven, also while it stretches.
 fn stretching() -> Specimen {
     let scene = json!({
         "name": "stretching", "dimension": 2,
@@ -461,7 +461,7 @@ fn works() -> Specimen {
     let (way, speed) = ([0.7 * t * t, -0.5 * t * t], [1.4 * t, -t]);
     let of_the_point = 1.6 * (0.5 * super::dot(speed, speed) - super::dot(g, way));
     let of_the_wheel = 0.5 * 0.4 * (1.8 * t).powi(2);
-    // Both wheels turn against each other.
+    // Both wheels rotate against each other.
     let of_the_pin = 0.4 * (0.6 * t).powi(2);
     Specimen::new("works_of_drives", scene).at(t).claim_within(
         "energy.input",

@@ -243,7 +243,7 @@ fn whole(is_at_stations: bool) -> Specimen {
         .claim_within("beam.tip.angle", "rad", turn.y, 1e-4 * turn.norm())
 }
 
-/// A free beam that turns as a whole has the energy and the angular momentum of a body with its line's mass and the rotary inertia of its
+/// A free beam that rotates as a whole has the energy and the angular momentum of a body with its line's mass and the rotary inertia of its
 /// sections; so it has where these are given as whole matrices.
 fn turning(is_at_stations: bool) -> Specimen {
     let mut made = body("beam", 0.0);

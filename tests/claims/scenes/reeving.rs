@@ -9,7 +9,7 @@ use crate::claims::specimen::Specimen;
 const T: f64 = 0.3;
 
 pub fn all() -> Vec<Specimen> {
-    vec![ropes(), courses(), drums(), steered()]
+    vec![ropes(), courses(), drums(), steered(), lengths()]
 }
 
 fn bead(name: &str, place: [f64; 2], speed: [f64; 2]) -> Value {
@@ -56,6 +56,7 @@ fn ropes() -> Specimen {
     let names = ["full", "undamped", "fast", "falling", "relaxed"];
     for (k, name) in names.iter().enumerate() {
         outputs.push(json!({"kind": "tension", "load": name}));
+        outputs.push(json!({"kind": "length", "load": name}));
         outputs.push(json!({"kind": "acceleration", "marker": format!("a{k}.c")}));
         outputs.push(json!({"kind": "acceleration", "marker": format!("b{k}.c")}));
     }
@@ -74,12 +75,43 @@ fn ropes() -> Specimen {
     ];
     let stored = 20.0 * (2.0 * 0.25 / 1.5 + 2.0 * 0.01 / 1.9);
     let mut specimen = Specimen::new("ropes", scene).claim("energy.spring", "J", stored);
+    let rates = [-0.4, -0.4, 1.4, -1.6, -0.4];
     for (k, (name, tension)) in names.iter().zip(tensions).enumerate() {
         let [first, second] = pulled(tension);
         specimen = specimen
+            .claim(&format!("{name}.length"), "m", 2.0)
+            .claim(&format!("{name}.length_rate"), "m/s", rates[k])
             .claim(&format!("{name}.tension"), "N", tension)
             .vector(&format!("a{k}.c.acceleration"), "m/s2", first)
             .vector(&format!("b{k}.c.acceleration"), "m/s2", second);
+    }
+    specimen
+}
+
+/// Lines between a point and a bead that is 0.5 m away and moves off at 1.2 m/s: length, its rate and tension of what pulls along them.
+fn lengths() -> Specimen {
+    let line = |name: &str, mut keys: Value| {
+        keys["name"] = json!(name);
+        keys["markers"] = json!(["ground", "bead.c"]);
+        keys["point"] = json!([0.3, -0.4]);
+        keys
+    };
+    let spring = json!({"kind": "spring_damper", "stiffness": 30.0, "damping": 0.5, "length": 0.4});
+    let table = json!({"kind": "table_spring", "spring": [[0.3, -4.0], [0.7, 12.0]]});
+    let law = json!({"kind": "force_law", "force": "20*x+3*v"});
+    let names = ["spring", "table", "law"];
+    let read = |kind: &str| names.map(|name| json!({"kind": kind, "load": name}));
+    let outputs = [read("length"), read("tension")].concat();
+    let scene = json!({
+        "name": "lengths", "dimension": 2, "bodies": [bead("bead", [0.6, 0.0], [2.0, 0.0]), extra()],
+        "loads": [line("spring", spring), line("table", table), line("law", law)], "outputs": outputs});
+    let tensions = [30.0 * 0.1 + 0.5 * 1.2, 4.0, 20.0 * 0.5 + 3.0 * 1.2];
+    let mut specimen = Specimen::new("lengths", scene);
+    for (name, tension) in names.into_iter().zip(tensions) {
+        specimen = specimen
+            .claim(&format!("{name}.length"), "m", 0.5)
+            .claim(&format!("{name}.length_rate"), "m/s", 1.2)
+            .claim(&format!("{name}.tension"), "N", tension);
     }
     specimen
 }

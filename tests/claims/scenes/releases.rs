@@ -16,7 +16,7 @@ pub fn all() -> Vec<Specimen> {
     ]
 }
 
-/// A bob that circles steadily without gravity flies along the tangent once it is let go, and goes on turning.
+/// A bob that circles steadily without gravity flies along the tangent once it is let go, and goes on rotating.
 fn flung(name: &'static str, keys: Value, due: f64, told: f64) -> Specimen {
     let (r, spin, mass) = (0.8, 1.7, 2.0);
     let mut joint = json!({"name": "pin", "kind": "revolute", "markers": ["ground", "bob.p"], "point": [0.2, 0.1]});
@@ -73,7 +73,7 @@ fn flung(name: &'static str, keys: Value, due: f64, told: f64) -> Specimen {
         .claim_within("bob.c.angular_velocity", "rad/s", spin, 1e-8)
 }
 
-/// The same in space, about an axis, of the second of two bodies on hinges that turn as one.
+/// The same in space, about an axis, of the second of two bodies on hinges that rotate as one.
 fn spun_off() -> Specimen {
     let (r, spin, due) = (1.2, 1.7, 0.4);
     let body = |name: &str, x: f64| {
@@ -115,7 +115,7 @@ fn on_ground(name: &str, kind: &str, keys: &Value) -> Value {
     joint
 }
 
-/// Joints of all kinds in the plane: some let go at once, and what they would hold falls and turns; others hold.
+/// Joints of all kinds in the plane: some let go at once, and what they would hold falls and rotates; others hold.
 fn all_go() -> Specimen {
     let (g, moment, mass, inertia) = (9.81, 0.7, 1.4, 0.3);
     let kinds = [

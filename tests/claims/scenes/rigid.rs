@@ -57,7 +57,7 @@ fn flight() -> Specimen {
         .vector("center_of_mass", "m", place)
 }
 
-/// Everything that may be left out is: no gravity, no turn, no motion, the first experiment.
+/// Everything that may be left out is: no gravity, no rotation, no motion, the first experiment.
 fn plain() -> Specimen {
     let scene = json!({
         "name": "plain", "dimension": 2,
@@ -80,7 +80,7 @@ fn plain() -> Specimen {
         .fact("method", "rk4")
 }
 
-/// A disc on a spring at its middle: nothing holds its turn, which a body without inertia would not have.
+/// A disc on a spring at its middle: nothing holds its rotation, which a body without inertia would not have.
 fn disc() -> Specimen {
     let scene = json!({
         "name": "disc", "dimension": 2,
@@ -94,7 +94,7 @@ fn disc() -> Specimen {
         .claim("natural_frequency[2]", "rad/s", 3.0)
 }
 
-/// Masses on a cable that turns about its first end, and on a rigid body.
+/// Masses on a cable that rotates about its first end, and on a rigid body.
 fn lumped() -> Specimen {
     let (spin, length, line, mass, inertia, on_rigid) = (1.3, 0.8_f64, 1.5, 0.4, 0.07, 0.9);
     let scene = json!({

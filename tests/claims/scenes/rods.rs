@@ -300,7 +300,7 @@ fn linked() -> Specimen {
     specimen
 }
 
-/// In a frame that turns, a rod at rest is stretched by centrifugal force, N = rho A w^2 (L^2 - x^2) / 2. One that rests
+/// In a frame that rotates, a rod at rest is stretched by centrifugal force, N = rho A w^2 (L^2 - x^2) / 2. One that rests
 /// outside goes round in there, and no section carries anything, whatever sits on it.
 fn whirling() -> Specimen {
     let (rate, out) = (2.3, turned(0.3, [1.0, 0.0]));

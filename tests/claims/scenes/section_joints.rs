@@ -35,14 +35,14 @@ fn arc(name: &str, element: &str, place: f64) -> Value {
         "markers": {"root": 0.0, "tip": 1.0}})
 }
 
-/// Axes of the section at the end of the arc: the tangent, carried from the first end and twisted.
+/// Axes of the section at the end of the arc: the tangent, transported from the first end and twisted.
 fn axes() -> Matrix3<f64> {
     let (sin, cos) = HALF.sin_cos();
     let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
     let (start, end) = (x * cos - z * sin, x * cos + z * sin);
     let given = Vector3::from(AXIS);
     let first = (given - start * start.dot(&given)).normalize();
-    // Across the plane as it was, in the plane turned with the tangent.
+    // Across the plane as it was, in the plane rotated with the tangent.
     let carried = y * first.dot(&y) + end.cross(&y) * first.dot(&start.cross(&y));
     let axis = carried * TWIST.cos() + end.cross(&carried) * TWIST.sin();
     Matrix3::from_columns(&[end, axis, end.cross(&axis)])

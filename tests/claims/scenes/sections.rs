@@ -78,7 +78,7 @@ fn stiff() -> Specimen {
     specimen
 }
 
-/// A bar at rest in a frame that turns: `r = A sin(a s)`, `a = w sqrt(rho/E)`, `N = EA (r' - 1)`.
+/// A bar at rest in a frame that rotates: `r = A sin(a s)`, `a = w sqrt(rho/E)`, `N = EA (r' - 1)`.
 fn turned_bar() -> Specimen {
     let rate = 3.0;
     let scene = json!({
@@ -93,7 +93,7 @@ fn turned_bar() -> Specimen {
         .claim_within("bar.middle.axial_force", "N", force(0.5 * LENGTH), 1e-4)
 }
 
-/// A free bar that rests outside of a frame that turns: it goes round in there, and no section carries anything.
+/// A free bar that rests outside of a frame that rotates: it goes round in there, and no section carries anything.
 fn at_rest_outside() -> Specimen {
     let rate = 1.3;
     let mut body = bar("bar", [0.0, 0.4], ALONG, 2);

@@ -98,7 +98,7 @@ fn shaped(mut body: Value, shape: Value, density: f64) -> Value {
     body
 }
 
-/// Bodies that turn, pushed off their centres: `m a = F`, `J w' + w x J w = r x F`. The density of one is a parameter that is set.
+/// Bodies that rotate, pushed off their centres: `m a = F`, `J w' + w x J w = r x F`. The density of one is a parameter that is set.
 fn in_space() -> Specimen {
     let push = Vector3::new(1.4, -0.8, 2.1);
     let (mut bodies, mut loads, mut read, mut claims) = (vec![], vec![], vec![], vec![]);

@@ -131,7 +131,7 @@ fn bead() -> Specimen {
         .claim_within("ring2.travel", "m", 0.52, 1e-9)
 }
 
-/// A bead that moves outwards along a cable that turns: only the force across the cable acts on it, `2 w u`.
+/// A bead that moves outwards along a cable that rotates: only the force across the cable acts on it, `2 w u`.
 fn carried() -> Specimen {
     let (mass, rate, speed, at) = (0.5, 0.8, 0.6, 0.35);
     let turn = |name: &str, of: &str| json!({"name": name, "kind": "angle", "marker": of, "value": format!("{rate}*t")});

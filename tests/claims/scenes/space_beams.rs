@@ -329,7 +329,7 @@ fn whole(is_at_stations: bool) -> Specimen {
     specimen
 }
 
-/// A free beam that turns as a whole has the energy and the angular momentum of a body with its line's mass and the rotary inertia of its
+/// A free beam that rotates as a whole has the energy and the angular momentum of a body with its line's mass and the rotary inertia of its
 /// sections.
 fn turning() -> Specimen {
     let mut made = body("beam", 0.0);

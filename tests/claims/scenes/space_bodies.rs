@@ -264,7 +264,7 @@ fn lumped() -> Specimen {
     )
 }
 
-/// A free body with an axis of symmetry: it turns about its angular momentum `L` at the rate `L / a`, and about its own
+/// A free body with an axis of symmetry: it rotates about its angular momentum `L` at the rate `L / a`, and about its own
 /// axis at `w3 (a - c) / a` beside, with the moments `a, a, c` (Poinsot).
 fn precession() -> Specimen {
     let (a, c, t) = (0.6, 1.0, 0.7);
@@ -278,7 +278,7 @@ fn precession() -> Specimen {
                     {"kind": "momentum"}, {"kind": "energy"}]});
     let beside = about(2, own[2] * (a - c) / a * t);
     let axes = rotation(momentum * (t / a)) * body.axes * beside;
-    // The part of the spin across the axis of symmetry turns against the body.
+    // The part of the spin across the axis of symmetry rotates against the body.
     let spin = axes * beside.transpose() * own;
     let energy = 0.5 * momentum.dot(&body.spin);
     let mut specimen = vector(
@@ -333,7 +333,7 @@ fn moved_by(pushed: Vector3<f64>, is_force: bool, body: &Body) -> [Vector3<f64>;
 }
 
 /// A moment in global axes, one in those of the body, and a force in those of the body at a point of it, on bodies that
-/// turn.
+/// rotate.
 fn acted(name: &'static str, by: Acted) -> Specimen {
     let acting = [
         ("moment", false, "moment", Vector3::new(0.7, -1.1, 0.4)),

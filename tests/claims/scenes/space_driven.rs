@@ -13,7 +13,7 @@ pub fn all() -> Vec<Specimen> {
 }
 
 const GRAVITY: Vector3<f64> = Vector3::new(0.2, 0.5, -9.0);
-/// What is given: a point, its velocity and acceleration, how the body stands, how it turns and turns faster.
+/// What is given: a point, its velocity and acceleration, how the body stands, how it rotates and rotates faster.
 const POINT: Vector3<f64> = Vector3::new(0.9, -0.2, 0.4);
 const SPEED: Vector3<f64> = Vector3::new(-0.4, 0.8, 0.3);
 const PUSH: Vector3<f64> = Vector3::new(1.5, -0.7, 2.1);
@@ -21,7 +21,7 @@ const STAND: Vector3<f64> = Vector3::new(-1.2, 0.7, 0.9);
 const SPIN: Vector3<f64> = Vector3::new(0.3, 0.6, -0.5);
 const TURNING: Vector3<f64> = Vector3::new(-0.8, 1.3, 0.4);
 
-/// A body that stands and turns as is given.
+/// A body that stands and rotates as is given.
 fn given(name: &'static str) -> Body {
     let mut body = moving(name);
     body.axes = rotation(STAND);
@@ -29,12 +29,12 @@ fn given(name: &'static str) -> Body {
     body
 }
 
-/// Moment about the centre that the body takes to turn so, N m.
+/// Moment about the centre that the body takes to rotate so, N m.
 fn needed(body: &Body, turning: Vector3<f64>) -> Vector3<f64> {
     body.tensor() * turning + body.gyroscopic()
 }
 
-/// Sets how a body is to stand, by a quaternion of some length and the other sign, and how it is to turn.
+/// Sets how a body is to stand, by a quaternion of some length and the other sign, and how it is to rotate.
 fn stand(specimen: Specimen, of: &str, derivatives: usize) -> Specimen {
     let mut specimen = set(
         specimen,
@@ -124,7 +124,7 @@ fn by_master() -> Specimen {
     claims(specimen, &[("turn2.reaction_moment", "N.m", moment)])
 }
 
-/// A quaternion of functions of time: a steady turn about an axis of space, of growing length.
+/// A quaternion of functions of time: a steady rotation about an axis of space, of growing length.
 fn by_time() -> Specimen {
     const RATE: f64 = 1.6;
     let way = Vector3::new(0.6, 0.0, 0.8);
@@ -155,7 +155,7 @@ fn by_time() -> Specimen {
     specimen
 }
 
-/// A quaternion `(1, p, 0, 0)` whose second part is a table: a turn about the first axis of space by `2 atan(p)`.
+/// A quaternion `(1, p, 0, 0)` whose second part is a table: a rotation about the first axis of space by `2 atan(p)`.
 fn by_table() -> Specimen {
     let rows = [[0.0, 0.2], [1.0, 0.5], [2.0, 1.2]];
     let table = json!({"table": rows, "interpolation": "linear"});

@@ -40,7 +40,7 @@ fn about_marker(body: &Body) -> Matrix3<f64> {
     body.tensor() + square * body.mass
 }
 
-/// The axis that bodies turn about, not a unit vector, and the unit vector.
+/// The axis that bodies rotate about, not a unit vector, and the unit vector.
 pub const AXIS: [f64; 3] = [0.8, -0.4, 1.6];
 
 pub fn axis() -> Vector3<f64> {
@@ -61,7 +61,7 @@ fn joined<const N: usize>(parts: [Vec<Value>; N]) -> Vec<Value> {
 const TURNS: [&str; 3] = ["angle", "angular_velocity", "angular_acceleration"];
 const RAD: [&str; 3] = ["rad", "rad/s", "rad/s2"];
 
-/// What a body that turns about a fixed axis through its marker `p` needs as force there and as moment about it:
+/// What a body that rotates about a fixed axis through its marker `p` needs as force there and as moment about it:
 /// `m (a - g)` and `J a + w x J w - r x m g`, with the inertia about the marker and `r` to the centre of mass.
 fn needed(body: &Body, turning: Vector3<f64>) -> [Vector3<f64>; 2] {
     let (r, about) = (-body.arm(), about_marker(body));
@@ -151,7 +151,7 @@ fn top() -> Specimen {
     specimen
 }
 
-/// Loads that push and turn a body.
+/// Loads that push and rotate a body.
 fn pushed(name: &str) -> Vec<Value> {
     let load = |(kind, value)| {
         json!({"name": format!("{kind}_on_{name}"), "kind": kind, "marker": format!("{name}.c"),
@@ -160,7 +160,7 @@ fn pushed(name: &str) -> Vec<Value> {
     [("force", FORCE), ("moment", MOMENT)].map(load).to_vec()
 }
 
-/// Bodies on a line and in a plane elsewhere, which may move along and turn about the direction or across it.
+/// Bodies on a line and in a plane elsewhere, which may move along and rotate about the direction or across it.
 fn held_on_a_line() -> Specimen {
     let n = axis();
     let off = Vector3::new(0.02, 0.05, -0.03);
@@ -359,7 +359,7 @@ fn held_about(
     specimen
 }
 
-/// A fork that turns in the ground about `a`, and a body that turns in it about its `b`: across both, `n = a x b`, the
+/// A fork that rotates in the ground about `a`, and a body that rotates in it about its `b`: across both, `n = a x b`, the
 /// joint holds a moment. From the second derivative of `a.b = 0`: `n . w' = (a.w) (b.w)`.
 fn cross() -> Specimen {
     let (a, b) = (Vector3::x(), Vector3::y());

@@ -52,7 +52,7 @@ pub fn moving(name: &'static str) -> Body {
     body
 }
 
-/// A force and a moment come in; how the marker moves and how the body stands and turns go out.
+/// A force and a moment come in; how the marker moves and how the body stands and rotates go out.
 fn by_force() -> Specimen {
     let (body, other) = (moving("a"), moving("b"));
     let (force, moment) = (Vector3::new(1.2, -2.0, 0.7), Vector3::new(-0.6, 0.9, 1.4));
@@ -95,20 +95,20 @@ fn by_force() -> Specimen {
     vector(specimen, "pull.acceleration", "m/s2", GRAVITY + force / 0.8)
 }
 
-/// What comes into a coupling: a point, its velocity, and how it is turned against the body, and turns.
+/// What comes into a coupling: a point, its velocity, and how it is rotated against the body, and rotates.
 const POINT: Vector3<f64> = Vector3::new(0.9, -0.2, 0.4);
 const SPEED: Vector3<f64> = Vector3::new(-0.4, 0.8, 0.3);
 const AWAY: Vector3<f64> = Vector3::new(-0.7, 0.5, 1.1);
 const SPIN: Vector3<f64> = Vector3::new(0.3, 0.6, -0.5);
 
-/// The quaternion of the turn `a` after the turn `b` (Rodrigues' formula for two turns).
+/// The quaternion of the rotation `a` after the rotation `b` (Rodrigues' formula for two turns).
 fn after(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     let [v, w] = [a, b].map(|of| Vector3::new(of[1], of[2], of[3]));
     let [x, y, z] = array(w * a[0] + v * b[0] + v.cross(&w));
     [a[0] * b[0] - v.dot(&w), x, y, z]
 }
 
-/// Sets a port to a point and, if it turns, to an orientation from which [`AWAY`] leads to the body.
+/// Sets a port to a point and, if it rotates, to an orientation from which [`AWAY`] leads to the body.
 fn towards(specimen: Specimen, port: &str, turns: bool) -> Specimen {
     let specimen = set(specimen, &format!("{port}.position"), POINT.as_slice());
     let specimen = set(specimen, &format!("{port}.velocity"), SPEED.as_slice());
@@ -212,7 +212,7 @@ fn coupled_without() -> Specimen {
     specimen
 }
 
-/// A body that turns about an axis of its inertia, beyond a full turn: its quaternion goes on, its rotation vector is the short
+/// A body that rotates about an axis of its inertia, beyond a full turn: its quaternion goes on, its rotation vector is the short
 /// way.
 fn turned_on() -> Specimen {
     let mut body = Body::new("a", [0.5, 0.8, 1.0]);
@@ -228,7 +228,7 @@ fn turned_on() -> Specimen {
                        "outputs": outputs, "accuracy": {"relative_tolerance": 1e-8}});
     let mut specimen = Specimen::new("turned_on", scene).fact("variables", 30);
     for time in [0.0, 0.9, 2.0] {
-        // Eight radians are more than a turn: the sign has changed.
+        // Eight radians are more than a revolution: the sign has changed.
         let (sin, cos) = (0.5 * RATE * time).sin_cos();
         let q = after(quaternion(TURN), [cos, 0.0, sin, 0.0]);
         specimen = specimen.at(time);

@@ -54,7 +54,7 @@ fn clamped(body: Value, rest: Value) -> Value {
     scene
 }
 
-/// Under a torque `M` inside it a section there, at `s`, turns by `M s / (G J)`, and the torque is `M` up to there.
+/// Under a torque `M` inside it a section there, at `s`, rotates by `M s / (G J)`, and the torque is `M` up to there.
 fn twisted() -> Specimen {
     let (from, to, torque) = (
         Vector3::new(0.2, -0.4, 0.1),
@@ -106,7 +106,7 @@ fn bending() -> Specimen {
         .claim_within("eigenvalue.decay_rate[2]", "1/s", decay(fast), 1e-6)
 }
 
-/// A free rod that moves, turns and deforms at the start: `v + w x r` and what deforms it.
+/// A free rod that moves, rotates and deforms at the start: `v + w x r` and what deforms it.
 fn moving() -> Specimen {
     let (from, to) = (Vector3::new(0.5, 0.1, -0.3), Vector3::new(1.1, 0.9, -0.2));
     let (velocity, spin) = (Vector3::new(0.4, -0.7, 1.1), Vector3::new(0.6, 0.5, -0.8));
@@ -125,7 +125,7 @@ fn moving() -> Specimen {
     for (marker, s) in [("root", 0.0), ("mid", 0.4), ("tip", 1.0)] {
         specimen = vector(specimen, &format!("rod.{marker}.velocity"), "m/s", place(s));
     }
-    // Sections turn with their line, those of beams as well.
+    // Sections rotate with their line, those of beams as well.
     let turn = |s: f64| {
         let slope_rate = Vector3::new(0.2, 2.0 * s, 0.3 * s.cos()) / (to - from).norm();
         spin + (to - from).normalize().cross(&slope_rate)

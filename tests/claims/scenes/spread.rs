@@ -32,7 +32,7 @@ fn rigid(way: [f64; 2]) -> Value {
            "shape": {"line": {"from": [0.0, 0.0], "to": way}}, "markers": {"a": 0.0, "p": 0.3}})
 }
 
-/// A force along a free rigid body moves its centre by its integral and turns it by its first moment.
+/// A force along a free rigid body moves its centre by its integral and rotates it by its first moment.
 fn pushed() -> Specimen {
     let (way, mass, time) = ([0.6, 0.8], 2.5, 0.4_f64);
     let scene = json!({"name": "pushed", "dimension": 2, "bodies": [rigid(way)],
@@ -122,7 +122,7 @@ fn clamped(element: &str, rest: Value) -> Value {
     scene
 }
 
-/// Under a torque `m (1 + 2 s^2)` per length a shaft carries `m L ((1 - s) + 2 (1 - s^3) / 3)` and its end turns by `m L^2 / (G J)`.
+/// Under a torque `m (1 + 2 s^2)` per length a shaft carries `m L ((1 - s) + 2 (1 - s^3) / 3)` and its end rotates by `m L^2 / (G J)`.
 fn twisted(element: &str) -> Specimen {
     let torque = 0.012;
     let scene = clamped(
@@ -142,7 +142,7 @@ fn twisted(element: &str) -> Specimen {
 }
 
 /// Under a moment `m (1 + s)` about `z` and no force a cantilever carries `m L ((1 - s) + (1 - s^2) / 2)`, however far it bends, and its
-/// end turns by `5 m L^2 / (6 E I)`: whether the moment stays about `z` or turns along.
+/// end rotates by `5 m L^2 / (6 E I)`: whether the moment stays about `z` or rotates along.
 fn turned(element: &str, follower: bool) -> Specimen {
     let moment = 0.03;
     let mut load = json!({"name": "drag", "kind": "distributed_moment", "body": "rod", "follower": false,
@@ -172,7 +172,7 @@ fn turned(element: &str, follower: bool) -> Specimen {
         .claim_within("rod.tip.direction[2]", "", angle.sin(), 1e-5)
 }
 
-/// Moments that the master sets: the wall carries `L` times their sum, of those that turn along where the rod is nearly straight.
+/// Moments that the master sets: the wall carries `L` times their sum, of those that rotate along where the rod is nearly straight.
 fn set() -> Specimen {
     let (dead, follower) = (
         Vector3::new(3e-7, -2e-7, 5e-7),
@@ -242,7 +242,7 @@ fn started() -> Specimen {
         .claim("other.root.torque", "N.m", 0.0)
 }
 
-/// Moments that hold only before the start: number, table and expression in `s` add up, and the end turns by the integral of `m(s) s` times
+/// Moments that hold only before the start: number, table and expression in `s` add up, and the end rotates by the integral of `m(s) s` times
 /// `L^2 / (G J)`.
 fn let_go() -> Specimen {
     let load = |name: &str, value: Value| {
@@ -258,7 +258,7 @@ fn let_go() -> Specimen {
     // Twist at the end: the integral of m(s) s.
     let density = 0.5 * (0.002 + 0.0015) + 0.006 / 3.0;
     let angle = density * LENGTH * LENGTH / (SHEAR * TORSION);
-    // The first axis is `z`, and turns about `y` towards `x`.
+    // The first axis is `z`, and rotates about `y` towards `x`.
     Specimen::new("let go along", scene)
         .from(0.5)
         .claim_within("rod.tip.orientation[2]", "", angle.sin(), 1e-8)

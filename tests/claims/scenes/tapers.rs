@@ -112,7 +112,7 @@ fn through([a, b, c]: [f64; 3]) -> impl Fn(f64) -> f64 {
     }
 }
 
-/// What hangs is as heavy as its area says, longer by its weight, and a rod turns by its torsion constant.
+/// What hangs is as heavy as its area says, longer by its weight, and a rod rotates by its torsion constant.
 fn claimed(
     specimen: Specimen,
     (name, is_rod, place): (&str, bool, f64),
@@ -314,7 +314,7 @@ fn bent(is_rod: bool) -> Specimen {
         {"name": "a", "kind": "moment", "marker": "one.tip", "value": [0.0, moment, 0.0]},
         {"name": "b", "kind": "moment", "marker": "two.tip", "value": [moment, 0.0, 0.0]}]);
     let (about_first, about_second) = (angle(first), angle(second));
-    // The tangent, the first column: -z turned about y and about x.
+    // The tangent, the first column: -z rotated about y and about x.
     let tangents = [
         ("one", [-about_first.sin(), 0.0, -about_first.cos()]),
         ("two", [0.0, about_second.sin(), -about_second.cos()]),
@@ -374,7 +374,7 @@ fn helix(is_rod: bool) -> Specimen {
     };
     let mut specimen = Specimen::new(title, scene);
     for (at, s) in places {
-        // Along x, from +z: x cross z is -y, and the turns are negative.
+        // Along x, from +z: x cross z is -y, and the rotations are negative.
         let (sin, cos) = (2.0 * PI * turns * s).sin_cos();
         let place = Vector3::new(0.2 + rise * s, -0.1 - radius * sin, 0.4 + radius * cos);
         specimen = vector(specimen, &format!("coil.{at}.position"), "m", place);

@@ -111,7 +111,7 @@ fn rigid_motion_makes_no_force<const F: usize>(rod: &Rod<F>) {
     assert!((rod.energy(&moved) / rod.energy(&c) - 1.0).abs() < 1e-9);
 }
 
-/// Kinetic energy of a straight rod that moves and turns, whatever the extra mass.
+/// Kinetic energy of a straight rod that moves and rotates, whatever the extra mass.
 fn inertia_of_rigid_motion_is_exact<const F: usize>(rod: &Rod<F>) {
     let mass = rod.mass();
     let v = rod.fit(|s| [0.3, 2.0 + 5.0 * s]);

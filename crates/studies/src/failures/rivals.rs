@@ -1,4 +1,4 @@
-//! The formulations that the report argues against, where they fail: cantilever, spin-up, a turn without strain. What
+//! The formulations that the report argues against, where they fail: cantilever, spin-up, a rotation without strain. What
 //! each does where it works is measured by `studies rivals`.
 
 use serde_json::json;

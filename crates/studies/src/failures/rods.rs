@@ -86,7 +86,7 @@ fn of_order([coarse, fine]: [f64; 2], found: f64) -> [Figure; 2] {
     [figure(fine, failing), figure(found, product)]
 }
 
-/// Frames that are carried along a line in space turn about it themselves.
+/// Frames that are transported along a line in space rotate about it themselves.
 pub fn own_twist() -> Outcome<Row> {
     let off = [rolled(8, NO_OWN_TWIST)?, rolled(16, NO_OWN_TWIST)?];
     let [failing, product] = of_order(off, product(HELIX, 16, ROLLED)?);
@@ -160,7 +160,7 @@ fn thrown(gyroscopic: bool) -> Thrown {
 /// How long it flies, s, and in how many steps.
 const FLIGHT: (f64, u32) = (0.25, 1000);
 
-/// Spin about an axis that turns.
+/// Spin about an axis that rotates.
 pub fn spin() -> Outcome<Row> {
     let lost = thrown(false).run(FLIGHT.0, FLIGHT.1);
     let mut scene = json(FREE)?;

@@ -104,7 +104,7 @@ pub fn beyond_stability() -> Outcome<Row> {
     })
 }
 
-/// A thrown steel rod that turns 20 rad/s.
+/// A thrown steel rod that rotates 20 rad/s.
 fn thrown() -> Outcome<Value> {
     let mut scene = json(THROWN)?;
     scene["bodies"][0]["motion"]["spin"] = json!(20.0);

@@ -65,7 +65,7 @@ pub struct Alpha {
 }
 
 impl Alpha {
-    /// For `n` coordinates; `turned`: the tangent turns along with directions.
+    /// For `n` coordinates; `turned`: the tangent rotates along with directions.
     pub fn new(weights: Weights, n: usize, fixed: bool, turned: bool) -> Self {
         let zero = vec![0.0; n];
         Self {

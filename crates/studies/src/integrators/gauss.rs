@@ -1,5 +1,5 @@
 //! Gauss with three stages: implicit, symplectic, order 6. Stages are solved for as the product's Radau
-//! solves for its own: one real and one complex system over positions, the tangent turning along.
+//! solves for its own: one real and one complex system over positions, the tangent rotating along.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Table IV.5.2 (method),
 //! section IV.8 (transformation, stopping).

@@ -10,7 +10,7 @@
 //! | `gauss6` | Gauss, three stages |
 //! | `radau` | the product's, here also at a fixed step |
 //! | `alpha_1.0`, `alpha_0.8`, `alpha_0.6` | generalized-alpha by its spectral radius |
-//! | `alpha_..._turned` | the same, the tangent turning along with directions |
+//! | `alpha_..._turned` | the same, the tangent rotating along with directions |
 //! | `trapezoid`, `midpoint` | trapezoidal rule, implicit midpoint rule |
 //! | `energy_momentum` | conserves energy and momenta |
 

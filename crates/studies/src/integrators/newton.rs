@@ -29,7 +29,7 @@ pub struct Newton {
     /// Weights of inertia and damping for which the factors were made, if there are any.
     factored: Option<[f64; 2]>,
     tangent: bool,
-    /// Whether solves turn the tangent along with directions, as those of the product's Radau do.
+    /// Whether solves rotate the tangent along with directions, as those of the product's Radau do.
     turned: bool,
     /// Rate of convergence seen last with the tangent that is kept.
     rate: f64,
@@ -38,7 +38,7 @@ pub struct Newton {
 }
 
 impl Newton {
-    /// For `n` coordinates, with a tangent that stays as it is or turns along.
+    /// For `n` coordinates, with a tangent that stays as it is or rotates along.
     pub fn new(n: usize, turned: bool) -> Self {
         Self {
             turned,

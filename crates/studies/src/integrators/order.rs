@@ -20,7 +20,7 @@ const PENDULUM: &str = r#"{
   "outputs": [{"kind": "position", "marker": "rod.tip"}]
 }"#;
 
-/// A curved rod that flies, turns and stretches.
+/// A curved rod that flies, rotates and stretches.
 const FREE: &str = r#"{
   "name": "rod", "dimension": 2, "gravity": [0.0, 0.0],
   "bodies": [{"name": "rod", "element": "cable", "elements": 3, "strain": "STRAIN",

@@ -13,7 +13,7 @@ use crate::elements::rule::Rule;
 /// How the ends of a rod are held in its floating frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Held {
-    /// The start stands at the origin, the frame turns as the motion without strain does
+    /// The start stands at the origin, the frame rotates as the motion without strain does
     Start,
     /// Both ends stay on the axis and may part: interfaces as Craig and Bampton have them
     BothEnds,

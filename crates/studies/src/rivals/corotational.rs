@@ -1,4 +1,4 @@
-//! Corotational beam: every element has a frame that turns with its chord, in which a small-displacement beam of Euler
+//! Corotational beam: every element has a frame that rotates with its chord, in which a small-displacement beam of Euler
 //! and Bernoulli is bent. What a step adds to the angles of nodes are increments; in the plane they add up exactly, so
 //! nothing is linearized along the way (what happens where it is: `increments.rs`).
 //!
@@ -245,7 +245,7 @@ impl Body for Corotational {
         }
     }
 
-    /// Of inertia only `M`: what turns with the frame is the small deflection. Without its derivatives Newton's method takes
+    /// Of inertia only `M`: what rotates with the frame is the small deflection. Without its derivatives Newton's method takes
     /// 2.5 iterations a step where exact tangents take 2 (held by a test), and converges to the same.
     fn tangent(&self, motion: Motion<'_>, _: Vector, weights: [f64; 3], out: &mut Block<'_>) {
         for first in (0..self.elements).map(|e| 3 * e) {

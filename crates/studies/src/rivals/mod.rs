@@ -185,7 +185,7 @@ fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// A quarter of a turn.
+/// A quarter of a revolution.
 #[inline(always)]
 fn quarter(a: Vector) -> Vector {
     [-a[1], a[0]]
@@ -197,7 +197,7 @@ fn plus(a: Vector, s: f64, b: Vector) -> Vector {
     [a[0] + s * b[0], a[1] + s * b[1]]
 }
 
-/// In axes that are turned by an angle: cosine and sine.
+/// In axes that are rotated by an angle: cosine and sine.
 #[inline(always)]
 fn turned([c, s]: Vector, a: Vector) -> Vector {
     [c * a[0] - s * a[1], s * a[0] + c * a[1]]

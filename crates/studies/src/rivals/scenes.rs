@@ -111,7 +111,7 @@ pub enum Played {
     SteelPendulum,
     /// A soft one
     SoftPendulum,
-    /// A beam is turned faster and faster
+    /// A beam is rotated faster and faster
     SpinUp,
     /// A driven crank with a flexible rod
     SliderCrank,

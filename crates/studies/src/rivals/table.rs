@@ -339,7 +339,7 @@ pub fn strain_turned(body: &dyn Body, played: Played) -> f64 {
     (1..=8).map(strain).fold(0.0, f64::max)
 }
 
-/// Rows on an undeformed beam that is turned: whether it feels that.
+/// Rows on an undeformed beam that is rotated: whether it feels that.
 fn rigid_rotation() -> Outcome<()> {
     let played = Played::SteelPendulum;
     let rod = played.rod();

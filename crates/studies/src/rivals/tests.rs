@@ -42,7 +42,7 @@ fn number(i: usize, seed: f64) -> f64 {
     (12.9898 * (i as f64 + seed)).sin()
 }
 
-/// A state that is bent, stretched, turned and moves.
+/// A state that is bent, stretched, rotated and moves.
 fn moved(body: &dyn Body) -> [Vec<f64>; 3] {
     let placement = Placement {
         start: [0.4, -0.3],

@@ -33,7 +33,7 @@ pub struct Section {
 /// Which terms stay.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept {
-    /// The twist of the carried frame itself, `-(z . kappa) / (1 + z . t)`.
+    /// The twist of the transported frame itself, `-(z . kappa) / (1 + z . t)`.
     pub own_twist: bool,
     /// The internal twist of the elements.
     pub internal_twist: bool,
@@ -54,7 +54,7 @@ pub struct Node {
 }
 
 impl Node {
-    /// Moved by position, slope and rotation about the tangent; before this rotation the section turns with the tangent by the
+    /// Moved by position, slope and rotation about the tangent; before this rotation the section rotates with the tangent by the
     /// smallest one.
     pub fn moved(&self, step: &[Number]) -> [Vector; 3] {
         let r = lift(self.r) + vector(step, 0);
@@ -215,7 +215,7 @@ impl Line for Rod {
         gradient(step, |step| self.energy_of(element, step)).to_vec()
     }
 
-    /// A moment turns slopes, and sections about the tangent: of their spin the chart's rotation is short of what the tangent's turn
+    /// A moment rotates slopes, and sections about the tangent: of their spin the chart's rotation is short of what the tangent's rotate
     /// takes.
     fn load(&self, part: f64, step: &[f64]) -> Vec<f64> {
         let node = self.tip();
@@ -243,7 +243,7 @@ impl Line for Rod {
     }
 }
 
-/// Torque of an element of unit length and torsional stiffness whose ends are turned by an angle (rad) against each other, N m.
+/// Torque of an element of unit length and torsional stiffness whose ends are rotated by an angle (rad) against each other, N m.
 pub fn torque_at(angle: f64) -> f64 {
     let section = Section {
         axial: 1.0,

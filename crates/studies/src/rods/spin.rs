@@ -1,5 +1,5 @@
 //! A free rod that is thrown with bending and fast spin, by the classical Runge-Kutta method, with and without the force that a
-//! spin about an axis that turns makes on it.
+//! spin about an axis that rotates makes on it.
 //!
 //! Source: a spin about the tangent is no rate of a coordinate; Lagrange's equations in it (Boltzmann and Hamel) have the force
 //! `p (t x t') / |u|` on the slope, `p` the momentum of the spin. It does no work.
@@ -232,7 +232,7 @@ impl Motion {
     }
 }
 
-/// Rates of the unit vectors of sections: they turn with the tangent and about it.
+/// Rates of the unit vectors of sections: they rotate with the tangent and about it.
 fn turns(at: &Moving) -> Vec<Real3> {
     let turn = |(k, node): (usize, &Node)| {
         let (square, rate) = (node.u.norm_squared(), of(&at.rates, k, 3));

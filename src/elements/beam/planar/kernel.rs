@@ -88,7 +88,7 @@ fn flat<N: Real>(v: &[N; 3]) -> Two<N> {
     [v[0], v[1]]
 }
 
-/// Turned left by a right angle.
+/// Rotated left by a right angle.
 #[inline(always)]
 pub(super) fn left<N: Real>(v: &Two<N>) -> Two<N> {
     [-v[1], v[0]]

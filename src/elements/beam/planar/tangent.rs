@@ -1,7 +1,7 @@
 //! The tangent of a planar beam.
 //!
 //! Source: derivatives of the equations of `planar/mod.rs`. Over the vectors of the line and the angles of the three sections, second
-//! derivatives of stretch, angle and curvature are, with `p` the tangent turned left,
+//! derivatives of stretch, angle and curvature are, with `p` the tangent rotated left,
 //!
 //! ```text
 //! n'' = p p^T / n,   psi'' = -(t p^T + p t^T) / n^2,   c'' = (1 + c^2/4) (c/2 (theta')^2 - psi'')

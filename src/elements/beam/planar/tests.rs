@@ -227,7 +227,7 @@ fn a_straight_beam_stretches_shears_and_bends_alone() {
         damping_times: [0.0; 3],
     };
     let beam = Planar::new(parameters, &at(&straight));
-    // All sections turned by the same angle against a line that is as long as it was.
+    // All sections rotated by the same angle against a line that is as long as it was.
     let mut sheared = straight;
     (sheared[4], sheared[9], sheared[10]) = (0.1, 0.1, 0.1);
     let (sin, cos) = 0.1_f64.sin_cos();
@@ -238,7 +238,7 @@ fn a_straight_beam_stretches_shears_and_bends_alone() {
     let mut stretched = straight;
     (stretched[2], stretched[5], stretched[7]) = (1.2, 1.2 * LENGTH, 1.2);
     assert!((beam.energy(&at(&stretched)) - 0.5 * LENGTH * 5.0 * 0.04).abs() < 1e-15);
-    // Sections that turn along it bend it without its line: to the rational shear rotation's order.
+    // Sections that rotate along it bend it without its line: to the rational shear rotation's order.
     let mut turned = straight;
     (turned[4], turned[9]) = (-1e-4, 1e-4);
     let bending = 2e-4 / LENGTH;

@@ -1,10 +1,10 @@
 //! Strains of a rod wound to a helix.
 //!
-//! Source: the closed form of a helix with a frame that turns evenly.
+//! Source: the closed form of a helix with a frame that rotates evenly.
 
 use super::*;
 
-/// A helix of curvature 2 and torsion 1 whose sections turn about the tangent by 0.8 1/m more, at two points.
+/// A helix of curvature 2 and torsion 1 whose sections rotate about the tangent by 0.8 1/m more, at two points.
 fn helix(from: f64, length: f64) -> At<f64> {
     let (curvature, torsion, more) = (2.0, 1.0, 0.8);
     let rate = f64::hypot(curvature, torsion);

@@ -68,7 +68,7 @@ fn ratio(z: f64) -> [f64; 4] {
     ]
 }
 
-/// How the second end has turned against the first.
+/// How the second end has rotated against the first.
 struct Turned<N: Number> {
     /// `a`.
     skew: Vector3<N>,

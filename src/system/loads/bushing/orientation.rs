@@ -1,5 +1,5 @@
 //! The rotation from an orientation that moves to that of a body, in space: the rotation vector from one to the other, whose moment is
-//! along the axis about which they are turned. It knows the angle up to half a turn, where the moment jumps to its opposite. About all
+//! along the axis about which they are rotated. It knows the angle up to half a turn, where the moment jumps to its opposite. About all
 //! axes the stiffness is the same, so that the spring stores `k t^2 / 2`, where `t` is the angle.
 //!
 //! Source: M. D. Shuster, A survey of attitude representations, J. Astronautical Sciences 41 (1993) 439-517 (the angular velocity

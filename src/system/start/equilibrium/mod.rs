@@ -30,13 +30,13 @@ use newton::{AcceptanceTest, EDGE, Newton, stiffest};
 const SMALLEST: f64 = 1.0 / 256.0;
 /// Most steps, those that fail included.
 const STEPS: usize = 2000;
-/// Largest turn of a slope in one step, where smaller ones are left to try, rad.
+/// Largest rotation of a slope in one step, where smaller ones are left to try, rad.
 const BRANCH: f64 = 1.5;
 /// Rotation of a slope that the next step aims at, rad.
 const AIM: f64 = 1.2;
-/// Turn under all of the load, were the response linear, from which on the first step is shorter, rad.
+/// Rotation under all of the load, were the response linear, from which on the first step is shorter, rad.
 const FAR: f64 = 6.0;
-/// Largest step that closes joints with such a turn.
+/// Largest step that closes joints with such a rotation.
 const FOLDING: f64 = 2.0 * SMALLEST;
 /// Most steps with larger rotations where smaller steps do not help. A hanging body then falls into place, or an arch
 /// snaps through. More of them lead to equilibria with additional full rotations.
@@ -121,7 +121,7 @@ pub struct FoundEquilibrium {
     pub is_stable: bool,
 }
 
-/// A steady turn of all bodies about one point.
+/// A steady rotation of all bodies about one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SteadyRotation<const D: usize = 2> {
     /// Angular velocity, rad/s; in the plane the third component alone.
@@ -168,7 +168,7 @@ pub fn find<const D: usize>(
     let found = path.follow(first, way, work, state);
     let found = found.map(|found| path.unfold(&held, found, &before, work, state));
     match turning {
-        // A turn that nothing drives is neutral, and the tangent singular.
+        // A rotation that nothing drives is neutral, and the tangent singular.
         Some(SteadyRotation { rate, .. }) if found.is_err() => {
             state.copy_from(&before);
             let kept = norm(&rate);
@@ -286,7 +286,7 @@ impl Path<'_> {
             let next = way(target, work);
             let tries = Tries::of(step, reached);
             let mut outcome = self.attempt((&before, &next), tries, work, (&from, state));
-            // Far from the last equilibrium there may be another one, with a turn more.
+            // Far from the last equilibrium there may be another one, with a revolution more.
             let mut model = DrivenSystem::new(&next, self.inputs, work, &from);
             let turn = model.rotation_between([&from, state]);
             let leaps_on = turn > BRANCH;
@@ -303,7 +303,7 @@ impl Path<'_> {
                 Ok(now) => {
                     leaps += usize::from(leaps_on);
                     (reached, found) = (target, now);
-                    // As far as the next one turns no slope too far either.
+                    // As far as the next one rotates no slope too far either.
                     step *= (AIM / turn).clamp(0.5, 2.0);
                     from.copy_from(state);
                     before = next;
@@ -404,7 +404,7 @@ impl Path<'_> {
     }
 }
 
-/// First step of the way to all of the load: a part of it where moments that have no potential would turn rods and beams far.
+/// First step of the way to all of the load: a part of it where moments that have no potential would rotate rods and beams far.
 /// Newton's method fails there, and takes long to do so.
 fn first_step<const D: usize>(
     system: &System<D>,

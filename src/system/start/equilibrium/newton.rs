@@ -19,9 +19,9 @@ const HASTY_TRANSIENT: usize = 60;
 pub(super) const SHIFTS: usize = 60;
 /// Unstable equilibria that are left before the last one is answered.
 pub(super) const ESCAPES: usize = 8;
-/// Largest turn of a slope in one iteration, rad.
+/// Largest rotation of a slope in one iteration, rad.
 pub(super) const LARGEST_ROTATION: f64 = 0.5;
-/// Turn, or way relative to the size, with which an unstable equilibrium is left.
+/// Rotation, or displacement relative to the size, with which an unstable equilibrium is left.
 const AWAY: f64 = 0.05;
 /// Way along the lowest mode, relative to the size, that forces have to ask for to show a side.
 const EVEN: f64 = 1e-6;
@@ -43,7 +43,7 @@ pub(super) const NOISE: f64 = 1e-10;
 /// Acceptance test of the steps of a Newton iteration.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum AcceptanceTest {
-    /// No slope turns too far: fast, and right for most loads.
+    /// No slope rotates too far: fast, and right for most loads.
     Turns,
     /// The potential decreases as well: slow in the narrow valleys of stiff bodies, but it gets there
     /// from configurations without stiffness, such as a slack cable.
@@ -114,7 +114,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             if let Err(correction) = self.relax(state, guard) {
                 return Err(failure(self, correction));
             }
-            // What turns freely is held by its turn as well, which the potential does not see.
+            // What rotates freely is held by its rotation as well, which the potential does not see.
             is_stable = !self.is_conservative || self.kept > 0.0 || !self.leave(state);
             if is_stable {
                 break;
@@ -249,7 +249,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         false
     }
 
-    /// Puts as much of the correction as turns no slope too far into `trial`; whether that is a better place.
+    /// Puts as much of the correction as rotates no slope too far into `trial`; whether that is a better place.
     fn is_better(&mut self, state: &State, guard: AcceptanceTest) -> bool {
         let q = &state.coordinates;
         let fraction = self.step_fraction(q);
@@ -284,7 +284,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         holds
     }
 
-    /// Fraction of the step that turns no slope too far; leaves `q` plus that part in `trial`.
+    /// Fraction of the step that rotates no slope too far; leaves `q` plus that part in `trial`.
     fn step_fraction(&mut self, q: &[f64]) -> f64 {
         let mut fraction = 1.0;
         // Halved at most to where it moves nothing.
@@ -382,7 +382,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         way.unwrap_or(1.0).signum()
     }
 
-    /// Moves along the lowest mode as far as turns a slope, or takes the system, [`AWAY`].
+    /// Moves along the lowest mode as far as rotates a slope, or takes the system, [`AWAY`].
     fn displace(&mut self, state: &mut State) -> bool {
         let (q, size) = (state.coordinates.clone(), self.model.system.scale());
         self.trial.clone_from(&q);

@@ -1,4 +1,4 @@
-//! Solves with the whole tangent where loads make it unsymmetric: a follower force turns with one node or two,
+//! Solves with the whole tangent where loads make it unsymmetric: a follower force rotates with one node or two,
 //! so that its tangent differs from a symmetric one by a few columns, and GMRES with the symmetric factors
 //! needs a step or two for each of them.
 //!
@@ -52,7 +52,7 @@ pub(super) fn solve<const D: usize>(
         return scale == 0.0;
     }
     let mut basis = vec![right.iter().map(|r| r / scale).collect::<Vec<f64>>()];
-    // Columns of the Hessenberg matrix, turned to triangular by rotations, and the right-hand side.
+    // Columns of the Hessenberg matrix, rotated to triangular by rotations, and the right-hand side.
     let (mut columns, mut rotations) = (Vec::new(), Vec::<[f64; 2]>::new());
     let mut target = vec![scale];
     for k in 0..STEPS.min(x.len()) {
