@@ -49,6 +49,8 @@ pub(super) struct Engine<const D: usize> {
     /// Warnings about the initial state.
     remarks: InitialWarnings,
     pub(super) bodies: Vec<String>,
+    /// Names of the loads of the scene, to say which of them ended a step.
+    loads: Vec<String>,
     pub(super) assembled: Assembled<D>,
     pub(super) work: Workspace<D>,
     pub(super) methods: Methods,
@@ -133,6 +135,7 @@ impl<const D: usize> Engine<D> {
             holders: resolved.holders.iter().map(kind_and_name).collect(),
             remarks: InitialWarnings::default(),
             bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
+            loads: names(&mut resolved.loads.iter().map(|load| load.name)),
             evaluated: Evaluated::Nothing,
             watch,
             mesh: MeshWatch::default(),
@@ -334,6 +337,23 @@ impl<const D: usize> Engine<D> {
     /// Whether a state has the sizes of this system.
     pub(super) fn fits(&self, state: &State) -> bool {
         self.assembled.system.fits(state)
+    }
+
+    /// Describes a law of force that has no finite value near a state: within a time, s, at its rates.
+    pub(super) fn law_without_value(&mut self, state: &State, within: f64) -> Option<String> {
+        let system = &self.assembled.system;
+        self.evaluation.kinematics(system, state, &mut self.work);
+        let found = self.evaluation.without_value(system, within);
+        self.forget();
+        let (load, [value, rate]) = found?;
+        let name = self
+            .assembled
+            .load_number(load)
+            .and_then(|k| self.loads.get(k))?;
+        Some(format!(
+            "expected the force of `{name}` to be a number, found none near x = {value:e}, v = {rate:e}: bound what its expression \
+             divides by, or takes the root or logarithm of"
+        ))
     }
 
     /// The state has changed.

@@ -84,6 +84,9 @@ impl<const D: usize> Engine<D> {
             if let Err(error) = finite_near(&self.timed, state.time) {
                 return error.to_string();
             }
+            if let Some(law) = self.law_without_value(state, until - start) {
+                return format!("{method}: {law}");
+            }
             if let Some(names) = self.newly_redundant(state) {
                 return format!(
                     "{method}: expected joints and motions that leave one way to go on, found a dead point, \

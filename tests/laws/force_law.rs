@@ -223,3 +223,22 @@ fn weights_hang_where_laws_bear_them() {
     let table = json!({"name": "law", "kind": "table_spring", "joint": "joint", "spring": [[0, 0], [1, 50]]});
     is_near(down(table), 19.62 / 50.0, 1e-10);
 }
+
+/// A body that leaves the place where the root of its law is a number: the load and the place are named.
+#[test]
+fn a_law_without_a_value_is_named() {
+    for setting in settings() {
+        let scene = scene(setting, guide(setting.0), ([-1.0, 0.0], "0.1*sqrt(x+0.5)"));
+        let mut run = Run::started(&scene);
+        let failure = run.0.step(2.0).expect_err("no root of a negative number");
+        assert!(
+            failure.reason.contains("the force of `law`"),
+            "{}",
+            failure.reason
+        );
+        let (_, place) = failure.reason.split_once("x = ").expect("a place");
+        let (place, _) = place.split_once(',').expect("a rate too");
+        let place: f64 = place.parse().expect("a number");
+        assert!((-0.52..=-0.5).contains(&place), "{place}");
+    }
+}

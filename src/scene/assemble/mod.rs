@@ -165,6 +165,11 @@ impl<const D: usize> Assembled<D> {
         self.first_load + id.index()
     }
 
+    /// Number in the scene of a load of the system; none of springs of hinges.
+    pub fn load_number(&self, load: usize) -> Option<usize> {
+        load.checked_sub(self.first_load)
+    }
+
     /// Place among the loads of the system of a coupling.
     pub fn coupling(&self, id: CouplingId) -> usize {
         self.couplings[id.index()]

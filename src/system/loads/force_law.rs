@@ -10,6 +10,9 @@ use crate::system::coordinate::Coordinate;
 use crate::system::end::Attachment;
 use crate::system::signal::Signal;
 
+/// Times at which a law is looked at around an instant: halves of halves of an interval.
+const HALVINGS: i32 = 40;
+
 /// A force against the growth of a length or of a coordinate of a joint.
 #[derive(Clone, Debug)]
 pub struct ForceLaw<const D: usize = 2> {
@@ -41,13 +44,32 @@ impl<const D: usize> ForceLaw<D> {
     }
 
     /// Length or coordinate, and its rate. The rotations of an angle that the law does not depend on are not counted.
-    pub fn read<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+    fn read<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let rate = self.on.rate(at.x, at.v);
         if self.law.depends()[0] {
             [self.on.value(at.x, at.angles.1), rate]
         } else {
             [N::of(0.0), rate]
         }
+    }
+
+    /// Length or coordinate, m or rad, and its rate, whatever the law depends on.
+    pub fn path<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        [self.on.value(at.x, at.angles.1), self.on.rate(at.x, at.v)]
+    }
+
+    /// The nearest length or coordinate, m or rad, with its rate, at which the law has no finite value: of those that are passed within a
+    /// time, s, before or after an instant at its rate.
+    pub fn without_value(&self, at: Instant<'_, D>, within: f64) -> Option<[f64; 2]> {
+        let [value, rate] = self.path(at);
+        let times = (0..HALVINGS).map(|k| within * 0.5_f64.powi(HALVINGS - k));
+        let times = times.flat_map(|time| [time, -time]);
+        let mut places = std::iter::once(0.0).chain(times);
+        let found = places.find(|time| {
+            let place = [value + rate * time, rate];
+            !self.force(at, place).is_finite()
+        })?;
+        Some([value + rate * found, rate])
     }
 
     /// Force against growth, N or N m.

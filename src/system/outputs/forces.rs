@@ -110,7 +110,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             AppliedLoad::Reeving(rope) => rope.path(at),
             AppliedLoad::Spring(spring) => spring.path(at),
             AppliedLoad::TableSpring(spring) => [spring.value(at), spring.rate(at)],
-            AppliedLoad::ForceLaw(law) => law.read(at),
+            AppliedLoad::ForceLaw(law) => law.path(at),
             _ => [N::of(0.0); 2],
         }
     }
@@ -164,5 +164,19 @@ impl<const D: usize> Evaluation<D> {
             AppliedLoad::Contact(contact) => contact.nearest(self.instant(system), s),
             _ => Vector::zeros(),
         }
+    }
+}
+
+impl<const D: usize> Evaluation<D> {
+    /// The first load whose law has no finite value where it comes within a time, s, before or after this instant: its index, and the
+    /// length or coordinate, m or rad, and rate there.
+    pub fn without_value(&self, system: &System<D>, within: f64) -> Option<(usize, [f64; 2])> {
+        let mut loads = system.loads.iter().enumerate();
+        loads.find_map(|(index, load)| match load {
+            AppliedLoad::ForceLaw(law) => {
+                Some((index, law.without_value(self.instant(system), within)?))
+            }
+            _ => None,
+        })
     }
 }

@@ -99,13 +99,19 @@ fn lengths() -> Specimen {
     let spring = json!({"kind": "spring_damper", "stiffness": 30.0, "damping": 0.5, "length": 0.4});
     let table = json!({"kind": "table_spring", "spring": [[0.3, -4.0], [0.7, 12.0]]});
     let law = json!({"kind": "force_law", "force": "20*x+3*v"});
-    let names = ["spring", "table", "law"];
+    let drag = json!({"kind": "force_law", "force": "3*v"});
+    let names = ["spring", "table", "law", "drag"];
     let read = |kind: &str| names.map(|name| json!({"kind": kind, "load": name}));
     let outputs = [read("length"), read("tension")].concat();
     let scene = json!({
         "name": "lengths", "dimension": 2, "bodies": [bead("bead", [0.6, 0.0], [2.0, 0.0]), extra()],
-        "loads": [line("spring", spring), line("table", table), line("law", law)], "outputs": outputs});
-    let tensions = [30.0 * 0.1 + 0.5 * 1.2, 4.0, 20.0 * 0.5 + 3.0 * 1.2];
+        "loads": [line("spring", spring), line("table", table), line("law", law), line("drag", drag)], "outputs": outputs});
+    let tensions = [
+        30.0 * 0.1 + 0.5 * 1.2,
+        4.0,
+        20.0 * 0.5 + 3.0 * 1.2,
+        3.0 * 1.2,
+    ];
     let mut specimen = Specimen::new("lengths", scene);
     for (name, tension) in names.into_iter().zip(tensions) {
         specimen = specimen
