@@ -1,20 +1,20 @@
-//! Expressions in a coordinate `x`, its rate `v`, a control `u` and the time `t`.
+//! Expressions in the time `t` and up to three other variables: in a coordinate `x`, its rate `v` and a control `u` for instance.
 
 use super::expression::{ConstantPower, Expression, Operation, run_in};
 use super::grammar;
 use super::jet::{Jet, Number};
 use super::switches::Switch;
 
-/// Names of the variables beside the time.
+/// Names of a coordinate, its rate and a control.
 const NAMES: [&str; 3] = ["x", "v", "u"];
 
-/// An expression in `x`, `v`, `u` and `t`; [`Expression`] says what it may hold.
+/// An expression in `t` and up to three other variables, `x`, `v` and `u` where nothing else is said; [`Expression`] says what it may hold.
 #[derive(Clone, Debug)]
 pub struct StateExpression {
     program: Vec<Operation>,
     /// Largest parts of it that are in the time alone and have kinks, jumps or waves.
     clocks: Vec<Expression>,
-    /// Whether it depends on `x`, on `v` and on `u`.
+    /// Whether it depends on each of the others.
     depends: [bool; 3],
     /// Whether it depends on the time.
     is_timed: bool,
@@ -34,12 +34,23 @@ struct Part {
 }
 
 impl StateExpression {
-    /// Reads an expression.
+    /// Reads an expression in `x`, `v` and `u`.
     ///
     /// # Errors
     /// What was expected in the text, and what was found.
     pub fn new(text: &str) -> Result<Self, String> {
-        let given = [0, 1, 2].map(|place| (NAMES[place], Operation::Variable(place)));
+        Self::with_names(text, &NAMES)
+    }
+
+    /// Reads an expression in variables of these names, three at most.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn with_names(text: &str, names: &[&'static str]) -> Result<Self, String> {
+        let given = names.iter().enumerate();
+        let given: Vec<_> = given
+            .map(|(place, name)| (*name, Operation::Variable(place)))
+            .collect();
         let program = grammar::program(text, "t", &given)?;
         if let [Operation::Number(number)] = program[..]
             && !number.is_finite()

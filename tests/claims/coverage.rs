@@ -20,7 +20,7 @@ const SINGLE: [&str; 5] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 16] = [
+const REFUSED: [&str; 17] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -36,6 +36,7 @@ const REFUSED: [&str; 16] = [
     "initial.loads{joint_limit}",
     "initial.loads{bushing}",
     "initial.loads{fluid}",
+    "initial.loads{airfoil}",
     "initial.loads{contact}",
 ];
 /// Keys that are refused where one of them alone is changed.

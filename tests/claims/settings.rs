@@ -110,6 +110,8 @@ const LOADS: &[&str] = &[
     "drag ",
     "tangential_drag ",
     "added_mass ",
+    "chord m",
+    "span m",
     "translational_stiffness/0 N/m",
     "translational_stiffness/1 N/m",
     "translational_stiffness/2 N/m",
@@ -167,6 +169,7 @@ fn of_load(scene: &Value, variable: &str) -> (&'static str, String, &'static str
         (_, "density", _) => "kg/m3",
         (_, "axial_stiffness", _) => "N",
         (_, "damping_time", _) => "s",
+        (_, "chord" | "span", _) => "m",
         _ => "",
     };
     let label = of_each(LOADS, &format!("{key} {unit}"));

@@ -2,6 +2,7 @@
 //! here anew: quadrature, differences, dense matrices, augmented equations.
 
 mod acting;
+mod airfoil;
 mod balance;
 mod bodies;
 mod built;

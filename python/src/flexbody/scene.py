@@ -447,11 +447,11 @@ class CurrentInput(Part):
     kind: Literal["current"] = "current"
     load: StrictStr
     """
-    Name of the fluid whose velocity is set.
+    Name of the load of kind `fluid` or `airfoil` whose velocity is set.
     """
     start: list[StrictFloat] = []
     """
-    Components of the velocity before the master sets it, m/s; by default those of the fluid.
+    Components of the velocity before the master sets it, m/s; by default those of the load.
     """
 
 
@@ -1537,7 +1537,7 @@ class LatchStateOutput(Part):
 class LoadForceOutput(Part):
     """
     Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `table_spring` or `force_law` between markers or on a
-    displacement, a `joint_spring`, `joint_limit` or `joint_friction` on a displacement; of a `contact` on its marker or on the whole body.
+    displacement, a `joint_spring`, `joint_limit` or `joint_friction` on a displacement; of a `contact` on its marker or on the whole body; of an `airfoil`.
     """
 
     kind: Literal["load_force"] = "load_force"
@@ -3171,6 +3171,64 @@ class FluidLoad(Part):
     """
 
 
+class AirfoilLoad(Part):
+    """
+    A strip of an airfoil at a marker: lift, drag and moment by the angle of attack and the rate of pitch, quasi-steady. A blade takes
+    one at each of a row of markers; a body with drag alone is one too.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["airfoil"] = "airfoil"
+    marker: StrictStr
+    """
+    Marker at the aerodynamic centre of the strip, about which the moment is: of a rigid body with inertia, of a rod or beam, or of a
+    cable in the plane.
+    """
+    chord_direction: Vector
+    """
+    Direction from the leading to the trailing edge, of any length: along the axes of the frame of a rigid body, or of the section of a
+    rod or beam (tangent, first axis, second axis). In the plane along the direction of the marker and to its left.
+    """
+    chord: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Chord, m.
+    """
+    span: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Length of the strip along the span, m.
+    """
+    density: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Density of the air, kg/m^3.
+    """
+    lift: Value
+    """
+    Coefficient of lift for chord times span: a number, a table over the angle of attack in rad, whose ends hold outside of it, or an
+    expression in the angle of attack `a` (rad, between -pi and pi), in the reduced rate of pitch `q`, nose up, and in the time `t`. `q` is
+    the rate in rad/s times the chord over twice the speed of the air.
+    """
+    drag: Value | None = None
+    """
+    Coefficient of drag for chord times span, as `lift`; 0 by default.
+    """
+    lift_direction: Vector | None = None
+    """
+    In space, direction of the lift at no angle of attack, along the same axes, of any length. What of it is along the chord does not
+    count. In the plane it is the chord rotated left.
+    """
+    moment: Value | None = None
+    """
+    Coefficient of the moment about the marker, nose up, for the square of the chord times span, as `lift`; 0 by default.
+    """
+    wind: Annotated[list[Value] | None, Field(max_length=3, min_length=2)] = None
+    """
+    Velocity of the air in global axes, m/s; zero by default.
+    """
+
+
 LoadValueComponents = TypeAliasType(
     "LoadValueComponents",
     Annotated[list[Value], Field(max_length=3, min_length=2, title="LoadValueComponents")],
@@ -4320,6 +4378,7 @@ Load = TypeAliasType(
         | JointLimitLoad
         | JointFrictionLoad
         | FluidLoad
+        | AirfoilLoad
         | ContactLoad,
         Field(discriminator="kind"),
     ],

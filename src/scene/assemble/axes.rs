@@ -26,24 +26,30 @@ impl<const D: usize> Builder<'_, D> {
 
     /// A marker in the directions of the axes of its body's frame.
     pub(crate) fn frame_axes(&self, marker: resolved::ResolvedMarker<'_>) -> [Marker; D] {
-        let built = self.marker(marker);
-        std::array::from_fn(|k| match marker.place {
+        std::array::from_fn(|k| self.directed(marker, Vector::<3>::ith(k, 1.0)))
+    }
+
+    /// A marker in a direction along the axes of its body's frame; itself where it has a direction alone.
+    pub(crate) fn directed(
+        &self,
+        marker: resolved::ResolvedMarker<'_>,
+        direction: Vector<3>,
+    ) -> Marker {
+        let (built, direction) = (self.marker(marker), direction.into());
+        match marker.place {
             Place::Point(rigid, _) if built.is_framed() => {
-                let unit = Vector::<3>::ith(k, 1.0).into();
-                built.directed(self.resolved.solid(rigid).directed(unit))
+                built.directed(self.resolved.solid(rigid).directed(direction))
             }
             Place::Interface(reduced, _) => {
-                let unit = Vector::<3>::ith(k, 1.0).into();
-                built.directed(reduced.body.contained().directed(unit))
+                built.directed(reduced.body.contained().directed(direction))
             }
-            Place::Patch(..) => built.directed(Vector::<3>::ith(k, 1.0).into()),
+            Place::Patch(..) => built.directed(direction),
             Place::Along(cable, _) if built.is_framed() => {
-                let unit = Vector::<3>::ith(k, 1.0).into();
                 let line = self.lines.get(&cable.id.body_index());
-                built.directed(line.map_or(unit, |line| line.directed(unit)))
+                built.directed(line.map_or(direction, |line| line.directed(direction)))
             }
             _ => built,
-        })
+        }
     }
 
     /// In space, the rotation that a joint with an axis lets its bodies make.

@@ -169,12 +169,12 @@ pub struct ControlInput {
     pub start: Vec<f64>,
 }
 
-/// A velocity of a fluid that the master sets.
+/// A velocity of a fluid or of the wind on an airfoil that the master sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CurrentInput {
-    /// Name of the fluid whose velocity is set.
+    /// Name of the load of kind `fluid` or `airfoil` whose velocity is set.
     pub load: String,
-    /// Components of the velocity before the master sets it, m/s; by default those of the fluid.
+    /// Components of the velocity before the master sets it, m/s; by default those of the load.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub start: Vec<f64>,
 }

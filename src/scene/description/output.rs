@@ -105,7 +105,7 @@ kinds! {
         /// State of a latch: 1 while it is closed, 0 while it is open.
         LatchState(OfLatch),
         /// Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `table_spring` or `force_law` between markers or on a
-        /// displacement, a `joint_spring`, `joint_limit` or `joint_friction` on a displacement; of a `contact` on its marker or on the whole body.
+        /// displacement, a `joint_spring`, `joint_limit` or `joint_friction` on a displacement; of a `contact` on its marker or on the whole body; of an `airfoil`.
         LoadForce(OfLoad),
         /// Moment of a load on its second marker, N m: of a `bushing`, a `table_spring`, `force_law`, `joint_spring`, `joint_limit` or `joint_friction` on an
         /// angle.

@@ -355,7 +355,7 @@ impl Resolved<'_> {
         fluids.map(|fluid| fluid.added(section)).sum()
     }
 
-    /// Makes the current of a fluid an input. Returns its components until then, m/s.
+    /// Makes the current of a fluid or the wind on an airfoil an input. Returns its components until then, m/s.
     ///
     /// # Errors
     /// A fluid that does not exist, or a current that is not given by finite numbers.
@@ -365,15 +365,16 @@ impl Resolved<'_> {
         name: &str,
         first: usize,
     ) -> Result<Vec<f64>, Error> {
-        let wanted = "a fluid of this scene";
-        let fluid = self.require_load(path, name, wanted, |load| match load {
-            ResolvedLoadKind::Fluid(fluid) => Some(fluid),
+        let wanted = "a fluid or an airfoil of this scene";
+        let (stream, given) = self.require_load(path, name, wanted, |load| match load {
+            ResolvedLoadKind::Fluid(fluid) => Some((&mut fluid.current, fluid.given.components())),
+            ResolvedLoadKind::Airfoil(strip) => Some(strip.stream()),
             _ => None,
         })?;
-        let mut start = vec![0.0; fluid.current.len()];
-        for (start, value) in start.iter_mut().zip(fluid.given.components()) {
+        let mut start = vec![0.0; stream.len()];
+        for (start, value) in start.iter_mut().zip(given) {
             let Value::Number(value) = value else {
-                let wanted = "a fluid whose current is numbers";
+                let wanted = "a load whose current or wind is numbers";
                 let found = format!("{}, whose current changes", quoted(name));
                 return Err(expected(path, wanted, found));
             };
@@ -381,7 +382,7 @@ impl Resolved<'_> {
             *start = *value;
         }
         let inputs = (0..start.len()).map(|k| Signal::Input(first + k));
-        fluid.current = inputs.collect();
+        *stream = inputs.collect();
         Ok(start)
     }
 }

@@ -184,6 +184,14 @@ fn types_and_keys_keep_their_places() {
         /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "drum": "knee"} | loads[4].drum_radius: expected a radius, m, found nothing
         /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "drum": "knee", "drum_radius": 0} | loads[4].drum_radius: expected a radius other than 0, m
         /loads/4 | {"name": "hoist", "kind": "reeving", "markers": ["rope.mid", "load.eye"], "axial_stiffness": 1, "drum": "none", "drum_radius": 1} | loads[4].drum: expected
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "crank.a", "chord_direction": [1, 0], "chord": 0.1, "span": 1, "density": 1.2, "lift": "2*PI*sin(a)", "drag": {"table": [[-1, 1], [1, 1]]}, "moment": "-q", "wind": [1, "t"]} | accepted
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "crank.a", "chord_direction": [1, 0], "chord": 0.1, "span": 1, "density": 1.2} | loads[4].lift: expected
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "crank.a", "chord_direction": [1, 0], "chord": 0.1, "span": 1, "density": 1.2, "lift": "2*x"} | loads[4].lift: expected
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "crank.a", "chord_direction": [1, 0], "chord": 0.1, "span": 1, "density": 1.2, "lift": 1, "lift_direction": [0, 1]} | loads[4].lift_direction: expected nothing in the plane
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "crank.a", "chord_direction": [1, 0], "chord": 0.1, "span": 1, "density": 1.2, "lift": 1, "wind": [1]} | loads[4].wind: expected 2 values
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "crank.a", "chord_direction": [1, 0], "chord": 0, "span": 1, "density": 1.2, "lift": 1} | loads[4].chord: expected a positive
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "crank.a", "chord_direction": [0, 0], "chord": 0.1, "span": 1, "density": 1.2, "lift": 1} | loads[4].chord_direction: expected a direction that is not zero
+        /loads/4 | {"name": "hoist", "kind": "airfoil", "marker": "load.eye", "chord_direction": [1, 0], "chord": 0.1, "span": 1, "density": 1.2, "lift": 1} | loads[4].marker: expected a marker that can rotate
         /outputs/0 | {"kind": "tension", "load": "tie"} | accepted
         /outputs/0 | {"kind": "tension", "load": "wind"} | outputs[0].load: expected a reeving or a spring_damper, or a table_spring or a force_law between markers, found "wind"
         /inputs/5 | {"kind": "control", "load": "tie"} | inputs[5].load: expected a force_law of this scene
@@ -369,7 +377,7 @@ fn loads_take_what_is_theirs_and_no_more() {
         /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint
         /loads/2/stiffness | 1 | loads[2].stiffness: expected a key of the kind
         /loads/2/stiffness | null | accepted
-        /loads/2/moment | 1 | loads[2].moment: expected one of the keys name, kind, joint, value, found "moment"
+        /loads/2/moment | 1 | loads[2].moment: expected a key of the kind torque (joint, value), found
         /loads/2/kind | "torqe" | loads[2].kind: expected "force" or "moment" or "torque" or
         /loads/2/kind | null | loads[2].kind: expected "force" or
         /loads/2 | [] | loads[2]: expected an object { ... }, found a list

@@ -1,6 +1,7 @@
 //! Loads: what acts on bodies besides gravity and joints. One file a kind. A size that changes is a
 //! [`Signal`]: a function of time or an input.
 
+mod airfoil;
 mod area_load;
 mod bushing;
 mod contact;
@@ -24,6 +25,7 @@ mod surface_contact;
 mod surface_fluid;
 mod table_spring;
 
+pub use airfoil::{Airfoil, AirfoilAxes, AirfoilCoefficient};
 pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
 pub use contact::{Contact, ContactLaw, ContactPoint, ContactSurface};
@@ -299,6 +301,8 @@ loads! {
     Fluid(Box<Fluid<D>>): Fluid<D>,
     /// A fluid that streams past a plate or shell.
     SurfaceFluid(Box<SurfaceFluid>): SurfaceFluid,
+    /// A strip of an airfoil.
+    Airfoil(Box<Airfoil<D>>): Airfoil<D>,
     /// A spring with a damper between two ends.
     Spring(Spring<D>): Spring<D>,
     /// A rope without mass over points.

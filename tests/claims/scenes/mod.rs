@@ -1,6 +1,7 @@
 //! The specimens: scenes of a body or a few, and what must come of them in closed form. Numbers of the
 //! closed forms are those of the scene, written once more where a test must not compute them.
 
+mod airfoils;
 mod bushings;
 mod cables;
 mod contacts;
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Specimen> {
         planar_beams::all(),
         loads::all(),
         fluids::all(),
+        airfoils::all(),
         inputs::all(),
         ports::all(),
         profiles::all(),

@@ -69,8 +69,8 @@ fn forces_and_moments_are_read_of_loads_that_follow_from_the_motion() {
         /outputs/0 | {"kind": "load_moment", "load": "spring"} | accepted
         /outputs/0 | {"kind": "load_force"} | outputs[0].load: expected a name, found nothing
         /outputs/0 | {"kind": "load_force", "load": "ground"} | outputs[0].load: expected a load of this scene
-        /outputs/0 | {"kind": "load_force", "load": "push"} | outputs[0].load: expected a spring_damper, bushing or contact, or a table_spring, force_law, joint_spring, joint_limit or joint_friction on a displacement, found "push"
-        /outputs/0 | {"kind": "load_force", "load": "spring"} | outputs[0].load: expected a spring_damper, bushing or contact, or a table_spring, force_law, joint_spring, joint_limit or joint_friction on a displacement, found "spring"
+        /outputs/0 | {"kind": "load_force", "load": "push"} | outputs[0].load: expected a spring_damper, bushing, airfoil or contact, or a table_spring, force_law, joint_spring, joint_limit or joint_friction on a displacement, found "push"
+        /outputs/0 | {"kind": "load_force", "load": "spring"} | outputs[0].load: expected a spring_damper, bushing, airfoil or contact, or a table_spring, force_law, joint_spring, joint_limit or joint_friction on a displacement, found "spring"
         /outputs/0 | {"kind": "load_moment", "load": "floor"} | outputs[0].load: expected a bushing, or a table_spring, force_law, joint_spring, joint_limit or joint_friction on an angle, found "floor"
         /outputs/0 | {"kind": "reaction", "joint": "pin", "load": "floor"} | outputs[0].load: expected a key of the kind
         "#,

@@ -48,10 +48,10 @@ fn currents_that_are_inputs_are_numbers() {
         r#"
         /inputs/0/start | [0.5, 0.5] | accepted
         /inputs/0/start | [0.5] | inputs[0].start: expected 2 component(s), found 1
-        /inputs/0/load | "rod" | inputs[0].load: expected a fluid of this scene (sea), found "rod"
+        /inputs/0/load | "rod" | inputs[0].load: expected a fluid or an airfoil of this scene (sea), found "rod"
         /inputs/0 | {"kind": "rest_length", "load": "sea"} | inputs[0].load: expected a spring_damper or a reeving of this scene
         /inputs | [{"kind": "current", "load": "sea"}, {"kind": "current", "load": "sea"}] | inputs[1]: expected an input not declared before, found "sea"
-        /loads/0/current | ["t", 0] | inputs[0].load: expected a fluid whose current is numbers, found "sea", whose current changes
+        /loads/0/current | ["t", 0] | inputs[0].load: expected a load whose current or wind is numbers, found "sea", whose current changes
         "#,
     );
 }
