@@ -107,7 +107,7 @@ fn lengths() -> Specimen {
         "name": "lengths", "dimension": 2, "bodies": [bead("bead", [0.6, 0.0], [2.0, 0.0]), extra()],
         "loads": [line("spring", spring), line("table", table), line("law", law), line("drag", drag),
                   // One whose length is not read, so that the others could be read of it.
-                  line("spare", json!({"kind": "spring_damper", "stiffness": 1.0, "length": 0.7}))],
+                  json!({"name": "spare", "kind": "spring_damper", "markers": ["ground", "bead.c"], "point": [0.0, 0.9], "stiffness": 0.0, "damping": 1.0})],
         "outputs": outputs});
     let tensions = [
         30.0 * 0.1 + 0.5 * 1.2,
