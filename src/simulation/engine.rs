@@ -50,12 +50,12 @@ pub(super) struct Engine<const D: usize> {
     remarks: InitialWarnings,
     pub(super) bodies: Vec<String>,
     /// Names of the loads of the scene, to say which of them ended a step.
-    loads: Vec<String>,
+    pub(super) loads: Vec<String>,
     pub(super) assembled: Assembled<D>,
     pub(super) work: Workspace<D>,
     pub(super) methods: Methods,
     pub(super) tolerance: Tolerance,
-    evaluation: Evaluation<D>,
+    pub(super) evaluation: Evaluation<D>,
     evaluated: Evaluated,
     /// Readers of the stress that pictures of plates and shells show, patch by patch; empty until it is asked for.
     pub(super) grid_stresses: Vec<Option<GridStress>>,
@@ -337,23 +337,6 @@ impl<const D: usize> Engine<D> {
     /// Whether a state has the sizes of this system.
     pub(super) fn fits(&self, state: &State) -> bool {
         self.assembled.system.fits(state)
-    }
-
-    /// Describes a law of force that has no finite value near a state: within a time, s, at its rates.
-    pub(super) fn law_without_value(&mut self, state: &State, within: f64) -> Option<String> {
-        let system = &self.assembled.system;
-        self.evaluation.kinematics(system, state, &mut self.work);
-        let found = self.evaluation.without_value(system, within);
-        self.forget();
-        let (load, [value, rate]) = found?;
-        let name = self
-            .assembled
-            .load_number(load)
-            .and_then(|k| self.loads.get(k))?;
-        Some(format!(
-            "expected the force of `{name}` to be a number, found none near x = {value:e}, v = {rate:e}: bound what its expression \
-             divides by, or takes the root or logarithm of"
-        ))
     }
 
     /// The state has changed.

@@ -63,6 +63,23 @@ impl<const D: usize> Engine<D> {
         (report, Err(failure))
     }
 
+    /// Describes a law of force that has no finite value near a state: within a time, s, at its rates.
+    fn law_without_value(&mut self, state: &State, within: f64) -> Option<String> {
+        let system = &self.assembled.system;
+        self.evaluation.kinematics(system, state, &mut self.work);
+        let found = self.evaluation.without_value(system, within);
+        self.forget();
+        let (load, [value, rate]) = found?;
+        let name = self
+            .assembled
+            .load_number(load)
+            .and_then(|k| self.loads.get(k))?;
+        Some(format!(
+            "expected the force of `{name}` to be a number, found none near x = {value:e}, v = {rate:e}: bound what its expression \
+             divides by, or takes the root or logarithm of"
+        ))
+    }
+
     /// Explains in words why a step over an interval of time (s) ended at a state.
     pub(super) fn explain(
         &mut self,

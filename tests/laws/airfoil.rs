@@ -1,6 +1,6 @@
 //! Airfoils against closed forms: bodies with drag, twist under lift, flutter of a section, wings on beams.
 
-use nalgebra::{Matrix2, Matrix4};
+use nalgebra::{Matrix2, Matrix4, Vector3};
 use serde_json::{Value, json};
 
 use super::runs::{Run, is_near, settings, vector};
@@ -123,13 +123,12 @@ impl Section {
     /// The scene in a wind along the first axis. Coefficients are those of a thin airfoil.
     fn scene(&self, dimension: usize, wind: f64) -> Value {
         let v = |x, y| vector(dimension, [x, y]);
-        let mut slide = json!({"name": "slide", "kind": "prismatic", "markers": ["ground", "carriage.c"], "direction": v(0.0, 1.0)});
+        let slide = json!({"name": "slide", "kind": "prismatic", "markers": ["ground", "carriage.c"], "direction": v(0.0, 1.0)});
         let mut pin =
             json!({"name": "pin", "kind": "revolute", "markers": ["carriage.c", "wing.axis"]});
         if dimension == 3 {
             pin["direction"] = json!([0, 0, 1]);
         }
-        slide["name"] = json!("slide");
         let [plunge, pitch] = self.stiffness;
         let mut keys = json!({"chord_direction": v(1.0, 0.0), "chord": self.chord, "span": self.span, "wind": v(wind, 0.0),
             "lift": "2*PI*sin(a)", "moment": "-PI/2*q"});
@@ -262,5 +261,135 @@ fn lift_twists_a_wing_to_where_its_spring_holds_it() {
             1e-6,
         );
         is_near(run.read("air.force[1]"), 0.0, 1e-6);
+    }
+}
+
+/// Velocity of the air past clamped wings, m/s.
+const WIND: Vector3<f64> = Vector3::new(3.0, 20.0, 2.0);
+/// Direction of their chord along the axes of the section: the tangent, its first axis and its second one.
+const CHORD: Vector3<f64> = Vector3::new(0.1, 1.0, 0.0);
+/// Coefficients of lift, drag and moment.
+const COEFFICIENTS: [f64; 3] = [0.8, 0.15, -0.3];
+
+/// A wing that is clamped along the first axis, with a strip at its tip.
+fn wing(dimension: usize, element: &str) -> Value {
+    let mut section = match dimension {
+        2 => json!({"area": 4e-4, "second_moment": 1e-8}),
+        _ => json!({"area": 4e-4, "second_moments": [1e-8, 2e-8], "torsion_constant": 1e-8}),
+    };
+    let mut material = json!({"youngs_modulus": 2e9, "density": 1e3});
+    if element != "cable" {
+        material["shear_modulus"] = json!(8e8);
+    }
+    match (dimension, element) {
+        (2, "beam") => section["shear_factor"] = json!(0.8),
+        (3, "beam") => section["shear_factors"] = json!([0.8, 0.8]),
+        _ => {}
+    }
+    let v = |of: &Vector3<f64>| json!(of.as_slice()[..dimension]);
+    let mut body = json!({"name": "wing", "element": element, "elements": 4, "section": section, "material": material,
+        "shape": {"line": {"from": v(&Vector3::zeros()), "to": v(&Vector3::x())}}, "markers": {"root": 0, "tip": 1}});
+    let [lift, drag, moment] = COEFFICIENTS;
+    let mut keys = json!({"chord_direction": v(&CHORD), "chord": 0.3, "span": 0.5, "wind": v(&WIND), "lift": lift, "drag": drag,
+        "moment": moment});
+    let stands = if dimension == 2 {
+        "angle"
+    } else {
+        "orientation"
+    };
+    if dimension == 3 {
+        body["axis"] = json!([0, 1, 0]);
+        keys["lift_direction"] = json!([0, 0, 1]);
+    }
+    json!({"name": "wing", "dimension": dimension, "bodies": [body],
+        "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "wing.root"]}], "loads": [strip("wing.tip", keys)],
+        "outputs": [{"kind": "position", "marker": "wing.tip"}, {"kind": stands, "marker": "wing.tip"},
+            {"kind": "reaction", "joint": "clamp"}, {"kind": "reaction_moment", "joint": "clamp"}],
+        "initial": "static_equilibrium", "accuracy": {"relative_tolerance": 1e-9}})
+}
+
+/// Wings on rods, beams and cables that are clamped: the clamp holds the force and the moment that follow from how the section at the tip
+/// stands.
+#[test]
+fn clamps_of_wings_hold_lift_drag_and_moment() {
+    for (dimension, element) in [(2, "cable"), (2, "beam"), (3, "rod"), (3, "beam")] {
+        let scene = wing(dimension, element);
+        let mut run = Run::started(&scene);
+        let mut read = |name: &str| {
+            let mut found = Vector3::zeros();
+            (0..dimension).for_each(|k| found[k] = run.read(&format!("{name}[{}]", k + 1)));
+            found
+        };
+        let (tip, force) = (read("wing.tip.position"), read("clamp.reaction"));
+        let along = |run: &mut Run, of: [f64; 3]| {
+            let of = Vector3::from(of);
+            if dimension == 2 {
+                let (sin, cos) = run.read("wing.tip.angle").sin_cos();
+                return Vector3::new(cos * of.x - sin * of.y, sin * of.x + cos * of.y, 0.0);
+            }
+            Vector3::from_fn(|i, _| {
+                let axis = |j: usize| run.read(&format!("wing.tip.orientation[{}]", 3 * i + j + 1));
+                (0..3)
+                    .map(axis)
+                    .zip(of.iter())
+                    .map(|(axis, of)| axis * of)
+                    .sum()
+            })
+        };
+        let chord = along(&mut run, CHORD.normalize().into());
+        let up = match dimension {
+            2 => Vector3::new(-chord.y, chord.x, 0.0),
+            _ => along(&mut run, [0.0, 0.0, 1.0]),
+        };
+        let (back, across) = (WIND.dot(&chord), WIND.dot(&up));
+        let square = back * back + across * across;
+        let pressure = 0.5 * DENSITY * 0.15;
+        let [lift, drag, moment] = COEFFICIENTS;
+        let exerted = pressure
+            * square.sqrt()
+            * (lift * (up * back - chord * across) + drag * (chord * back + up * across));
+        let about = tip.cross(&exerted) - chord.cross(&up) * (pressure * square * 0.3 * moment);
+        assert!(
+            (force + exerted).norm() < 1e-6 * exerted.norm(),
+            "{element} {force} {exerted}"
+        );
+        let held = match dimension {
+            2 => Vector3::z() * run.read("clamp.reaction_moment"),
+            _ => Vector3::from_fn(|k, _| run.read(&format!("clamp.reaction_moment[{}]", k + 1))),
+        };
+        let about = if dimension == 2 {
+            Vector3::z() * about.z
+        } else {
+            about
+        };
+        assert!(
+            (held + about).norm() < 1e-6 * about.norm(),
+            "{element} {held} {about}"
+        );
+        assert!((tip - Vector3::x()).norm() > 1e-3, "it bends: {tip}");
+    }
+}
+
+/// Half a millisecond of lift while nothing else moves: `m v = rho S U^2 C_l t / 2`, which steps that do not mind the time in a coefficient
+/// would miss.
+#[test]
+fn a_pulse_of_lift_is_not_missed() {
+    for (dimension, method) in settings() {
+        let v = |x, y| vector(dimension, [x, y]);
+        let mut keys = json!({"chord_direction": v(1.0, 0.0), "chord": 0.4, "span": 0.5, "wind": v(10.0, 0.0),
+            "lift": "50*(step(t - 0.5) - step(t - 0.5005))"});
+        if dimension == 3 {
+            keys["lift_direction"] = json!([0, 1, 0]);
+        }
+        let scene = json!({"name": "pulse", "dimension": dimension,
+            "bodies": [{"name": "b", "element": "rigid", "mass": 3.0, "inertia": inertia(dimension, 0.4), "position": v(0.0, 0.0),
+                "markers": {"c": v(0.0, 0.0)}}],
+            "joints": [{"name": "slide", "kind": "prismatic", "markers": ["ground", "b.c"], "direction": v(0.0, 1.0)}],
+            "loads": [strip("b.c", keys)], "outputs": [{"kind": "velocity", "joint": "slide"}],
+            "method": {"integrator": method}, "accuracy": {"relative_tolerance": 1e-6}});
+        let mut run = Run::started(&scene);
+        run.step(1.0);
+        let speed = 0.5 * DENSITY * 0.2 * 100.0 * 50.0 * 0.0005 / 3.0;
+        is_near(run.read("slide.velocity"), speed, 1e-3 * speed);
     }
 }

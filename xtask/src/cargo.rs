@@ -54,7 +54,7 @@ impl Workspace {
         })
     }
 
-    /// A view of this workspace whose products are compiled in a third of the time and run slower.
+    /// A view of this workspace whose products are compiled in half of the time and run slower.
     pub fn quick(&self) -> Self {
         Self {
             root: self.root.clone(),

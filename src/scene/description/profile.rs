@@ -233,8 +233,8 @@ impl Profile {
 
     /// Corners around the shape and around its holes, where it is a polygon.
     pub fn loops(&self) -> Option<Vec<Vec<[f64; 2]>>> {
-        if let Self::Polygon { outline, holes } = self.clone() {
-            return Some([outline].into_iter().chain(holes).collect());
+        if let Self::Polygon { outline, holes } = self {
+            return Some([outline].into_iter().chain(holes).cloned().collect());
         }
         let [width, height, web, flange] = self.walls()?;
         let [y, z] = [0.5 * width, 0.5 * height];

@@ -2,11 +2,13 @@
 
 use nalgebra::Vector3;
 
+use super::fluid::stream_words;
 use super::*;
 use crate::math::function::Function;
+use crate::math::space::vector;
 use crate::math::state_expression::StateExpression;
 use crate::scene::validate::checks::direction;
-use crate::system::loads::{Airfoil, AirfoilAxes, AirfoilCoefficient};
+use crate::system::loads::{Airfoil, AirfoilAxes, AirfoilCoefficient, StateLaw};
 
 /// Variables of expressions of coefficients.
 const VARIABLES: [&str; 2] = ["a", "q"];
@@ -104,7 +106,7 @@ fn coefficient(path: &str, of: Option<&Value>) -> Result<AirfoilCoefficient, Err
         Some(Value::Expression(text)) => {
             let read = StateExpression::with_names(text, &VARIABLES);
             let read = read.map_err(|message| Error::new(path, message))?;
-            AirfoilCoefficient::Expression(read)
+            AirfoilCoefficient::Expression(StateLaw::new(read))
         }
         Some(other) => AirfoilCoefficient::Curve(value(path, other, false)?),
     })
@@ -126,11 +128,7 @@ impl SceneLoad for AirfoilLoad {
         ] {
             positive(&at(key), unit, value)?;
         }
-        if scene.scene.turns() {
-            let wanted = "0 where air acts, which does not rotate with the frame";
-            let found = format!("{:?}", scene.scene.rotation.full());
-            return Err(expected("rotation", wanted, found));
-        }
+        scene.require_still_frame("air")?;
         let rest = vec![Value::Number(0.0); dimension];
         let wind = self.wind.as_ref().unwrap_or(&rest);
         let wind = components(&at("wind"), dimension, wind, |path, of| {
@@ -206,21 +204,14 @@ impl<'a> ActingLoad<'a> for ResolvedAirfoil<'a> {
             chord: self.given.chord,
             coefficients: self.coefficients.clone(),
             wind: std::array::from_fn(|k| self.wind[k].clone()),
-            time: Signal::Function(Function::time()),
-            carried: (crate::math::space::vector([0.0; 3]), [0.0; 3]),
+            carried: (vector([0.0; 3]), [0.0; 3]),
             fraction: 1.0,
         })))
     }
 
     fn words(&self, _dimension: usize) -> LoadWords {
         let of = self.given;
-        let mut wind = self.wind.iter();
-        let is_input = wind.any(|of| matches!(of, Signal::Input(_)));
-        let wind = match (is_input, of.components()) {
-            (true, _) => "wind: input".into(),
-            (false, []) => "still air".into(),
-            (false, given) => format!("wind ({}) m/s", words::values(given)),
-        };
+        let wind = stream_words(["wind", "still air"], &self.wind, of.components());
         let [chord, span, density] = [of.chord, of.span, of.density].map(number);
         let coefficients = [
             ("lift", Some(&of.lift)),

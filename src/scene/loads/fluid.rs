@@ -131,11 +131,7 @@ impl SceneLoad for FluidLoad {
             LoadPlace::Line(line) => self.check_line(path, line)?,
             _ => {}
         }
-        if scene.scene.turns() {
-            let wanted = "0 where a fluid acts, which does not rotate with the frame";
-            let found = format!("{:?}", scene.scene.rotation.full());
-            return Err(expected("rotation", wanted, found));
-        }
+        scene.require_still_frame("a fluid")?;
         let dimension = scene.scene.dimension;
         let rest = vec![Value::Number(0.0); dimension];
         let current = self.current.as_ref().unwrap_or(&rest);
@@ -202,13 +198,7 @@ impl<'a> ActingLoad<'a> for ResolvedFluid<'a> {
 
     fn words(&self, _dimension: usize) -> LoadWords {
         let of = self.given;
-        let mut current = self.current.iter();
-        let is_input = current.any(|of| matches!(of, Signal::Input(_)));
-        let current = match (is_input, of.components()) {
-            (true, _) => "current: input".into(),
-            (false, []) => "at rest".into(),
-            (false, given) => format!("current ({}) m/s", words::values(given)),
-        };
+        let current = stream_words(["current", "at rest"], &self.current, of.components());
         let coefficients = [
             ("drag", of.drag),
             ("drag along the line", of.tangential_drag),
@@ -347,7 +337,31 @@ impl<'a> ResolvedLoadKind<'a> {
     }
 }
 
+/// Describes a stream by its name and by what it is called without components, with its signals and how its components are written.
+pub(super) fn stream_words([name, rest]: [&str; 2], signals: &[Signal], given: &[Value]) -> String {
+    let mut signals = signals.iter();
+    let is_input = signals.any(|of| matches!(of, Signal::Input(_)));
+    match (is_input, given) {
+        (true, _) => format!("{name}: input"),
+        (false, []) => rest.into(),
+        (false, given) => format!("{name} ({}) m/s", words::values(given)),
+    }
+}
+
 impl Resolved<'_> {
+    /// Checks that the frame of the scene, in which what streams would rotate, stands still.
+    ///
+    /// # Errors
+    /// It rotates.
+    pub(super) fn require_still_frame(&self, what: &str) -> Result<(), Error> {
+        if !self.scene.turns() {
+            return Ok(());
+        }
+        let wanted = format!("0 where {what} acts, which does not rotate with the frame");
+        let found = format!("{:?}", self.scene.rotation.full());
+        Err(expected("rotation", &wanted, found))
+    }
+
     /// Mass of all fluids that move along with a body at a section, kg/m.
     pub(crate) fn added_mass(&self, body: usize, section: &SectionNumbers) -> f64 {
         let fluids = self.loads.iter().filter_map(|load| load.kind.fluid());

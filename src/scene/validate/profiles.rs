@@ -49,18 +49,16 @@ impl Profile {
             | Self::T { .. }
             | Self::L { .. } => {
                 let [width, height, web, flange] = self.walls().expect("walls of such a shape");
-                let (webs, flanges) = match self {
-                    Self::Box { .. } => (2.0, 2.0),
-                    Self::I { .. } | Self::C { .. } => (1.0, 2.0),
-                    _ => (1.0, 1.0),
+                let (width, of_width) = match self {
+                    Self::Box { .. } => (0.5 * width, "half of the width"),
+                    _ => (width, "the width"),
                 };
-                let of = |count: f64, edge: &str| match count {
-                    2.0 => format!("half of the {edge}"),
-                    _ => format!("the {edge}"),
+                let (height, of_height) = match self {
+                    Self::T { .. } | Self::L { .. } => (height, "the height"),
+                    _ => (0.5 * height, "half of the height"),
                 };
-                below("web_thickness", web, width / webs, &of(webs, "width"))?;
-                let most = height / flanges;
-                below("flange_thickness", flange, most, &of(flanges, "height"))?;
+                below("web_thickness", web, width, of_width)?;
+                below("flange_thickness", flange, height, of_height)?;
             }
         }
         self.validate_solution(place)

@@ -11,12 +11,11 @@
 //! Source: R. L. Bisplinghoff, H. Ashley, R. L. Halfman, Aeroelasticity (1955), Eqs. 5-311 and 5-312 (thin airfoil), section 9-4
 //! (quasi-steady).
 
-use super::{Add, ForceElement, Instant};
+use super::{Add, ForceElement, Instant, StateLaw, hold};
 use crate::bodies::Marker;
 use crate::math::function::Function;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular, spun};
-use crate::math::state_expression::StateExpression;
 use crate::system::end::Attachment;
 use crate::system::gradient::Terms;
 use crate::system::signal::Signal;
@@ -30,14 +29,14 @@ pub enum AirfoilCoefficient {
     /// Over the angle of attack.
     Curve(Function),
     /// By an expression in both and in the time.
-    Expression(StateExpression),
+    Expression(StateLaw),
 }
 
 impl AirfoilCoefficient {
-    fn value<N: Number>(&self, time: N, angle: N, rate: N) -> N {
+    fn value<const D: usize, N: Number>(&self, at: Instant<'_, D, N>, angle: N, rate: N) -> N {
         match self {
             Self::Curve(curve) => angle.map(|a| curve.value(a), |a| curve.derivatives(a)),
-            Self::Expression(of) => of.value(time, [angle, rate, N::of(0.0)]),
+            Self::Expression(law) => law.value(at, [angle, rate, N::of(0.0)]),
         }
     }
 
@@ -45,7 +44,7 @@ impl AirfoilCoefficient {
     pub fn has_kinks(&self) -> bool {
         match self {
             Self::Curve(curve) => matches!(curve, Function::Linear(_)),
-            Self::Expression(of) => of.has_switches(),
+            Self::Expression(law) => law.has_switches(),
         }
     }
 }
@@ -74,13 +73,23 @@ pub struct Airfoil<const D: usize = 2> {
     pub coefficients: [AirfoilCoefficient; 3],
     /// Velocity of the air, m/s.
     pub wind: [Signal; D],
-    /// The time, s, that expressions of coefficients take.
-    pub time: Signal,
     /// Velocity of the body as a whole beside its rates, where equilibria are sought in a steady motion: that of the origin, m/s, and
     /// angular velocity, rad/s.
     pub carried: (Vector<D>, [f64; 3]),
     /// Part of the force that acts.
     pub fraction: f64,
+}
+
+/// Flow past a strip.
+struct StripFlow<const D: usize, N> {
+    /// Unit vectors along the chord and across it.
+    axes: [Vector<D, N>; 2],
+    /// Rate of pitch of the body, nose up, rad/s.
+    pitch: N,
+    /// Rate of pitch with which the whole is carried too, rad/s.
+    turning: N,
+    /// Velocity of the air past the strip along both axes, m/s.
+    past: [N; 2],
 }
 
 /// What acts on a strip.
@@ -89,10 +98,30 @@ struct StripForces<const D: usize, N> {
     force: Vector<D, N>,
     /// Moment, nose up, N m.
     moment: N,
-    /// Unit vector of the lift at no angle of attack.
-    up: Vector<D, N>,
-    /// Rate of pitch, nose up, rad/s.
-    pitch: N,
+}
+
+impl<const D: usize, N: Number> StripFlow<D, N> {
+    /// Unit vectors of lift and drag, times the speed.
+    fn directions(&self) -> [Vector<D, N>; 2] {
+        let ([chord, up], [along, across]) = (self.axes, self.past);
+        [up * along - chord * across, chord * along + up * across]
+    }
+
+    fn speed(&self) -> N {
+        let [along, across] = self.past;
+        (along * along + across * across).sqrt()
+    }
+
+    /// Angle of attack, rad.
+    fn angle(&self) -> N {
+        let [along, across] = self.past;
+        across.atan2(along)
+    }
+
+    /// Whether there is none, where forces have no direction.
+    fn is_still(&self) -> bool {
+        self.past.iter().all(|part| part.plain() == 0.0)
+    }
 }
 
 impl<const D: usize> Airfoil<D> {
@@ -118,7 +147,7 @@ impl<const D: usize> Airfoil<D> {
         }
     }
 
-    fn acting<N: Number>(&self, at: Instant<'_, D, N>) -> StripForces<D, N> {
+    fn flow<N: Number>(&self, at: Instant<'_, D, N>) -> StripFlow<D, N> {
         let [chord, up, rate] = self.directions(at);
         let mut turning = rate;
         let point = self.point.lift();
@@ -132,31 +161,34 @@ impl<const D: usize> Airfoil<D> {
         velocity += turning * N::of(BEHIND * self.chord);
         let wind = Vector::from(self.wind.each_ref().map(|part| part.value(at)));
         let past = wind - velocity;
-        let [along, across] = [chord, up].map(|axis| axis.dot(&past));
-        let square = along * along + across * across;
-        let pitch = -rate.dot(&up);
-        if square.plain() == 0.0 {
+        StripFlow {
+            axes: [chord, up],
+            pitch: -rate.dot(&up),
+            turning: -turning.dot(&up),
+            past: [chord, up].map(|axis| axis.dot(&past)),
+        }
+    }
+
+    fn forces<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        flow: &StripFlow<D, N>,
+    ) -> StripForces<D, N> {
+        if flow.is_still() {
             return StripForces {
                 force: Vector::zeros(),
                 moment: N::of(0.0),
-                up,
-                pitch,
             };
         }
-        let speed = square.sqrt();
-        let angle = across.atan2(along);
-        let reduced = N::of(-0.5 * self.chord) * turning.dot(&up) / speed;
-        let time = self.time.value(at);
+        let (speed, angle) = (flow.speed(), flow.angle());
+        let reduced = N::of(0.5 * self.chord) * flow.turning / speed;
         let [lift, drag, moment] =
-            [0, 1, 2].map(|k| self.coefficients[k].value(time, angle, reduced));
+            [0, 1, 2].map(|k| self.coefficients[k].value(at, angle, reduced));
         let pressure = N::of(self.fraction * self.inert) * speed;
-        let lifted = up * along - chord * across;
-        let dragged = chord * along + up * across;
+        let [lifted, dragged] = flow.directions();
         StripForces {
             force: (lifted * lift + dragged * drag) * pressure,
             moment: pressure * speed * N::of(self.chord) * moment,
-            up,
-            pitch,
         }
     }
 }
@@ -167,18 +199,19 @@ impl<const D: usize> ForceElement<D> for Airfoil<D> {
         at: Instant<'_, D, N>,
         mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
     ) {
-        let acting = self.acting(at);
+        let flow = self.flow(at);
+        let StripForces { force, moment } = self.forces(at, &flow);
         let point = Attachment::Body(self.point.lift());
         match &self.axes {
             // Nose up is clockwise: the chord points away from the nose.
             AirfoilAxes::Angle(_) => {
-                let [_, direction] = point.turn(-acting.moment, at.x);
-                call(&point, [acting.force, direction]);
+                let [_, direction] = point.turn(-moment, at.x);
+                call(&point, [force, direction]);
             }
             AirfoilAxes::Markers(axes) => {
                 let chord = Attachment::Body(axes[0].lift());
-                call(&chord, [Vector::zeros(), -acting.up * acting.moment]);
-                call(&point, [acting.force, Vector::zeros()]);
+                call(&chord, [Vector::zeros(), -flow.axes[1] * moment]);
+                call(&point, [force, Vector::zeros()]);
             }
         }
     }
@@ -186,25 +219,19 @@ impl<const D: usize> ForceElement<D> for Airfoil<D> {
     /// Adds the damping of lift and drag by the velocity of the aerodynamic centre. Derivatives by the rotation are left out: they are not
     /// symmetric, and steps converge without them.
     fn add_tangent(&self, at: Instant<'_, D>, _stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let [chord, up, _] = self.directions(at);
-        let point: Vector<D> = self.point.position(at.v);
-        let wind = Vector::from(self.wind.each_ref().map(|part| part.value(at)));
-        let past = wind - point - self.carried.0;
-        let [along, across] = [chord, up].map(|axis| axis.dot(&past));
-        let speed = along.hypot(across);
-        if speed == 0.0 {
+        let flow = self.flow(at);
+        if flow.is_still() {
             return;
         }
-        let (angle, time) = (across.atan2(along), self.time.value(at));
+        let (speed, angle) = (flow.speed(), flow.angle());
         // The rise of the lift by a difference: a kink does not matter here.
         let step = 1e-4;
         let [before, after] =
-            [-step, step].map(|by| self.coefficients[0].value(time, angle + by, 0.0));
+            [-step, step].map(|by| self.coefficients[0].value(at, angle + by, 0.0));
         let rise = (after - before) / (2.0 * step);
-        let drag = self.coefficients[1].value(time, angle, 0.0).max(0.0);
+        let drag = self.coefficients[1].value(at, angle, 0.0).max(0.0);
         let pressure = self.fraction * self.inert * speed;
-        let lifted = (up * along - chord * across) / speed;
-        let dragged = (chord * along + up * across) / speed;
+        let [lifted, dragged] = flow.directions().map(|axis| axis / speed);
         let end = Attachment::Body(self.point);
         for (axis, size) in [(lifted, (rise + drag).max(0.0)), (dragged, 2.0 * drag)] {
             let mut terms: Terms<D> = Terms::default();
@@ -214,29 +241,40 @@ impl<const D: usize> ForceElement<D> for Airfoil<D> {
     }
 
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
-        let acting = self.acting(at);
+        let flow = self.flow(at);
+        let StripForces { force, moment } = self.forces(at, &flow);
         let velocity = self.point.lift().position(at.v);
-        let supplied = acting.force.dot(&velocity) + acting.moment * acting.pitch;
+        let supplied = force.dot(&velocity) + moment * flow.pitch;
         [supplied, N::of(0.0)]
     }
 
     /// Exact for small rotations.
     fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
-        let acting = self.acting(before);
+        let flow = self.flow(before);
+        let StripForces { force, moment } = self.forces(before, &flow);
         let way: Vector<D> = self.point.position(after.x) - self.point.position(before.x);
-        let turned = self.directions(after)[0] - self.directions(before)[0];
-        acting.force.dot(&way) - acting.moment * turned.dot(&acting.up)
+        let [chord, up] = flow.axes;
+        let turned = self.directions(after)[0] - chord;
+        force.dot(&way) - moment * turned.dot(&up)
     }
 
     fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
-        for part in self.wind.iter_mut().chain([&mut self.time]) {
-            *part = part.held(at, 1.0);
+        hold(&mut self.wind, at, 1.0);
+        for coefficient in &mut self.coefficients {
+            if let AirfoilCoefficient::Expression(law) = coefficient {
+                law.hold(at);
+            }
         }
         self.fraction *= fraction;
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
-        self.wind.iter().for_each(call);
+        self.wind.iter().for_each(&mut *call);
+        for coefficient in &self.coefficients {
+            if let AirfoilCoefficient::Expression(law) = coefficient {
+                law.each_signal(call);
+            }
+        }
     }
 
     fn is_conservative(&self) -> bool {

@@ -1,7 +1,6 @@
 //! A force by an expression in a length or a coordinate of a joint, its rate, a control and the time.
 
-use super::{Add, ForceElement, Instant};
-use crate::math::function::Function;
+use super::{Add, ForceElement, Instant, StateLaw};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
@@ -17,30 +16,15 @@ const HALVINGS: i32 = 40;
 #[derive(Clone, Debug)]
 pub struct ForceLaw<const D: usize = 2> {
     on: Coordinate<D>,
-    law: StateExpression,
+    law: StateLaw,
     control: Signal,
-    time: Signal,
-    /// Parts of the law in the time alone, whose kinks and waves steps mind.
-    clocks: Vec<Signal>,
 }
 
 impl<const D: usize> ForceLaw<D> {
     /// A force against the growth of a length or coordinate, by a law whose control is a signal.
     pub fn new(on: Coordinate<D>, law: StateExpression, control: Signal) -> Self {
-        let clocks = law.clocks().iter().cloned();
-        let clocks = clocks.map(|clock| Signal::Function(Function::Expression(Box::new(clock))));
-        let time = if law.is_timed() {
-            Function::time()
-        } else {
-            Function::constant(0.0)
-        };
-        Self {
-            on,
-            control,
-            time: Signal::Function(time),
-            clocks: clocks.collect(),
-            law,
-        }
+        let law = StateLaw::new(law);
+        Self { on, law, control }
     }
 
     /// Length or coordinate, and its rate. The rotations of an angle that the law does not depend on are not counted.
@@ -80,7 +64,7 @@ impl<const D: usize> ForceLaw<D> {
     /// Force against growth at a value and a rate, N or N m.
     fn force<N: Number>(&self, at: Instant<'_, D, N>, [value, rate]: [N; 2]) -> N {
         let others = [value, rate, self.control.value(at)];
-        self.law.value(self.time.value(at), others)
+        self.law.value(at, others)
     }
 }
 
@@ -97,14 +81,7 @@ impl<const D: usize> ForceElement<D> for ForceLaw<D> {
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let read = self.read(at);
         let others = [read[0], read[1], self.control.value(at)];
-        let t = self.time.value(at);
-        let slope = |by: usize| {
-            if self.law.depends()[by] {
-                self.law.slope(t, others, by)
-            } else {
-                0.0
-            }
-        };
+        let slope = |by: usize| self.law.slope(at, others, by);
         self.on.add_square(slope(0), at.x, &mut *stiffness);
         (self.on).add_hessian(self.force(at, read), at.x, stiffness);
         // A force that falls with the rate is negative damping, which no factor of the tangent has.
@@ -134,13 +111,12 @@ impl<const D: usize> ForceElement<D> for ForceLaw<D> {
 
     fn hold(&mut self, at: Instant<'_, D>, _fraction: f64) {
         self.control = self.control.held(at, 1.0);
-        self.time = self.time.held(at, 1.0);
-        self.clocks.clear();
+        self.law.hold(at);
     }
 
     fn each_signal<'a>(&'a self, call: &mut dyn FnMut(&'a Signal)) {
         call(&self.control);
-        self.clocks.iter().for_each(call);
+        self.law.each_signal(call);
     }
 
     fn is_moment(&self) -> bool {
