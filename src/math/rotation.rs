@@ -159,7 +159,7 @@ pub fn rotation_vector<N: Number>(q: &Quaternion<N>) -> Vector3<N> {
         (ARC_SINE.iter().rev()).fold(N::of(0.0), |sum, c| sum * square + N::of(*c))
     } else {
         let sine = square.sqrt();
-        sine.atan2(cosine) / sine
+        sine.angle(cosine) / sine
     };
     along * (half_over_sine * N::of(2.0))
 }
@@ -188,6 +188,21 @@ mod tests {
             (vector, columns)
         })
         .collect()
+    }
+
+    #[test]
+    fn a_half_turn_has_a_rate() {
+        // By 1 rad/s, where the scalar part is exactly 0.
+        let zero = Jet::from(0.0);
+        let q = [
+            Jet::new(0.0, -0.5, 0.0),
+            Jet::new(1.0, 0.0, -0.25),
+            zero,
+            zero,
+        ];
+        let turned = rotation_vector(&q)[0];
+        assert!((turned.re - std::f64::consts::PI).abs() < 1e-15, "{turned}");
+        assert!((turned.v1 - 1.0).abs() < 1e-15, "{turned}");
     }
 
     #[test]

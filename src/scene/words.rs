@@ -39,6 +39,11 @@ pub fn values(values: &[Value]) -> String {
 
 /// A value that may change in time.
 pub fn value(value: &Value) -> String {
+    value_over(value, " s")
+}
+
+/// A value that may change with what has this unit, which a space precedes where there is one.
+pub fn value_over(value: &Value, unit: &str) -> String {
     match value {
         Value::Number(value) => number(*value),
         Value::Expression(text) => code(text),
@@ -47,7 +52,8 @@ pub fn value(value: &Value) -> String {
             let times = points.first().zip(points.last());
             let [from, to] = times.map_or([0.0; 2], |(a, b)| [a[0], b[0]]);
             let (from, to) = (number(from), number(to));
-            format!("table of {} points from {from} s to {to} s", points.len())
+            let count = points.len();
+            format!("table of {count} points from {from}{unit} to {to}{unit}")
         }
     }
 }

@@ -178,7 +178,7 @@ impl<const D: usize> Angle<D> {
         };
         let (sin, cos) = hint.sin_cos();
         // A step rotates nothing by half a turn.
-        hint + (cos * across - sin * along).atan2(cos * along + sin * across)
+        hint + (cos * across - sin * along).angle(cos * along + sin * across)
     }
 
     /// Returns the rate of the angle, rad/s.

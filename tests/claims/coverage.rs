@@ -276,6 +276,7 @@ fn every_claim_holds_with_its_unit() {
 }
 
 #[test]
+#[ignore = "takes minutes: the check `claims of keys` runs it where scenes or claims have changed"]
 fn every_key_has_a_claim_that_moves_with_it() {
     let schema = Schema::published();
     let records = Mutex::new(Records::new());

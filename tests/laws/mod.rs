@@ -79,3 +79,4 @@ mod tangents;
 mod turned_bushings;
 mod turning_rods;
 mod whirl;
+mod wings;

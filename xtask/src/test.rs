@@ -60,7 +60,7 @@ const fn always(name: &'static str, run: fn(&Workspace, bool) -> Result<Outcome>
 }
 
 /// The checks in order.
-const CHECKS: [Check; 15] = [
+const CHECKS: [Check; 16] = [
     always("formatting", |workspace, _| formatting(workspace)),
     always("clippy", |workspace, _| clippy(workspace)),
     always("dependencies", |workspace, _| dependencies(workspace)),
@@ -74,6 +74,11 @@ const CHECKS: [Check; 15] = [
     always("FMUs under fmpy", fmpy_tests),
     always("Python package", package_tests),
     always("plans against references", plan_tests),
+    Check {
+        name: "claims of keys",
+        folders: &["src/scene", "tests/claims"],
+        run: |workspace, _| keys(workspace),
+    },
     Check {
         name: "pages in a browser",
         folders: &["src/view", "src/page", "tests/view"],
@@ -332,6 +337,13 @@ fn fmi_rs(workspace: &Workspace) -> Result<Outcome> {
     tests
         .arg("--target-dir")
         .arg(workspace.target("fmi-rs-checker"));
+    run(&mut tests).map(passed)
+}
+
+/// Every key of a scene has a claim that moves with it.
+fn keys(workspace: &Workspace) -> Result<Outcome> {
+    let mut tests = workspace.tests_of_product()?;
+    tests.args(["--test", "all", "--", "--ignored", "claims::coverage"]);
     run(&mut tests).map(passed)
 }
 

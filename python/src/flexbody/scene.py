@@ -3173,8 +3173,8 @@ class FluidLoad(Part):
 
 class AirfoilLoad(Part):
     """
-    A strip of an airfoil at a marker: lift, drag and moment by the angle of attack and the rate of pitch, quasi-steady. A blade takes
-    one at each of a row of markers; a body with drag alone is one too.
+    An airfoil, as a strip at a marker or along a rod or beam: lift, drag and moment by the angle of attack and the rate of pitch,
+    quasi-steady. A rigid body with drag alone is one too.
     """
 
     name: StrictStr
@@ -3182,23 +3182,15 @@ class AirfoilLoad(Part):
     Name: a letter or `_`, then letters, digits and `_`; at most 100.
     """
     kind: Literal["airfoil"] = "airfoil"
-    marker: StrictStr
-    """
-    Marker at the aerodynamic centre of the strip, about which the moment is: of a rigid body with inertia, of a rod or beam, or of a
-    cable in the plane.
-    """
     chord_direction: Vector
     """
     Direction from the leading to the trailing edge, of any length: along the axes of the frame of a rigid body, or of the section of a
     rod or beam (tangent, first axis, second axis). In the plane along the direction of the marker and to its left.
     """
-    chord: Annotated[StrictFloat, Field(gt=0.0)]
+    chord: Value
     """
-    Chord, m.
-    """
-    span: Annotated[StrictFloat, Field(gt=0.0)]
-    """
-    Length of the strip along the span, m.
+    Chord, m: a number above 0. Along a body also a table over its material coordinate `s`, which is 0 at the first end and 1 at the last,
+    or an expression in `s`; there is no airfoil where it is 0.
     """
     density: Annotated[StrictFloat, Field(gt=0.0)]
     """
@@ -3207,8 +3199,17 @@ class AirfoilLoad(Part):
     lift: Value
     """
     Coefficient of lift for chord times span: a number, a table over the angle of attack in rad, whose ends hold outside of it, or an
-    expression in the angle of attack `a` (rad, between -pi and pi), in the reduced rate of pitch `q`, nose up, and in the time `t`. `q` is
-    the rate in rad/s times the chord over twice the speed of the air.
+    expression in the angle of attack `a` (rad, between -pi and pi), in the reduced rate of pitch `q`, nose up, in the time `t` and along a
+    body in `s`. `q` is the rate in rad/s times the chord over twice the speed of the air.
+    """
+    ahead: Value | None = None
+    """
+    Distance of the aerodynamic centre ahead of the marker, or of the line of the body, towards the leading edge, over the chord: a
+    number, along a body also a table over `s` or an expression in it; 0 by default.
+    """
+    body: StrictStr | None = None
+    """
+    Name of the rod or beam, in the plane also of the cable, that is an airfoil all along.
     """
     drag: Value | None = None
     """
@@ -3219,13 +3220,21 @@ class AirfoilLoad(Part):
     In space, direction of the lift at no angle of attack, along the same axes, of any length. What of it is along the chord does not
     count. In the plane it is the chord rotated left.
     """
+    marker: StrictStr | None = None
+    """
+    Marker of a strip: of a rigid body with inertia, of a rod or beam, or of a cable in the plane. Either this or `body` is needed.
+    """
     moment: Value | None = None
     """
-    Coefficient of the moment about the marker, nose up, for the square of the chord times span, as `lift`; 0 by default.
+    Coefficient of the moment about the aerodynamic centre, nose up, for the square of the chord times span, as `lift`; 0 by default.
+    """
+    span: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Length of a strip at a marker along the span, m.
     """
     wind: Annotated[list[Value] | None, Field(max_length=3, min_length=2)] = None
     """
-    Velocity of the air in global axes, m/s; zero by default.
+    Velocity of the air in global axes, m/s; zero by default. Along a body expressions may contain `s`.
     """
 
 

@@ -383,7 +383,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A point of the line of a cable or rod at a material coordinate in [0, 1].
-    pub(super) fn on_line_of(&self, cable: Cable<'_>, s: f64) -> Marker {
+    pub(crate) fn on_line_of(&self, cable: Cable<'_>, s: f64) -> Marker {
         let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {

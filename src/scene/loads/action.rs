@@ -2,7 +2,6 @@
 
 use super::line::{component, uniform};
 use super::*;
-use crate::bodies::RodChain;
 use crate::math::function::Function;
 use crate::math::space::axis;
 use crate::scene::assemble::{each, unit};
@@ -358,13 +357,10 @@ impl<const D: usize> Builder<'_, D> {
 
     /// A moment along a rod or beam.
     fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> AppliedLoad<D> {
-        let end = self.along(cable, 0.0);
-        let first = |chain: &RodChain| chain.frames().next();
-        let mut firsts = self.parts.bodies.all_sections().iter().filter_map(first);
-        let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
+        let on = self.sections_of(cable);
         AppliedLoad::DistributedMoment(Box::new(DistributedMoment {
             on: on.expect("a body with sections is among the rods"),
-            end,
+            end: self.along(cable, 0.0),
             follower: action.follower,
             density: match D {
                 2 => {

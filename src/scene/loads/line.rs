@@ -85,6 +85,16 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
+    /// Index of the rod or beam among those with sections. `None` for a cable and a rigid body.
+    pub(super) fn sections_of(&self, cable: Cable<'_>) -> Option<usize> {
+        let Form::Chain(chain) = cable.id.form else {
+            return None;
+        };
+        let first = self.parts.bodies.lines()[chain].first_node();
+        let mut rods = self.parts.bodies.all_sections().iter();
+        rods.position(|rod| rod.line() == first)
+    }
+
     /// Evaluates the components that vary along a body at the Gauss points of its segments.
     ///
     /// # Errors

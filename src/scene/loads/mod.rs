@@ -309,8 +309,8 @@ loads! {
     /// A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
     /// and others 1950). The added mass counts in all directions alike.
     Fluid(fluid::FluidLoad): ResolvedFluid<'a>,
-    /// A strip of an airfoil at a marker: lift, drag and moment by the angle of attack and the rate of pitch, quasi-steady. A blade takes
-    /// one at each of a row of markers; a body with drag alone is one too.
+    /// An airfoil, as a strip at a marker or along a rod or beam: lift, drag and moment by the angle of attack and the rate of pitch,
+    /// quasi-steady. A rigid body with drag alone is one too.
     Airfoil(airfoil::AirfoilLoad): airfoil::ResolvedAirfoil<'a>,
     /// Contact of a marker, or of the line of a cable, rod or beam, with a surface of the ground: a one-sided spring and damper along the
     /// normal (Hunt and Crossley 1975) and friction along the surface, which is none at rest, so that an equilibrium has none.

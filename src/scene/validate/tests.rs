@@ -1,6 +1,7 @@
 //! What scenes may say, and refusals, one line each: where, what stands there instead, and how the
 //! message begins.
 
+mod airfoils;
 mod contacts;
 mod fluids;
 mod patches;

@@ -28,7 +28,7 @@ pub struct DistributedMoment {
 
 impl DistributedMoment {
     /// Moments in global components at the Gauss points of an element, N m/m.
-    pub(in crate::system) fn moments<const D: usize, N: Number>(
+    fn moments<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         element: usize,
@@ -67,6 +67,15 @@ impl<const D: usize> ForceElement<D> for DistributedMoment {
         for element in 0..self.rod(at).count() {
             self.add_part(at, element, f);
         }
+    }
+
+    fn changing_moments<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        first: usize,
+        segment: usize,
+    ) -> Option<Vectors<N>> {
+        (self.rod(at).line() == first).then(|| self.moments(at, segment))
     }
 
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {

@@ -31,6 +31,18 @@ impl<const K: usize> LineLoad<K> {
         self.uniform.each_ref().map(|c| c.value(at)).into()
     }
 
+    /// All components at a Gauss point, by its number along the whole body.
+    pub fn value<const D: usize, N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        place: usize,
+    ) -> Vector<K, N> {
+        Vector::from(std::array::from_fn(|k| {
+            let here = self.along[k].get(place).unwrap_or(&self.uniform[k]);
+            here.value(at)
+        }))
+    }
+
     /// Components that change, in a segment.
     pub fn changing<const D: usize, N: Number>(
         &self,

@@ -26,7 +26,7 @@ mod surface_contact;
 mod surface_fluid;
 mod table_spring;
 
-pub use airfoil::{Airfoil, AirfoilAxes, AirfoilCoefficient};
+pub use airfoil::{Airfoil, AirfoilAxes, AirfoilCoefficient, AirfoilLine, AirfoilStrip};
 pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
 pub use contact::{Contact, ContactLaw, ContactPoint, ContactSurface};
@@ -55,6 +55,7 @@ use super::end::{Add, Attachment};
 use super::instant::Instant;
 use super::signal::Signal;
 use crate::bodies::{Bodies, Node};
+use crate::elements::section::Vectors;
 use crate::elements::shape::Values;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
@@ -88,6 +89,17 @@ pub trait ForceElement<const D: usize>: Clone {
         _first: usize,
         _segment: usize,
     ) -> Option<Values<D, N>> {
+        None
+    }
+
+    /// Returns the moment per length along the rod or beam on the line with this first node, in global components at the Gauss points of an
+    /// element, N m/m. `None` for other loads and bodies.
+    fn changing_moments<N: Number>(
+        &self,
+        _at: Instant<'_, D, N>,
+        _first: usize,
+        _segment: usize,
+    ) -> Option<Vectors<N>> {
         None
     }
 
@@ -199,6 +211,17 @@ macro_rules! loads {
                 }
             }
 
+            fn changing_moments<N: Number>(
+                &self,
+                at: Instant<'_, D, N>,
+                first: usize,
+                segment: usize,
+            ) -> Option<Vectors<N>> {
+                match self {
+                    $(Self::$kind(load) => load.changing_moments(at, first, segment),)*
+                }
+            }
+
             fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
                 match self {
                     $(Self::$kind(load) => load.add_tangent(at, stiffness, damping),)*
@@ -303,7 +326,7 @@ loads! {
     Fluid(Box<Fluid<D>>): Fluid<D>,
     /// A fluid that streams past a plate or shell.
     SurfaceFluid(Box<SurfaceFluid>): SurfaceFluid,
-    /// A strip of an airfoil.
+    /// An airfoil at a marker or along a line.
     Airfoil(Box<Airfoil<D>>): Airfoil<D>,
     /// A spring with a damper between two ends.
     Spring(Spring<D>): Spring<D>,

@@ -116,7 +116,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// Force (N) and moment (N m), in the plane its third component, of a load on its second end, or on the one that it has; of
-    /// contact along or over a body the whole force, without a moment.
+    /// airfoils and of contact along or over a body the whole force, without a moment.
     pub fn exerted(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
         let sticks = system.frictions.iter().find(|of| of.load == load);
         let (load, at) = (&system.loads[load], self.instant(system));
@@ -127,6 +127,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             return (force, turning.into());
         }
         match load {
+            AppliedLoad::Airfoil(airfoil) => return (airfoil.whole(at), turning.into()),
             AppliedLoad::Contact(contact) => return (contact.whole(at), turning.into()),
             AppliedLoad::SurfaceContact(contact) => return (contact.whole(at), turning.into()),
             _ => {}

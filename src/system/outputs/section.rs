@@ -216,14 +216,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (at, first) = (self.instant(system), chain.first_node());
         let mut sum: Option<Values<3, N>> = None;
         for load in &system.loads {
-            let AppliedLoad::DistributedMoment(load) = load else {
+            let Some(moments) = load.changing_moments(at, first, j) else {
                 continue;
             };
-            if system.bodies.all_sections()[load.on].line() == first {
-                let sum = sum.get_or_insert([Vector3::zeros(); GAUSS_5.len()]);
-                let moments = load.moments(at, j).map(Vector3::from);
-                sum.iter_mut().zip(moments).for_each(|(sum, m)| *sum += m);
-            }
+            let sum = sum.get_or_insert([Vector3::zeros(); GAUSS_5.len()]);
+            let moments = moments.map(Vector3::from);
+            sum.iter_mut().zip(moments).for_each(|(sum, m)| *sum += m);
         }
         sum
     }

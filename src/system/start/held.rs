@@ -90,7 +90,7 @@ impl<const D: usize> System<D> {
         for load in &mut self.loads {
             match load {
                 AppliedLoad::Fluid(fluid) => fluid.carried = (velocity, rate),
-                AppliedLoad::Airfoil(strip) => strip.carried = (velocity, rate),
+                AppliedLoad::Airfoil(airfoil) => airfoil.carried = (velocity, rate),
                 AppliedLoad::SurfaceFluid(fluid) => fluid.carried = [components(&velocity), rate],
                 _ => {}
             }

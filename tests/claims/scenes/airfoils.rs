@@ -14,7 +14,7 @@ const MASS: f64 = 1.6;
 const INERTIA: [f64; 3] = [0.2, 0.3, 0.4];
 
 pub fn all() -> Vec<Specimen> {
-    vec![planar(), in_time(), inputs(), spatial()]
+    vec![planar(), in_time(), inputs(), spatial(), along()]
 }
 
 /// Airfoil as its equations know it.
@@ -149,6 +149,9 @@ fn planar() -> Specimen {
             (s.chord_direction, s.lift_direction) = (V::y(), -V::x());
         }),
         changed("wide", with("chord", json!(0.9)), |s| s.chord = 0.9),
+        changed("forward", with("ahead", json!(0.2)), |s| {
+            s.place -= 0.2 * s.chord * s.chord_direction;
+        }),
         changed("long", with("span", json!(2.1)), |s| s.span = 2.1),
         changed("thin", with("density", json!(0.4)), |s| s.density = 0.4),
         changed("still", without("wind"), |s| s.wind = V::zeros()),
@@ -199,7 +202,7 @@ fn planar() -> Specimen {
     let force = linear * MASS;
     specimen
         .vector("on_all.force", "N", [force.x, force.y])
-        .claim("energy.kinetic", "J", 15.0 * total)
+        .claim("energy.kinetic", "J", 16.0 * total)
 }
 
 /// Winds and coefficients that change in time.
@@ -242,6 +245,151 @@ fn inputs() -> Specimen {
     claimed(specimen, &rows)
         .vector("on_started.current", "m/s", [0.2, -0.9])
         .vector("on_given.current", "m/s", [4.0, 1.5])
+}
+
+/// Length of the bars, m.
+const LENGTH: f64 = 2.0;
+/// Mass of the bars, kg.
+const BAR: f64 = 3.0;
+
+/// A bar with an airfoil all along it.
+struct Wing {
+    keys: Value,
+    /// Wind, chord, centre ahead of the line over the chord, and coefficients, by place.
+    wind: fn(f64) -> V,
+    chord: fn(f64) -> f64,
+    ahead: fn(f64) -> f64,
+    coefficients: fn(f64, f64, f64) -> [f64; 3],
+}
+
+impl Wing {
+    /// Acceleration of the middle and the angular one: the sum of many strips.
+    fn accelerations(&self) -> [V; 2] {
+        const STRIPS: usize = 400;
+        let inertia = BAR * LENGTH * LENGTH / 12.0;
+        let mut sums = [V::zeros(); 2];
+        // Gauss's rule of two points in each, of fourth order.
+        for (k, side) in (0..STRIPS).flat_map(|k| [-1.0, 1.0].map(|side| (k, side))) {
+            let s = (k as f64 + 0.5 + 0.5 * side / 3.0_f64.sqrt()) / STRIPS as f64;
+            let (d, n) = (V::new(0.8, -0.6, 0.0), V::new(0.6, 0.8, 0.0));
+            let (chord, place) = ((self.chord)(s), V::x() * ((s - 0.5) * LENGTH));
+            let place = place - d * ((self.ahead)(s) * chord);
+            let past =
+                (self.wind)(s) - V::from(SPEED) - (V::z() * SPIN).cross(&(place + 0.5 * chord * d));
+            let (along, across) = (past.dot(&d), past.dot(&n));
+            let speed = along.hypot(across);
+            let rate = -0.5 * chord * SPIN / speed;
+            let [lift, drag, moment] = (self.coefficients)(across.atan2(along), rate, s);
+            let faced = 0.5 * 1.3 * chord * LENGTH / (2 * STRIPS) as f64;
+            let lifted = lift * (n * along - d * across) + drag * (d * along + n * across);
+            let force = faced * speed * lifted;
+            let nose_up = -V::z() * (faced * speed * speed * chord * moment);
+            sums[0] += force / BAR;
+            sums[1] += (place.cross(&force) + nose_up) / inertia;
+        }
+        sums
+    }
+}
+
+/// Bars that fly, with these airfoils.
+fn bars(wings: &[(&str, Wing)]) -> Value {
+    let bodies = wings.iter().map(|(name, _)| {
+        json!({"element": "cable", "model": "rigid", "name": name, "material": {"youngs_modulus": 1e11, "density": 1500},
+               "section": {"area": 1e-3, "second_moment": 1e-8}, "shape": {"line": {"from": [-1, 0], "to": [1, 0]}},
+               "motion": {"velocity": [SPEED[0], SPEED[1] - SPIN], "spin": SPIN}, "markers": {"c": 0.5}})
+    });
+    let loads = wings.iter().map(|(name, wing)| {
+        let mut load = wing.keys.clone();
+        load["name"] = json!(format!("on_{name}"));
+        load["kind"] = json!("airfoil");
+        load["body"] = json!(name);
+        load
+    });
+    let mut outputs = vec![json!({"kind": "load_force", "load": "on_tapered"})];
+    for (name, _) in wings {
+        let marker = format!("{name}.c");
+        outputs.push(json!({"kind": "acceleration", "marker": marker}));
+        outputs.push(json!({"kind": "angular_acceleration", "marker": marker}));
+    }
+    json!({"name": "wings", "dimension": 2, "bodies": bodies.collect::<Vec<_>>(), "loads": loads.collect::<Vec<_>>(), "outputs": outputs})
+}
+
+/// Along rigid bars, with what changes along them and what does not.
+fn along() -> Specimen {
+    let keys = |changes: Value| {
+        let mut keys = keys();
+        keys.as_object_mut().expect("keys").remove("marker");
+        keys.as_object_mut().expect("keys").remove("span");
+        for (key, value) in changes.as_object().expect("changes") {
+            keys[key] = value.clone();
+        }
+        keys
+    };
+    let even = Wing {
+        keys: keys(json!({})),
+        wind: |_| V::new(4.0, 1.5, 0.0),
+        chord: |_| 0.5,
+        ahead: |_| 0.0,
+        coefficients: |a, q, _| [3.0 * a + 0.4 * q, 0.1 + a * a, -0.2],
+    };
+    let listed = |points: Value| json!({"table": points});
+    let wings = [
+        (
+            "tapered",
+            Wing {
+                keys: keys(json!({"chord": "0.5-0.3*s"})),
+                chord: |s| 0.5 - 0.3 * s,
+                ..even
+            },
+        ),
+        (
+            "listed",
+            Wing {
+                keys: keys(
+                    json!({"chord": listed(json!([[0, 0.2], [1, 0.6]])), "ahead": listed(json!([[0, 0.1], [1, 0.3]]))}),
+                ),
+                chord: |s| 0.2 + 0.4 * s,
+                ahead: |s| 0.1 + 0.2 * s,
+                ..even
+            },
+        ),
+        (
+            "swept",
+            Wing {
+                keys: keys(json!({"ahead": "0.4*s-0.1"})),
+                ahead: |s| 0.4 * s - 0.1,
+                ..even
+            },
+        ),
+        (
+            "sheared",
+            Wing {
+                keys: keys(json!({"wind": ["4+s", "1.5*t*s"]})),
+                wind: |s| V::new(4.0 + s, 0.0, 0.0),
+                ..even
+            },
+        ),
+        (
+            "changed",
+            Wing {
+                keys: keys(json!({"lift": "3*a*s+0.4*q", "drag": "0.1+s", "moment": "-0.2*s"})),
+                coefficients: |a, q, s| [3.0 * a * s + 0.4 * q, 0.1 + s, -0.2 * s],
+                ..even
+            },
+        ),
+        ("even", even),
+    ];
+    let mut specimen = Specimen::new("wings", bars(&wings));
+    let force = wings[0].1.accelerations()[0] * BAR;
+    specimen = specimen.vector("on_tapered.force", "N", [force.x, force.y]);
+    for (name, wing) in wings {
+        let [linear, angular] = wing.accelerations();
+        let at = |key: &str| format!("{name}.c.{key}");
+        specimen = specimen
+            .vector(&at("acceleration"), "m/s2", [linear.x, linear.y])
+            .claim(&at("angular_acceleration"), "rad/s2", angular.z);
+    }
+    specimen
 }
 
 /// In space, with an inclined direction of lift.
