@@ -1,6 +1,6 @@
 //! Forces and moments: at markers, in joints and along bodies.
 
-use super::line::{component, uniform};
+use super::line::{component, uniform, varying};
 use super::*;
 use crate::math::function::Function;
 use crate::math::space::axis;
@@ -152,10 +152,7 @@ impl<L: Acts> SceneLoad for L {
         let signals = signals(&format!("{path}.value"), acting.kind, given, dimension)?;
         let mut action = scene.resolve_action(path, acting, signals)?;
         action.given = given.components();
-        let values = action.given.iter().enumerate();
-        action.along = values
-            .filter_map(|(k, of)| Some((k, of.varying()?.0)))
-            .collect();
+        action.along = varying(action.given);
         Ok(action)
     }
 

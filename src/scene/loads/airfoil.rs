@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::fluid::stream_words;
-use super::line::{component, uniform};
+use super::line::{component, uniform, varying};
 use super::*;
 use crate::bodies::Marker;
 use crate::math::function::Function;
@@ -80,6 +80,8 @@ pub struct ResolvedAirfoil<'a> {
     wind: Vec<Signal>,
     /// Components that change along the body, and their expressions.
     varying: Vec<(usize, &'a str)>,
+    /// Chord, m, and distance of the aerodynamic centre ahead of the line over it.
+    lengths: Box<[AlongSpan; 2]>,
 }
 
 impl AirfoilLoad {
@@ -185,10 +187,10 @@ impl SceneLoad for AirfoilLoad {
         if let Value::Number(chord) = self.chord {
             positive(&at("chord"), "m", chord)?;
         }
-        AlongSpan::read(&at("chord"), &self.chord, &on)?;
-        if let Some(ahead) = &self.ahead {
-            AlongSpan::read(&at("ahead"), ahead, &on)?;
-        }
+        let chord = AlongSpan::read(&at("chord"), &self.chord, &on)?;
+        let none = Value::Number(0.0);
+        let ahead = self.ahead.as_deref().unwrap_or(&none);
+        let ahead = AlongSpan::read(&at("ahead"), ahead, &on)?;
         positive(&at("density"), "kg/m^3", self.density)?;
         scene.require_still_frame("air")?;
         let (coordinates, variables) = match on {
@@ -200,7 +202,6 @@ impl SceneLoad for AirfoilLoad {
         let wind = components(&at("wind"), dimension, wind, |path, of| {
             component(path, of, coordinates)
         })?;
-        let varying = self.components().iter().enumerate();
         let read = |key: &str, of| coefficient(&at(key), of, variables);
         Ok(ResolvedAirfoil {
             given: self,
@@ -211,9 +212,8 @@ impl SceneLoad for AirfoilLoad {
                 read("moment", self.moment.as_deref())?,
             ]),
             wind,
-            varying: varying
-                .filter_map(|(k, of)| Some((k, of.varying()?.0)))
-                .collect(),
+            varying: varying(self.components()),
+            lengths: Box::new([chord, ahead]),
             on,
         })
     }
@@ -387,15 +387,11 @@ impl ResolvedAirfoil<'_> {
         (point, sections): (Marker, Sections),
         (span, s): (f64, f64),
     ) -> Result<AirfoilStrip, Error> {
-        let at = |key: &str, of: &Value| {
-            let path = format!("{path}.{key}");
-            let value = AlongSpan::read(&path, of, &self.on)?.value(s);
-            finite(&path, value).map(|()| value)
-        };
-        let chord = at("chord", &self.given.chord)?;
+        let [chord, ahead] = self.lengths.each_ref().map(|of| of.value(s));
+        for (key, value) in [("chord", chord), ("ahead", ahead)] {
+            finite(&format!("{path}.{key}"), value)?;
+        }
         not_negative(&format!("{path}.chord"), "m", chord)?;
-        let ahead = self.given.ahead.as_ref();
-        let ahead = ahead.map_or(Ok(0.0), |ahead| at("ahead", ahead))?;
         Ok(AirfoilStrip {
             point,
             sections,
@@ -418,25 +414,26 @@ impl ResolvedAirfoil<'_> {
     ) -> Result<Vec<AirfoilStrip>, Error> {
         let mesh = builder.segments(line)?;
         let length = line.body.shape.length();
+        let has_sections = builder.sections_of(line).is_some();
+        let section = |s: f64| {
+            let section = builder.along(line, s);
+            match D {
+                2 => self.angled(section),
+                _ => {
+                    let axes = self.axes.map(|axis| section.directed(axis.into()));
+                    AirfoilAxes::Markers(axes)
+                }
+            }
+        };
         let mut strips = Vec::new();
         for ends in mesh.windows(2) {
             let whole = ends[1] - ends[0];
+            let [first, last] = [section(ends[0]), section(ends[1])];
             for point in GAUSS_5 {
                 let s = ends[0] + point.at * whole;
                 let on = builder.on_line_of(line, s);
-                let weights = [1.0 - point.at, point.at];
-                let section = |k: usize| {
-                    let section = builder.along(line, ends[k]);
-                    match D {
-                        2 => self.angled(section),
-                        _ => {
-                            let axes = self.axes.map(|axis| section.directed(axis.into()));
-                            AirfoilAxes::Markers(axes)
-                        }
-                    }
-                };
-                let sections = if builder.sections_of(line).is_some() {
-                    [0, 1].map(|k| (weights[k], section(k)))
+                let sections = if has_sections {
+                    [(1.0 - point.at, first), (point.at, last)]
                 } else {
                     [(1.0, self.angled(on)), (0.0, self.angled(on))]
                 };

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::line::{component, uniform};
+use super::line::{component, uniform, varying};
 use super::*;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::vector;
@@ -142,14 +142,11 @@ impl SceneLoad for FluidLoad {
             };
             component(path, of, coordinates)
         })?;
-        let varying = self.components().iter().enumerate();
         Ok(ResolvedFluid {
             given: self,
             on,
             current,
-            varying: varying
-                .filter_map(|(k, of)| Some((k, of.varying()?.0)))
-                .collect(),
+            varying: varying(self.components()),
         })
     }
 

@@ -49,6 +49,13 @@ fn function_all_over(
     function.map_err(|told| Error::new(path, told))
 }
 
+/// Components that change along a body, by their places among all, and their expressions.
+pub(super) fn varying(values: &[Value]) -> Vec<(usize, &str)> {
+    let values = values.iter().enumerate();
+    let varying = values.filter_map(|(k, of)| Some((k, of.varying()?.0)));
+    varying.collect()
+}
+
 /// Why nothing acts along a body that is reduced to modes.
 pub(super) const NOT_ALONG_MODES: &str =
     "what acts along a body that is reduced to modes is refused";

@@ -15,20 +15,22 @@
 //! Source: R. L. Bisplinghoff, H. Ashley, R. L. Halfman, Aeroelasticity (1955), Eqs. 5-311 and 5-312 (thin airfoil), section 9-4
 //! (quasi-steady).
 
+mod strip;
+
+pub use strip::{AirfoilAxes, AirfoilStrip};
+
 use super::{Add, ForceElement, Instant, LineLoad, StateLaw};
-use crate::bodies::{Bodies, LoadedLine, Marker, Node, RodChain};
+use crate::bodies::{Bodies, LoadedLine, Node, RodChain};
 use crate::elements::section::Vectors;
 use crate::elements::shape::Values;
 use crate::math::function::Function;
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
-use crate::math::space::{Vector, moment, perpendicular, spun};
+use crate::math::space::{Vector, moment};
 use crate::system::end::Attachment;
 use crate::system::gradient::Terms;
 use crate::system::signal::Signal;
-
-/// Part of the chord from the aerodynamic centre to the point whose velocity counts.
-const BEHIND: f64 = 0.5;
+use strip::{StripAxes, StripFlow, across};
 
 /// A coefficient over the angle of attack, rad, and the reduced rate of pitch.
 #[derive(Clone, Debug)]
@@ -55,32 +57,6 @@ impl AirfoilCoefficient {
             Self::Expression(law) => law.has_switches(),
         }
     }
-}
-
-/// Directions of a section: of the chord, towards the trailing edge, and of the lift at no angle of attack.
-#[derive(Clone, Copy, Debug)]
-pub enum AirfoilAxes {
-    /// In the plane, by a marker and the angle, rad, from its direction to the chord; the other one is to its left.
-    Angle(Marker, f64),
-    /// In space, as directions of markers.
-    Markers([Marker; 2]),
-}
-
-/// A strip of an airfoil. Its directions are those of one section of a body, or lie between those of two.
-#[derive(Clone, Debug)]
-pub struct AirfoilStrip {
-    /// Point of the body that it belongs to.
-    pub point: Marker,
-    /// Sections and their weights.
-    pub sections: [(f64, AirfoilAxes); 2],
-    /// Length along the span, m.
-    pub span: f64,
-    /// Chord, m.
-    pub chord: f64,
-    /// Distance of the aerodynamic centre ahead of the point, m.
-    pub ahead: f64,
-    /// Material coordinate of the body, in [0, 1].
-    pub s: f64,
 }
 
 /// Line that is an airfoil.
@@ -112,27 +88,6 @@ pub struct Airfoil<const D: usize = 2> {
     pub fraction: f64,
 }
 
-/// Directions of a strip.
-struct StripAxes<const D: usize, N> {
-    /// Unit vector along the chord.
-    chord: Vector<D, N>,
-    /// Unit vector across it.
-    up: Vector<D, N>,
-    /// Rate of the first, 1/s.
-    rate: Vector<D, N>,
-    /// Length of what lies between the directions of the sections.
-    length: N,
-}
-
-/// Flow past a strip.
-struct StripFlow<const D: usize, N> {
-    axes: StripAxes<D, N>,
-    /// Rate of pitch, with that of the motion of the whole, nose up, rad/s.
-    pitch: N,
-    /// Velocity of the air past the strip along both axes, m/s.
-    past: [N; 2],
-}
-
 /// What acts on a strip.
 struct StripForces<const D: usize, N> {
     /// Force on the aerodynamic centre, N.
@@ -141,119 +96,22 @@ struct StripForces<const D: usize, N> {
     turning: Vector<D, N>,
 }
 
-impl<const D: usize, N: Number> StripFlow<D, N> {
-    /// Unit vectors of lift and drag, times the speed.
-    fn directions(&self) -> [Vector<D, N>; 2] {
-        let (StripAxes { chord, up, .. }, [along, across]) = (&self.axes, self.past);
-        [*up * along - *chord * across, *chord * along + *up * across]
-    }
-
-    fn speed(&self) -> N {
-        let [along, across] = self.past;
-        (along * along + across * across).sqrt()
-    }
-
-    /// Angle of attack, rad.
-    fn angle(&self) -> N {
-        let [along, across] = self.past;
-        across.angle(along)
-    }
-
-    /// Whether there is none, where forces have no direction.
-    fn is_still(&self) -> bool {
-        self.past.iter().all(|part| part.plain() == 0.0)
-    }
-}
-
-impl AirfoilAxes {
-    /// Unit vectors along the chord and across it, and the rate of the first, 1/s.
-    fn directions<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> [Vector<D, N>; 3] {
-        match self {
-            Self::Angle(of, angle) => {
-                let end = Attachment::Body(of.lift());
-                let u = end.direction(at.x).normalize();
-                let (sin, cos) = angle.sin_cos();
-                let chord = u * N::of(cos) + perpendicular(u) * N::of(sin);
-                let up = perpendicular(chord);
-                [chord, up, up * end.spin(at.x, at.v)]
-            }
-            Self::Markers(axes) => {
-                let [chord, up] = axes.each_ref().map(|axis| axis.lift());
-                [
-                    chord.direction(at.x),
-                    up.direction(at.x),
-                    chord.direction(at.v),
-                ]
-            }
-        }
-    }
-}
-
-impl AirfoilStrip {
-    /// Sections that its directions follow from, with their weights.
-    fn sections(&self) -> impl Iterator<Item = &(f64, AirfoilAxes)> {
-        self.sections.iter().filter(|(weight, _)| *weight != 0.0)
-    }
-
-    /// Markers on whose nodes it depends.
-    fn markers(&self) -> impl Iterator<Item = Marker> {
-        let of = self.sections().flat_map(|(_, axes)| match axes {
-            AirfoilAxes::Angle(marker, _) => vec![*marker],
-            AirfoilAxes::Markers(markers) => markers.to_vec(),
-        });
-        [self.point].into_iter().chain(of)
-    }
-
-    fn axes<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> StripAxes<D, N> {
-        let mut sums = [Vector::zeros(); 3];
-        for (weight, axes) in self.sections() {
-            let parts = axes.directions(at);
-            let sums = sums.iter_mut().zip(parts);
-            sums.for_each(|(sum, part)| *sum += part * N::of(*weight));
-        }
-        let [chord, up, rate] = sums;
-        let length = chord.norm();
-        let chord = chord / length;
-        let rate = rate / length;
-        StripAxes {
-            chord,
-            up: across(chord, up).normalize(),
-            rate: across(chord, rate),
-            length,
-        }
-    }
-
-    fn flow<const D: usize, N: Number>(
-        &self,
-        at: Instant<'_, D, N>,
-        wind: Vector<D, N>,
-        (origin, spin): (Vector<D>, [f64; 3]),
-    ) -> StripFlow<D, N> {
-        let axes = self.axes(at);
-        let mut turning = axes.rate;
-        let point = self.point.lift();
-        let mut velocity = point.position(at.v);
-        velocity += origin.map(N::of);
-        if spin != [0.0; 3] {
-            velocity += spun(spin, point.position(at.x));
-            turning += spun(spin, axes.chord);
-        }
-        velocity += turning * N::of(BEHIND * self.chord - self.ahead);
-        let past = wind - velocity;
-        StripFlow {
-            pitch: -turning.dot(&axes.up),
-            past: [axes.chord, axes.up].map(|axis| axis.dot(&past)),
-            axes,
-        }
-    }
-}
-
-/// Part of a vector across a unit vector.
-fn across<const D: usize, N: Number>(unit: Vector<D, N>, of: Vector<D, N>) -> Vector<D, N> {
-    of - unit * unit.dot(&of)
-}
-
 impl<const D: usize> Airfoil<D> {
+    /// Strips of a segment.
+    fn of_segment(&self, segment: usize) -> &[AirfoilStrip] {
+        &self.strips[GAUSS_5.len() * segment..][..GAUSS_5.len()]
+    }
+
+    /// Number of strips that act together.
+    fn per_segment(&self) -> usize {
+        if self.on.is_some() { GAUSS_5.len() } else { 1 }
+    }
+
+    /// Part that acts of half the density times the area of a strip, kg/m.
+    fn inert(&self, strip: &AirfoilStrip) -> f64 {
+        self.fraction * (0.5 * self.density * strip.chord * strip.span)
+    }
+
     fn flow<N: Number>(&self, at: Instant<'_, D, N>, strip: usize) -> StripFlow<D, N> {
         self.strips[strip].flow(at, self.wind.value(at, strip), self.carried)
     }
@@ -278,8 +136,7 @@ impl<const D: usize> Airfoil<D> {
             .coefficients
             .each_ref()
             .map(|coefficient| coefficient.value(at, [angle, reduced, N::of(of.s)]));
-        let inert = 0.5 * self.density * of.chord * of.span;
-        let pressure = N::of(self.fraction * inert) * speed;
+        let pressure = N::of(self.inert(of)) * speed;
         let [lifted, dragged] = flow.directions();
         let force = (lifted * lift + dragged * drag) * pressure;
         let moment = pressure * speed * N::of(of.chord) * moment;
@@ -358,8 +215,7 @@ impl<const D: usize> Airfoil<D> {
             [-step, step].map(|by| self.coefficients[0].value(at, [angle + by, 0.0, of.s]));
         let rise = (after - before) / (2.0 * step);
         let drag = self.coefficients[1].value(at, [angle, 0.0, of.s]).max(0.0);
-        let inert = 0.5 * self.density * of.chord * of.span;
-        let pressure = self.fraction * inert * speed;
+        let pressure = self.inert(of) * speed;
         let [lifted, dragged] = flow.directions().map(|axis| axis / speed);
         let end = Attachment::Body(of.point);
         for (axis, size) in [(lifted, (rise + drag).max(0.0)), (dragged, 2.0 * drag)] {
@@ -540,17 +396,5 @@ impl<const D: usize> ForceElement<D> for Airfoil<D> {
     ) -> Option<Vectors<N>> {
         let rod = self.rod(at)?;
         (rod.line() == first).then(|| self.on_element(at, segment).1)
-    }
-}
-
-impl<const D: usize> Airfoil<D> {
-    /// Strips of a segment.
-    fn of_segment(&self, segment: usize) -> &[AirfoilStrip] {
-        &self.strips[GAUSS_5.len() * segment..][..GAUSS_5.len()]
-    }
-
-    /// Number of strips that act together.
-    fn per_segment(&self) -> usize {
-        if self.on.is_some() { GAUSS_5.len() } else { 1 }
     }
 }
