@@ -222,6 +222,7 @@ fn scenes() -> Vec<String> {
     scenes.extend(in_space());
     // Points and a cable that touch.
     scenes.push(include_str!("cases/contact/slide.json").into());
+    scenes.push(include_str!("cases/slipping_belt/scene.json").into());
     scenes.push(include_str!("../scenes/mooring_line.json").into());
     scenes.push(include_str!("cases/hoisted_mass/space.json").into());
     scenes

@@ -31,31 +31,6 @@ pub struct Marker<N = f64> {
 pub type Partial<const D: usize> = [SMatrix<f64, D, D>; 2];
 
 impl Marker {
-    /// The point of a planar rigid body at `(x, y)` in its frame, m, or a particle.
-    pub fn rigid(body: usize, node: usize, point: [f64; 2]) -> Self {
-        Self {
-            body,
-            nodes: [node, node],
-            values: [1.0, point[0], 0.0, 0.0],
-            slopes: [0.0, 1.0, 0.0, 0.0],
-            across: point[1],
-            element: None,
-        }
-    }
-
-    /// The point of a rigid body of space, and a direction there: their components along its axes, m and 1.
-    pub fn framed(body: usize, node: usize, point: [f64; 3], direction: [f64; 3]) -> Self {
-        let ([a, b, c], [d, e, f]) = (point, direction);
-        Self {
-            body,
-            nodes: [node, node + 1],
-            values: [1.0, a, b, c],
-            slopes: [0.0, d, e, f],
-            across: 0.0,
-            element: None,
-        }
-    }
-
     /// A vector that is a weighted sum of those of two nodes, or of one that stands twice, as a direction; the position is that of the first.
     pub fn weighted(body: usize, nodes: [usize; 2], weights: [f64; 4]) -> Self {
         Self {
@@ -201,6 +176,33 @@ impl Marker {
 }
 
 impl<N: Number> Marker<N> {
+    /// The point of a planar rigid body at `(x, y)` in its frame, m, or a particle.
+    pub fn rigid(body: usize, node: usize, point: [N; 2]) -> Self {
+        let (zero, one) = (N::of(0.0), N::of(1.0));
+        Self {
+            body,
+            nodes: [node, node],
+            values: [one, point[0], zero, zero],
+            slopes: [zero, one, zero, zero],
+            across: point[1],
+            element: None,
+        }
+    }
+
+    /// The point of a rigid body of space, and a direction there: their components along its axes, m and 1.
+    pub fn framed(body: usize, node: usize, point: [N; 3], direction: [N; 3]) -> Self {
+        let ([a, b, c], [d, e, f]) = (point, direction);
+        let (zero, one) = (N::of(0.0), N::of(1.0));
+        Self {
+            body,
+            nodes: [node, node + 1],
+            values: [one, a, b, c],
+            slopes: [zero, d, e, f],
+            across: zero,
+            element: None,
+        }
+    }
+
     /// Whether it is a node of a cable, or belongs to a rigid body: then the second node weighs nothing.
     pub fn is_nodal(&self) -> bool {
         self.nodes[0] == self.nodes[1]

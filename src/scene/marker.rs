@@ -299,6 +299,15 @@ impl RigidBody {
         std::array::from_fn(|k| self.position[k] + way[k])
     }
 
+    /// Points that show how far the body extends: those of its shape, or its markers and its centre, in its frame, m.
+    pub fn extent(&self) -> Vec<[f64; 3]> {
+        if let Some(shape) = self.shape {
+            return shape.points();
+        }
+        let markers = self.markers.values().map(super::SceneVector::full);
+        markers.chain([[0.0; 3]]).collect()
+    }
+
     /// A direction or a way in the body's frame, in global components at the start.
     pub fn directed(&self, way: [f64; 3]) -> [f64; 3] {
         if self.orientation.is_some() {

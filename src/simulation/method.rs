@@ -58,7 +58,13 @@ pub(super) fn choose<const D: usize>(
         time: 1.0 / rate,
     };
     let n = system.coordinates();
-    let radau = || -> Box<dyn OneStepMethod> { Box::new(Radau::new(n)) };
+    let radau = || -> Box<dyn OneStepMethod> {
+        Box::new(if system.has_belt_friction() {
+            Radau::on_belts(n)
+        } else {
+            Radau::new(n)
+        })
+    };
     let named = scene.method.integrator;
     if named == Integrator::Radau || (named == Integrator::Auto && system.has_contacts()) {
         return Ok((tolerance, Methods::one(radau())));

@@ -205,6 +205,11 @@ impl<const D: usize> System<D> {
         self.loads.iter().any(AppliedLoad::has_contact)
     }
 
+    /// Whether a body is wound around a surface that rubs.
+    pub fn has_belt_friction(&self) -> bool {
+        self.loads.iter().any(AppliedLoad::has_belt_friction)
+    }
+
     /// Whether states are brought back to constraints after each step.
     pub fn is_projected(&self) -> bool {
         !self.constraints.is_empty() || !self.settled.is_empty()

@@ -322,7 +322,7 @@ fn of_ends(recording: &Recording, ends: &Ends<'_>) -> String {
     format!("[{first},{{\"marker\":{second}}}]")
 }
 
-/// Lines of the surfaces that bodies touch, as far as these move.
+/// Lines of the surfaces that bodies touch: of the ground as far as these move, of a rigid body in its frame.
 fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
     let poses = recording.poses.iter().flatten();
     let near: Vec<[f64; 3]> = poses
@@ -330,9 +330,14 @@ fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
         .collect();
     let loads = resolved.loads.iter();
     let surfaces = loads.filter_map(|load| {
-        let lines = (load.kind.surface()?).lines(recording.scene.dimension, &near);
+        let (surface, owner) = load.kind.surface()?;
+        let own = owner.map(|rigid| rigid.body.extent());
+        let lines = surface.lines(recording.scene.dimension, own.as_ref().unwrap_or(&near));
+        let body = owner.map_or("null".into(), |rigid| rigid.id.index().to_string());
         let name = quoted(load.name);
-        Some(format!("{{\"name\":{name},\"lines\":{lines:?}}}"))
+        Some(format!(
+            "{{\"name\":{name},\"body\":{body},\"lines\":{lines:?}}}"
+        ))
     });
     surfaces.collect()
 }

@@ -204,7 +204,10 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
                     },
                     friction,
                     slip_velocity: 2.0,
+                    radius: 0.0,
                 },
+                surface_frame: None,
+                rolling: None,
             })),
             angles: Vec::new(),
         })

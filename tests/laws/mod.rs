@@ -10,6 +10,7 @@ mod chain;
 mod chance;
 mod closed;
 mod closed_paths;
+mod contacts;
 mod coupled_damping;
 mod crank;
 mod crosses;

@@ -4,7 +4,10 @@ use flexbody::bodies::{Marker, Node};
 use flexbody::integrators::{OneStepMethod, RK4, Radau, RungeKutta, Tolerance, advance};
 use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
-use flexbody::system::loads::{AppliedLoad, Spring};
+use flexbody::system::loads::{
+    AppliedLoad, Contact, ContactLaw, ContactPoint, ContactSurface, OneSidedSpring, RigidFrame,
+    Spring,
+};
 use flexbody::system::{
     Attachment, Derivatives, DrivenSystem, Dynamics, Evaluation, Parts, Signal, State, System,
     Workspace,
@@ -317,7 +320,53 @@ fn tethered(mechanism: &Mechanism, chance: &mut Chance) -> Parts<3> {
             length: Signal::Function(Function::constant(0.4)),
         }));
     }
+    for body in 1..mechanism.bodies.len() {
+        parts.loads.push(touching(mechanism, body, chance));
+    }
     parts
+}
+
+/// Contact of a place of a body with a surface of the one before it, deep below.
+fn touching(mechanism: &Mechanism, body: usize, chance: &mut Chance) -> AppliedLoad<3> {
+    let at = chance.vector();
+    let owner = &mechanism.bodies[body - 1];
+    let place = owner.axes.transpose() * (mechanism.bodies[body].point(&at) - owner.center);
+    let normal = (chance.vector() + V::new(0.0, 0.0, 2.0)).normalize();
+    let round = |axis| ContactSurface::Round {
+        center: place - normal * 0.9,
+        axis,
+        radius: 1.0,
+    };
+    let surface = match body % 3 {
+        0 => ContactSurface::Plane {
+            point: place + normal * 0.2,
+            normal,
+        },
+        1 => round(None),
+        _ => round(Some(V::new(0.6, 0.0, 0.8))),
+    };
+    let frame = |of: usize| {
+        let center = Marker::framed(of, 2 * of, [0.0; 3], [1.0, 0.0, 0.0]);
+        Some(RigidFrame::of(&center))
+    };
+    AppliedLoad::Contact(Box::new(Contact {
+        places: vec![ContactPoint {
+            marker: Marker::framed(body, 2 * body, at.into(), [1.0, 0.0, 0.0]),
+            weight: 1.0,
+        }],
+        law: ContactLaw {
+            surface,
+            spring: OneSidedSpring {
+                stiffness: 30.0,
+                damping: 0.0,
+            },
+            friction: 0.0,
+            slip_velocity: 0.0,
+            radius: 0.3,
+        },
+        surface_frame: frame(body - 1),
+        rolling: frame(body),
+    }))
 }
 
 #[test]

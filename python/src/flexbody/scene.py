@@ -4342,7 +4342,7 @@ class ContactLoad(Part):
     """
     surface: Surface
     """
-    Surface that is touched.
+    Surface that is touched, in the frame of the body that it belongs to.
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
@@ -4356,15 +4356,24 @@ class ContactLoad(Part):
     """
     Marker that touches the surface, `body.marker`.
     """
+    radius: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Distance at which it touches, m: radius of a ball or wheel about the marker, half the thickness of a body; 0 by default. With a
+    radius, friction rotates the rigid body of a marker. Bodies along a line take friction on their line.
+    """
     slip_velocity: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     With friction only: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. A contact that
     would stick creeps at a fraction of it.
     """
+    surface_of: StrictStr | None = None
+    """
+    Name of the rigid body with inertia that the surface belongs to, such as a pulley, in whose frame the surface is given. By default
+    it belongs to the ground.
+    """
     body: StrictStr | None = None
     """
-    Name of the cable, rod or beam whose line, or of the plate or shell whose middle surface touches the surface; the thickness of the
-    body does not count.
+    Name of the cable, rod or beam whose line, or of the plate or shell whose middle surface touches the surface.
     """
 
 

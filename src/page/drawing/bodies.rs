@@ -45,13 +45,8 @@ fn cable_outline(cable: &LineBody) -> Vec<[f64; 3]> {
 
 /// Corners, as it is seen, of a rigid body's shape; where it has none, around its markers and its centre, m.
 pub(super) fn rigid_outline(rigid: &RigidBody, dimension: usize) -> Vec<[f64; 3]> {
-    if let Some(shape) = rigid.shape {
-        let points = shape.points().into_iter();
-        return hull(dimension, points.map(|point| rigid.point(point)).collect());
-    }
-    let markers = rigid.markers.values();
-    let points = markers.map(|point| rigid.point(point.full()));
-    hull(dimension, points.chain([rigid.position.full()]).collect())
+    let points = rigid.extent().into_iter();
+    hull(dimension, points.map(|point| rigid.point(point)).collect())
 }
 
 /// The surface of a reduced body, if its file has one.

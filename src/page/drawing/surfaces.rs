@@ -1,4 +1,4 @@
-//! Surfaces of the ground that bodies touch.
+//! Surfaces of the ground and of rigid bodies that bodies touch.
 
 use super::bodies::outline;
 use super::picture::Picture;
@@ -17,7 +17,16 @@ fn each(
     let near: Vec<[f64; 3]> = near.collect();
     let loads = resolved.loads.iter();
     let surfaces = loads.filter_map(|load| load.kind.surface());
-    let found = surfaces.map(|surface| of(surface, &near));
+    let found = surfaces.map(|(surface, owner)| match owner {
+        None => of(surface, &near),
+        Some(rigid) => { of(surface, &rigid.body.extent()).into_iter() }
+            .map(|line| {
+                line.into_iter()
+                    .map(|point| rigid.body.point(point))
+                    .collect()
+            })
+            .collect(),
+    });
     found.flatten().collect()
 }
 

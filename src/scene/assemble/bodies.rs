@@ -218,7 +218,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// A point of a rigid body in its frame, m.
-    pub(super) fn point(&self, rigid: Rigid<'_>, point: [f64; 3]) -> Marker {
+    pub(crate) fn point(&self, rigid: Rigid<'_>, point: [f64; 3]) -> Marker {
         let (index, body) = (rigid.id.index(), rigid.body);
         let node = self.parts.bodies.ranges[index].start;
         if D == 2 || !body.inertia().is_some() {

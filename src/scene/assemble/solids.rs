@@ -7,7 +7,7 @@ use crate::scene::Inertia;
 use crate::scene::resolved::{Place, Resolved, Rigid};
 
 /// A rigid body of space that rotates, with all that moves with it.
-pub(super) struct RotatingSolid {
+pub(crate) struct RotatingSolid {
     /// Mass, kg.
     pub mass: f64,
     /// Centre of mass in the body's frame, m.
@@ -37,7 +37,7 @@ impl RotatingSolid {
 
 impl Resolved<'_> {
     /// A rigid body of space with the masses at its markers.
-    pub(super) fn solid(&self, rigid: Rigid<'_>) -> RotatingSolid {
+    pub(crate) fn solid(&self, rigid: Rigid<'_>) -> RotatingSolid {
         let body = rigid.body;
         let lumped: Vec<(f64, Vector3<f64>)> = (self.masses.iter())
             .filter_map(|mass| match mass.marker.place {

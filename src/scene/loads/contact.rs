@@ -1,29 +1,39 @@
-//! Contacts of markers and of bodies with surfaces of the ground.
+//! Contacts of markers and of bodies with surfaces of the ground and of rigid bodies.
 
 use super::*;
 use crate::bodies::PANELS;
 use crate::bodies::{Marker, RigidRod};
 use crate::elements::Element;
 use crate::math::quadrature::GAUSS_5;
-use crate::math::space::vector;
+use crate::math::space::{Vector, components, vector};
 use crate::scene::assemble::unit;
 use crate::scene::description::Surface;
+use crate::scene::resolved::{BodyReference, Place, Rigid};
 use crate::scene::validate::checks;
+use crate::scene::validate::checks::unknown;
 use crate::system::loads::{
-    Contact, ContactLaw, ContactPoint, ContactSurface, OneSidedSpring, SurfaceContact,
+    Contact, ContactLaw, ContactPoint, ContactSurface, OneSidedSpring, RigidFrame, SurfaceContact,
 };
 
-/// Contact with a surface of the ground.
+/// Contact with a surface of the ground, or of a rigid body, which moves with it and takes the opposite force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(extend("x-either" = [["marker"], ["body"]]))]
 pub struct ContactLoad {
     /// Marker that touches the surface, `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// Name of the cable, rod or beam whose line, or of the plate or shell whose middle surface touches the surface; the thickness of the
-    /// body does not count.
+    /// Name of the cable, rod or beam whose line, or of the plate or shell whose middle surface touches the surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
+    /// Distance at which it touches, m: radius of a ball or wheel about the marker, half the thickness of a body; 0 by default. With a
+    /// radius, friction rotates the rigid body of a marker. Bodies along a line take friction on their line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub radius: Option<f64>,
+    /// Name of the rigid body with inertia that the surface belongs to, such as a pulley, in whose frame the surface is given. By default
+    /// it belongs to the ground.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface_of: Option<String>,
     /// Stiffness `k` of the surface, N/m at a marker; N/m per reference length along a line, per reference area of a plate or shell.
     #[schemars(range(min = 0.0))]
     pub stiffness: f64,
@@ -31,7 +41,7 @@ pub struct ContactLoad {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
-    /// Surface that is touched.
+    /// Surface that is touched, in the frame of the body that it belongs to.
     pub surface: Surface,
     /// Coulomb's coefficient of friction `mu`; 0 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -44,20 +54,23 @@ pub struct ContactLoad {
     pub slip_velocity: Option<f64>,
 }
 
-/// Contact with a surface of the ground.
+/// Contact with a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct ResolvedContact<'a> {
     /// As described.
     given: &'a ContactLoad,
     /// Marker, line body, plate or shell that touches the surface.
     by: LoadPlace<'a>,
+    /// Rigid body that the surface belongs to; none of the ground.
+    surface_of: Option<Rigid<'a>>,
 }
 
 impl ContactLoad {
     /// Law of the contact, in its number of dimensions.
-    fn law<const D: usize>(&self) -> ContactLaw<D> {
+    fn law<const D: usize>(&self, surface: ContactSurface<D>) -> ContactLaw<D> {
         ContactLaw {
-            surface: surface(&self.surface),
+            surface,
+            radius: self.radius.unwrap_or_default(),
             spring: OneSidedSpring {
                 stiffness: self.stiffness,
                 damping: self.damping.unwrap_or_default(),
@@ -94,7 +107,20 @@ impl SceneLoad for ContactLoad {
                 scene.require_line_or_surface(&at("body"), body)?
             }
         };
+        let surface_of = match &self.surface_of {
+            None => None,
+            Some(name) => Some(scene.require_owner(&at("surface_of"), name, &by)?),
+        };
         (self.surface).validate(&at("surface"), scene.scene.dimension)?;
+        not_negative(&at("radius"), "m", self.radius.unwrap_or_default())?;
+        if self.radius.is_some()
+            && by
+                .rigid()
+                .is_some_and(|rigid| is_thin(rigid, scene.scene.dimension))
+        {
+            let wanted = "nothing at a thin rod, whose rotation about itself is not known";
+            return Err(expected(&at("radius"), wanted, "a number"));
+        }
         let unit = Self::unit(by.extent()).text();
         positive(&at("stiffness"), &unit, self.stiffness)?;
         not_negative(&at("damping"), "s/m", self.damping.unwrap_or_default())?;
@@ -107,7 +133,11 @@ impl SceneLoad for ContactLoad {
             needed(path, "friction", "a coefficient", self.friction)?;
             positive(&at("slip_velocity"), "m/s", slip_velocity)?;
         }
-        Ok(ResolvedContact { given: self, by })
+        Ok(ResolvedContact {
+            given: self,
+            by,
+            surface_of,
+        })
     }
 
     fn numbers(&mut self, on: LoadExtent) -> Vec<LoadNumber<'_>> {
@@ -136,6 +166,11 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         self.by
     }
 
+    fn bodies(&self) -> Vec<usize> {
+        let owner = self.surface_of.iter().map(|rigid| rigid.id.index());
+        self.by.bodies().into_iter().chain(owner).collect()
+    }
+
     fn stiffness(&self) -> [f64; 2] {
         [self.given.stiffness, 0.0]
     }
@@ -153,7 +188,7 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
             LoadPlace::Surface(plate) => {
                 return Ok(AppliedLoad::SurfaceContact(Box::new(SurfaceContact {
                     on: builder.surface(plate),
-                    law: self.given.law(),
+                    law: self.given.law(surface(&self.given.surface)),
                 })));
             }
             LoadPlace::Line(cable) => builder.places(cable),
@@ -164,9 +199,15 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
                 })
                 .collect(),
         };
+        let owner = self.surface_of;
         Ok(AppliedLoad::Contact(Box::new(Contact {
+            law: self.given.law(match owner {
+                Some(rigid) => builder.surface_of(rigid, &self.given.surface),
+                None => surface(&self.given.surface),
+            }),
+            surface_frame: owner.map(|rigid| RigidFrame::of(&builder.point(rigid, [0.0; 3]))),
+            rolling: self.rolling::<D>(&places),
             places,
-            law: self.given.law(),
         })))
     }
 
@@ -201,24 +242,90 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
             self.given.friction,
         ];
         let [k, a, friction] = sizes.map(|size| number(size.unwrap_or_default()));
+        let owner = self.surface_of.map_or(String::new(), |rigid| {
+            format!(" of {}", words::code(&rigid.body.name))
+        });
+        let radius = self.given.radius.map_or(String::new(), |radius| {
+            format!(", touches at {} m", number(radius))
+        });
         let friction = self.given.slip_velocity.map_or(String::new(), |speed| {
             format!(", friction {friction}, smooth below {} m/s", number(speed))
         });
         LoadWords {
-            kind: format!("contact with a {}", self.given.surface.name()),
+            kind: format!("contact with a {}{owner}", self.given.surface.name()),
             on: words::code(self.by.name()),
-            size: format!("{surface}; {k} {unit}, {a} s/m{friction}"),
+            size: format!("{surface}{radius}; {k} {unit}, {a} s/m{friction}"),
         }
     }
 }
 
 impl<'a> ResolvedLoadKind<'a> {
-    /// Surface of the ground that the load is a contact with.
-    pub fn surface(&self) -> Option<&'a Surface> {
+    /// Surface that the load is a contact with, and the rigid body that it belongs to; none of the ground.
+    pub fn surface(&self) -> Option<(&'a Surface, Option<Rigid<'a>>)> {
         match self {
-            Self::Contact(contact) => Some(&contact.given.surface),
+            Self::Contact(contact) => Some((&contact.given.surface, contact.surface_of)),
             _ => None,
         }
+    }
+}
+
+impl<'a> LoadPlace<'a> {
+    /// The rigid body of a marker.
+    fn rigid(&self) -> Option<Rigid<'a>> {
+        match self {
+            Self::Marker(marker) => match marker.place {
+                Place::Point(rigid, _) => Some(rigid),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+/// Whether a rigid body of space has inertia, but none about an axis.
+fn is_thin(rigid: Rigid<'_>, dimension: usize) -> bool {
+    dimension == 3 && rigid.body.inertia().thin().is_some()
+}
+
+/// Whether a rigid body has inertia about every axis about which it can rotate.
+fn rotates(rigid: Rigid<'_>, dimension: usize) -> bool {
+    rigid.body.inertia().is_some() && !is_thin(rigid, dimension)
+}
+
+impl ResolvedContact<'_> {
+    /// Frame of the rigid body that touches with a radius.
+    fn rolling<const D: usize>(&self, places: &[ContactPoint]) -> Option<RigidFrame> {
+        let rolls =
+            self.given.radius.is_some() && self.by.rigid().is_some_and(|rigid| rotates(rigid, D));
+        rolls.then(|| RigidFrame::of(&places[0].marker))
+    }
+}
+
+impl<'a> Resolved<'a> {
+    /// Finds the rigid body that a surface belongs to, which another body touches.
+    ///
+    /// # Errors
+    /// There is no such rigid body, it lacks inertia about an axis or touches itself, or it is touched by a plate or shell.
+    fn require_owner(&self, path: &str, name: &str, by: &LoadPlace<'a>) -> Found<Rigid<'a>> {
+        let rigid = |body: &BodyReference<'a>| match body {
+            BodyReference::Rigid(rigid) if rotates(*rigid, self.scene.dimension) => Some(*rigid),
+            _ => None,
+        };
+        let Some(found) = self.bodies_by_name.get(name).and_then(rigid) else {
+            let known = self.bodies.iter().filter_map(rigid);
+            let known = known.map(|rigid| &*rigid.body.name);
+            let wanted = "the name of a rigid body with a moment of inertia about every axis";
+            return Err(unknown(path, wanted, name, known));
+        };
+        if let LoadPlace::Surface(_) = by {
+            let wanted = "nothing beside a plate or shell, which touches surfaces of the ground";
+            return Err(expected(path, wanted, quoted(name)));
+        }
+        if by.bodies().contains(&found.id.index()) {
+            let wanted = "the name of another body than the one that touches";
+            return Err(expected(path, wanted, quoted(name)));
+        }
+        Ok(found)
     }
 }
 
@@ -261,6 +368,35 @@ impl Surface {
 }
 
 impl<const D: usize> Builder<'_, D> {
+    /// A surface in the frame of a rigid body, in the one that the system keeps of it.
+    fn surface_of(&self, rigid: Rigid<'_>, of: &Surface) -> ContactSurface<D> {
+        let given = surface(of);
+        if D == 2 {
+            return given;
+        }
+        let solid = self.resolved.solid(rigid);
+        let point = |of: Vector<D>| vector(solid.along(components(&of)));
+        let direction = |of: Vector<D>| vector(solid.directed(components(&of)));
+        match given {
+            ContactSurface::Plane {
+                point: foot,
+                normal,
+            } => ContactSurface::Plane {
+                point: point(foot),
+                normal: direction(normal),
+            },
+            ContactSurface::Round {
+                center,
+                axis,
+                radius,
+            } => ContactSurface::Round {
+                center: point(center),
+                axis: axis.map(direction),
+                radius,
+            },
+        }
+    }
+
     /// The Gauss points of the elements of a cable, or of even parts of one that does not bend.
     fn places(&self, cable: Cable<'_>) -> Vec<ContactPoint> {
         let body = cable.id.body;

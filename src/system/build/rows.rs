@@ -171,6 +171,9 @@ pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>
         tie(&owners(
             load.ends().iter().flat_map(Attachment::nodes).collect(),
         ));
+        for nodes in load.couplings(&parts.bodies) {
+            tie(&owners(nodes));
+        }
     }
     let mut joint = None;
     for constraint in nonlinear {

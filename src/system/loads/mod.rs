@@ -29,7 +29,7 @@ mod table_spring;
 pub use airfoil::{Airfoil, AirfoilAxes, AirfoilCoefficient, AirfoilLine, AirfoilStrip};
 pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
-pub use contact::{Contact, ContactLaw, ContactPoint, ContactSurface};
+pub use contact::{Contact, ContactLaw, ContactPoint, ContactSurface, RigidFrame};
 pub use convective_inertia::ConvectiveInertia;
 pub use distributed::DistributedForce;
 pub use distributed_moment::DistributedMoment;
@@ -141,6 +141,11 @@ pub trait ForceElement<const D: usize>: Clone {
         false
     }
 
+    /// Whether a body is wound around a surface that rubs, so that friction follows from the tension that it changes.
+    fn has_belt_friction(&self) -> bool {
+        false
+    }
+
     /// Whether the load dissipates.
     fn is_damped(&self) -> bool {
         false
@@ -148,6 +153,11 @@ pub trait ForceElement<const D: usize>: Clone {
 
     /// Returns the ends between which the tangent couples.
     fn ends(&self) -> Vec<Attachment<D>> {
+        Vec::new()
+    }
+
+    /// Returns groups of nodes that the tangent couples besides the ends.
+    fn couplings(&self, _bodies: &Bodies<D>) -> Vec<Vec<usize>> {
         Vec::new()
     }
 
@@ -276,6 +286,12 @@ macro_rules! loads {
                 }
             }
 
+            fn has_belt_friction(&self) -> bool {
+                match self {
+                    $(Self::$kind(load) => <$load as ForceElement<D>>::has_belt_friction(load),)*
+                }
+            }
+
             fn is_damped(&self) -> bool {
                 match self {
                     $(Self::$kind(load) => <$load as ForceElement<D>>::is_damped(load),)*
@@ -285,6 +301,12 @@ macro_rules! loads {
             fn ends(&self) -> Vec<Attachment<D>> {
                 match self {
                     $(Self::$kind(load) => load.ends(),)*
+                }
+            }
+
+            fn couplings(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
+                match self {
+                    $(Self::$kind(load) => load.couplings(bodies),)*
                 }
             }
 

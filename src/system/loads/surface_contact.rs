@@ -32,8 +32,8 @@ impl SurfaceContact {
         let (x, v) = (patch.element(element, at.x), patch.element(element, at.v));
         let mut found = false;
         let touches = std::array::from_fn(|place| {
-            let position = of.at_place(&x, place);
-            let touch = self.law.touch(&position, || of.at_place(&v, place));
+            let under = self.law.depth(&of.at_place(&x, place));
+            let touch = under.map(|under| self.law.touch(under, of.at_place(&v, place)));
             found |= touch.is_some();
             touch
         });
@@ -102,7 +102,7 @@ impl<const D: usize> ForceElement<D> for SurfaceContact {
             let [mut stiff, mut damped] = [[Matrix3::zeros(); AREA_PLACES]; 2];
             for (place, touch) in touches.iter().enumerate() {
                 if let Some(touch) = touch {
-                    [stiff[place], damped[place]] = self.law.tangents(touch);
+                    [stiff[place], damped[place]] = self.law.tangents(touch, |axis| *axis);
                 }
             }
             let stiff = element.area_matrix(&stiff);
@@ -139,6 +139,10 @@ impl<const D: usize> ForceElement<D> for SurfaceContact {
 
     fn has_contact(&self) -> bool {
         true
+    }
+
+    fn has_belt_friction(&self) -> bool {
+        self.law.has_belt_friction()
     }
 
     fn is_damped(&self) -> bool {

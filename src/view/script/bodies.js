@@ -279,12 +279,29 @@ export function surfaces(motion, size) {
   });
 }
 
-/** Lines of what bodies touch, lighter than these. */
+/** Lines of what bodies touch, lighter than these: they stand still, or move with a rigid body. */
+class Bed {
+  constructor(body, lines) {
+    this.body = body;
+    this.object = new Group();
+    for (const line of lines) {
+      const geometry = new BufferGeometry().setFromPoints(line.map((point) => new Vector3(...point)));
+      const drawn = new Line(geometry, new LineBasicMaterial({ color: palette.bed }));
+      drawn.frustumCulled = !body;
+      this.object.add(drawn);
+    }
+  }
+
+  update() {
+    if (!this.body) return;
+    this.object.position.copy(this.body.vector(0, 0));
+    this.object.quaternion.copy(this.body.stance(0));
+  }
+}
+
+/** The surfaces that bodies touch. */
 export function beds(motion) {
-  return (motion.surfaces ?? []).flatMap(({ lines }) => lines.map((line) => {
-    const geometry = new BufferGeometry().setFromPoints(line.map((point) => new Vector3(...point)));
-    return new Line(geometry, new LineBasicMaterial({ color: palette.bed }));
-  }));
+  return (motion.surfaces ?? []).map(({ body, lines }) => new Bed(motion.bodies[body], lines));
 }
 
 /** The colour of a body's name. */

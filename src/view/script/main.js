@@ -74,7 +74,8 @@ class Player {
     this.camera.add(light);
     this.scene.add(this.camera);
     if (motion.dimension === 3 && !motion.surfaces?.length) this.addFloor();
-    for (const bed of beds(motion)) this.scene.add(bed);
+    this.beds = beds(motion);
+    for (const bed of this.beds) this.scene.add(bed.object);
     this.surfaces = surfaces(motion, this.size);
     for (const surface of this.surfaces) this.scene.add(surface.object);
     this.controls = new OrbitControls(this.camera, this.stage);
@@ -268,6 +269,7 @@ class Player {
     const pixel = this.basePixel / this.camera.zoom;
     this.camera.updateMatrixWorld();
     for (const surface of this.surfaces) surface.update(pixel, this.paint);
+    for (const bed of this.beds) bed.update();
     this.renderer.render(this.scene, this.camera);
     Object.assign(this.marks, { pixel, room: this.extent });
     if (this.isViewNew) {

@@ -110,9 +110,13 @@ export class Marks {
       const middle = () => motion.endOf(ends[0]).add(motion.endOf(ends[1])).multiplyScalar(0.5);
       add(name, colour, label === 'middle' ? middle : () => motion.endOf(ends[1]), 3);
     }
-    (motion.surfaces ?? []).forEach(({ name, lines }) => {
+    (motion.surfaces ?? []).forEach(({ name, body, lines }) => {
       const line = lines[lines.length >> 1];
-      add(name, palette.faint, () => new Vector3(...line[line.length >> 1]), 3);
+      const [point, owner] = [line[line.length >> 1], motion.bodies[body]];
+      add(name, palette.faint, () => {
+        const place = new Vector3(...point);
+        return owner ? place.applyQuaternion(owner.stance(0)).add(owner.vector(0, 0)) : place;
+      }, 3);
     });
     const markers = motion.markers.map((marker, number) => ({ marker, number }));
     if (markers.length <= MOST_NAMES) {

@@ -1,6 +1,6 @@
-//! Contacts of markers and of bodies with surfaces of the ground: forces from depth, its rate and the slip along the surface.
+//! Contacts of markers and of bodies with surfaces of the ground and of rigid bodies: forces from depth, its rate and the slip along the surface.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use serde_json::{Value, json};
 
 use super::space::{array, vector};
@@ -12,12 +12,16 @@ pub fn all() -> Vec<Specimen> {
         on_a_plane(),
         on_a_circle(),
         in_space(),
+        on_a_moving_body(),
+        on_a_moving_body_in_space(),
+        along_a_cable_on_a_moving_body(),
         along_a_rigid_body(),
         along_a_cable(),
         along_a_rod(),
         sections_of_a_rigid_body(),
         sections_of_a_beam(),
         at_rest(),
+        at_rest_on_a_body(),
     ]
 }
 
@@ -180,6 +184,172 @@ fn in_space() -> Specimen {
     specimen.claim("energy.spring", "J", 0.5 * STIFFNESS * depths)
 }
 
+/// A body that rotates and moves has a circle and a line beside its centre. A marker touches the circle, and a ball that rotates the line.
+fn on_a_moving_body() -> Specimen {
+    let (place, angle, velocity, spin) = ([0.6, -0.4], 0.3, [0.4, -0.2], 1.1);
+    let (mass, inertia) = (2.2, 0.7);
+    let owner = json!({"element": "rigid", "name": "owner", "mass": mass, "inertia": inertia, "position": place, "angle": angle,
+        "motion": {"velocity": velocity, "spin": spin}, "markers": {"c": [0.0, 0.0]}});
+    let moves_at = |point: [f64; 2]| {
+        let arm = sum(point, times(-1.0, place));
+        sum(velocity, times(spin, [-arm[1], arm[0]]))
+    };
+    // The circle, in the frame of the body, and where the marker touches it.
+    let (center, radius, first) = ([0.3, 0.2], 0.5, [0.6, 0.8]);
+    let first_at = sum(
+        sum(place, turned(angle, center)),
+        times(radius - 0.04, first),
+    );
+    let arm = turned(ANGLE, [0.5, -0.2]);
+    let (of_a, spin_a) = ([-0.3, -0.5], -0.7);
+    let own = sum(of_a, times(spin_a, [-arm[1], arm[0]]));
+    let on_a = force(0.04, first, sum(own, times(-1.0, moves_at(first_at))));
+    // The line below a ball: its deepest point touches.
+    let (foot, normal, ball) = ([-0.4, 0.1], [-0.96, -0.28], 0.25);
+    let second = turned(angle, normal);
+    let middle = sum(sum(place, turned(angle, foot)), times(ball - 0.03, second));
+    let touching = sum(middle, times(-ball, second));
+    let (of_b, spin_b) = ([0.9, 0.3], 2.3);
+    let rolling = sum(of_b, times(spin_b, [ball * second[1], -ball * second[0]]));
+    let on_b = force(0.03, second, sum(rolling, times(-1.0, moves_at(touching))));
+    let mut of_ball = contact(
+        "of_b",
+        "b.c",
+        &json!({"plane": {"point": foot, "normal": normal}}),
+    );
+    of_ball["radius"] = json!(ball);
+    let mut of_marker = contact(
+        "of_a",
+        "a.p",
+        &json!({"circle": {"center": center, "radius": radius}}),
+    );
+    for load in [&mut of_ball, &mut of_marker] {
+        load["surface_of"] = json!("owner");
+    }
+    let mut outputs = read(&["a", "b", "owner"]);
+    outputs.extend(["of_a", "of_b"].map(|load| json!({"kind": "load_force", "load": load})));
+    let scene = json!({"name": "moving", "dimension": 2,
+        "bodies": [owner, body("a", sum(first_at, times(-1.0, arm)), of_a, spin_a), body("b", middle, of_b, spin_b), extra()],
+        "loads": [of_marker, of_ball], "outputs": outputs});
+    let specimen = pushed(Specimen::new("on a moving body", scene), "a", on_a);
+    let [to_first, to_second] = [first_at, touching].map(|point| sum(point, times(-1.0, place)));
+    let moment = cross(to_first, on_a) + cross(to_second, on_b);
+    specimen
+        .vector("b.c.acceleration", "m/s2", times(1.0 / MASS, on_b))
+        .claim(
+            "b.c.angular_acceleration",
+            "rad/s2",
+            cross(times(-ball, second), on_b) / INERTIA,
+        )
+        .vector(
+            "owner.c.acceleration",
+            "m/s2",
+            times(-1.0 / mass, sum(on_a, on_b)),
+        )
+        .claim("owner.c.angular_acceleration", "rad/s2", -moment / inertia)
+        .vector("of_a.force", "N", on_a)
+        .vector("of_b.force", "N", on_b)
+        .claim(
+            "energy.spring",
+            "J",
+            0.5 * STIFFNESS * (0.04 * 0.04 + 0.03 * 0.03),
+        )
+}
+
+/// The same in space with a cylinder on a body whose centre of mass lies beside the origin of its frame, which a particle touches at a distance.
+fn on_a_moving_body_in_space() -> Specimen {
+    let axes = Rotation3::from_euler_angles(0.4, -0.7, 1.1);
+    let (place, velocity, particle) = (
+        Vector3::new(0.5, -0.3, 0.8),
+        Vector3::new(0.2, -0.4, 0.3),
+        Vector3::new(-0.6, 0.5, -0.2),
+    );
+    let (mass, lump, inertia) = (1.4, 0.6, 0.35);
+    // A mass on an axis of the frame: the moments about the common centre are those of two points more.
+    let lumped = Vector3::new(0.0, 0.0, 0.5);
+    let center = lumped * (lump / (mass + lump));
+    let more = mass * lump / (mass + lump) * lumped.norm_squared();
+    let moments = Vector3::new(inertia + more, inertia + more, inertia);
+    let (foot, axis, radius, thick) = (
+        Vector3::new(0.3, -0.2, 0.1),
+        Vector3::new(0.6, 0.0, 0.8),
+        0.4,
+        0.05,
+    );
+    let across = Vector3::new(-0.48, 0.8, 0.36);
+    let local = foot + axis * 0.3 + across * (radius + thick - 0.04);
+    let (normal, at) = (axes * across, place + axes * local);
+    let touched = local - across * thick;
+    // Spins would mix components of the inertia: the body only translates.
+    let relative = particle - velocity;
+    let out = normal.dot(&relative);
+    let push = STIFFNESS * 0.04 * (1.0 - DAMPING * out);
+    let slip = relative - normal * out;
+    let force = normal * push - slip * (FRICTION * push / slip.norm().hypot(SLIP));
+    let mut load = contact(
+        "of_a",
+        "a.c",
+        &json!({"cylinder": {"point": array(foot), "axis": array(axis * 2.0), "radius": radius}}),
+    );
+    load["surface_of"] = json!("owner");
+    load["radius"] = json!(thick);
+    let rows: Vec<[f64; 3]> = axes
+        .matrix()
+        .row_iter()
+        .map(|row| [row[0], row[1], row[2]])
+        .collect();
+    let scene = json!({"name": "moving_in_space", "dimension": 3,
+        "bodies": [{"element": "rigid", "name": "owner", "mass": mass, "inertia": [inertia, inertia, inertia], "position": array(place),
+                    "orientation": {"matrix": rows}, "motion": {"velocity": array(velocity)},
+                    "markers": {"m": array(lumped), "c": [0.0, 0.0, 0.0]}},
+                   {"element": "rigid", "name": "a", "mass": MASS, "position": array(at), "motion": {"velocity": array(particle)},
+                    "markers": {"c": [0.0, 0.0, 0.0]}}, body_in_space("other", Vector3::new(9.0, 9.0, 9.0))],
+        "masses": [{"marker": "owner.m", "mass": lump}],
+        "loads": [load],
+        "outputs": [{"kind": "acceleration", "marker": "a.c"}, {"kind": "acceleration", "marker": "owner.c"},
+                    {"kind": "angular_acceleration", "marker": "owner.c"}, {"kind": "load_force", "load": "of_a"}, {"kind": "energy"}]});
+    let turning = -(touched - center)
+        .cross(&(axes.inverse() * force))
+        .component_div(&moments);
+    let acceleration = -force / (mass + lump) - (axes * turning.cross(&center));
+    let specimen = Specimen::new("on a moving body in space", scene);
+    let specimen = vector(specimen, "a.c.acceleration", "m/s2", force / MASS);
+    let specimen = vector(specimen, "owner.c.acceleration", "m/s2", acceleration);
+    let specimen = vector(
+        specimen,
+        "owner.c.angular_acceleration",
+        "rad/s2",
+        axes * turning,
+    );
+    let specimen = vector(specimen, "of_a.force", "N", force);
+    specimen.claim("energy.spring", "J", 0.5 * STIFFNESS * 0.04 * 0.04)
+}
+
+/// A body of space that nothing touches.
+fn body_in_space(name: &str, place: Vector3<f64>) -> Value {
+    json!({"element": "rigid", "name": name, "mass": 1.0, "inertia": [1.0, 1.0, 1.0], "position": array(place),
+        "markers": {"c": [0.0, 0.0, 0.0]}})
+}
+
+/// A cable lies evenly deep on a plate that moves, with half its thickness.
+fn along_a_cable_on_a_moving_body() -> Specimen {
+    let (velocity, plate, depth, thick, mass) = ([0.9, -0.4], [-0.5, 0.7], 0.03, 0.02, 6.0);
+    let scene = json!({"name": "on_a_plate", "dimension": 2,
+        "bodies": [line(&json!({"motion": {"velocity": velocity}})),
+                   {"element": "rigid", "name": "plate", "mass": mass, "inertia": 1e9, "position": [0.3, -0.5],
+                    "motion": {"velocity": plate}, "markers": {"c": [0.0, 0.0]}}, extra()],
+        "loads": [{"name": "floor", "kind": "contact", "body": "rod", "radius": thick, "surface_of": "plate",
+                   "stiffness": STIFFNESS, "damping": DAMPING, "friction": FRICTION, "slip_velocity": SLIP,
+                   "surface": {"plane": {"point": [0.0, 0.5 + depth - thick], "normal": [0.0, 1.0]}}}],
+        "outputs": [{"kind": "acceleration", "marker": "rod.p"}, {"kind": "acceleration", "marker": "plate.c"},
+                    {"kind": "load_force", "load": "floor"}]});
+    let force = force(depth, [0.0, 1.0], sum(velocity, times(-1.0, plate)));
+    Specimen::new("along a cable on a moving body", scene)
+        .vector("rod.p.acceleration", "m/s2", times(1.0 / 2.5, force))
+        .vector("plate.c.acceleration", "m/s2", times(-1.0 / mass, force))
+        .vector("floor.force", "N", force)
+}
+
 /// A cable on the ground from `x = 0` to `x = 1`.
 fn line(extra: &Value) -> Value {
     let mut body = json!({"element": "cable", "name": "rod", "elements": 2,
@@ -329,4 +499,48 @@ fn at_rest() -> Specimen {
     Specimen::new("standing on the ground", scene)
         .claim("a.c.position[2]", "m", -MASS * gravity / STIFFNESS)
         .claim("natural_frequency[1]", "rad/s", (STIFFNESS / MASS).sqrt())
+}
+
+/// A body stands on a plate on a spring: both are as deep as their weights ask, and swing as two masses on two springs.
+fn at_rest_on_a_body() -> Specimen {
+    let (gravity, plate, spring) = (9.81, 2.4, 900.0);
+    let rail = |name: &str, body: &str| {
+        [
+            json!({"name": name, "kind": "point_on_line", "markers": ["ground", format!("{body}.c")], "direction": [0.0, 1.0]}),
+            json!({"name": format!("{name}_upright"), "kind": "orientation", "markers": ["ground", format!("{body}.c")]}),
+        ]
+    };
+    let mut floor = contact(
+        "floor",
+        "a.c",
+        &json!({"plane": {"point": [0.0, 0.1], "normal": [0.0, 1.0]}}),
+    );
+    floor["surface_of"] = json!("plate");
+    floor["radius"] = json!(0.2);
+    let joints = [rail("first", "a"), rail("second", "plate")].concat();
+    let scene = json!({"name": "standing_on_a_plate", "dimension": 2, "gravity": [0.0, -gravity], "initial": "static_equilibrium",
+        "accuracy": {"relative_tolerance": 1e-9},
+        "bodies": [{"element": "rigid", "name": "a", "mass": MASS, "inertia": INERTIA, "position": [0.0, 0.29],
+                    "markers": {"c": [0.0, 0.0]}},
+                   {"element": "rigid", "name": "plate", "mass": plate, "inertia": INERTIA, "position": [0.0, 0.0],
+                    "markers": {"c": [0.0, 0.0]}}],
+        "joints": joints,
+        "loads": [floor, {"name": "spring", "kind": "spring_damper", "markers": ["ground", "plate.c"], "point": [0.0, -1.0],
+                          "stiffness": spring, "length": 1.0}],
+        "outputs": [{"kind": "position", "marker": "a.c"}, {"kind": "position", "marker": "plate.c"},
+                    {"kind": "natural_frequency", "count": 2}]});
+    let sinks = (MASS + plate) * gravity / spring;
+    // Roots of `(k + s - M w) (k - m w) = k^2` in the square of the frequency.
+    let (k, s) = (STIFFNESS, spring);
+    let half = 0.5 * ((k + s) / plate + k / MASS);
+    let root = (half * half - k * s / (MASS * plate)).sqrt();
+    Specimen::new("standing on a body", scene)
+        .claim("plate.c.position[2]", "m", -sinks)
+        .claim(
+            "a.c.position[2]",
+            "m",
+            0.3 - sinks - MASS * gravity / STIFFNESS,
+        )
+        .claim("natural_frequency[1]", "rad/s", (half - root).sqrt())
+        .claim("natural_frequency[2]", "rad/s", (half + root).sqrt())
 }

@@ -50,6 +50,42 @@ fn markers_and_bodies_touch_surfaces_of_their_dimension() {
 }
 
 #[test]
+fn surfaces_belong_to_rigid_bodies_that_rotate() {
+    check(
+        || {
+            let mut scene = scene(3);
+            scene["bodies"][1]["inertia"] = json!([1, 1, 1]);
+            let more = [
+                json!({"name": "bar", "element": "rigid", "mass": 1, "inertia": [0, 1, 1], "position": [5, 0, 0], "markers": {"c": [0, 0, 0]}}),
+                json!({"name": "dot", "element": "rigid", "mass": 1, "position": [6, 0, 0], "markers": {"c": [0, 0, 0]}}),
+                json!({"name": "sheet", "element": "plate", "surface": {"rectangle": {"corner": [0, 0, 3], "edges": [[1, 0, 0], [0, 1, 0]]}},
+                       "mesh": [2, 2], "material": {"youngs_modulus": 1e9, "poisson_ratio": 0.3, "density": 1000}, "thickness": 0.01}),
+            ];
+            let bodies = scene["bodies"].as_array_mut().expect("bodies");
+            bodies.extend(more);
+            let load = json!({"name": "l", "kind": "contact", "marker": "rod.tip", "stiffness": 5, "surface_of": "ball",
+                "surface": {"sphere": {"center": [0, 0, 0], "radius": 1}}});
+            scene["loads"] = json!([load]);
+            scene
+        },
+        r#"
+        /loads/0/stiffness | 5 | accepted
+        /loads/0/radius | 0.1 | accepted
+        /loads/0/radius | -0.1 | loads[0].radius: expected zero or a positive number (m), found -0.1
+        /loads/0/surface_of | "rod" | loads[0].surface_of: expected the name of a rigid body with a moment of inertia about every axis (ball), found "rod"
+        /loads/0/surface_of | "bar" | loads[0].surface_of: expected the name of a rigid body with a moment of inertia about every axis (ball), found "bar"
+        /loads/0/surface_of | "dot" | loads[0].surface_of: expected the name of a rigid body with a moment of inertia about every axis (ball), found "dot"
+        /loads/0/surface_of | "ground" | loads[0].surface_of: expected the name of a rigid body with a moment of inertia about every axis (ball), found "ground"
+        /loads/0/marker | "ball.c" | loads[0].surface_of: expected the name of another body than the one that touches, found "ball"
+        /loads/0/marker | "dot.c" | accepted
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "bar.c", "radius": 0.1, "stiffness": 5, "surface": {"sphere": {"center": [0, 0, 0], "radius": 1}}} | loads[0].radius: expected nothing at a thin rod, whose rotation about itself is not known, found a number
+        /loads/0 | {"name": "l", "kind": "contact", "body": "sheet", "surface_of": "ball", "stiffness": 5, "surface": {"sphere": {"center": [0, 0, 0], "radius": 1}}} | loads[0].surface_of: expected nothing beside a plate or shell, which touches surfaces of the ground, found "ball"
+        /loads/0 | {"name": "l", "kind": "contact", "body": "sheet", "radius": 0.005, "stiffness": 5, "surface": {"sphere": {"center": [0, 0, 0], "radius": 1}}} | accepted
+        "#,
+    );
+}
+
+#[test]
 fn forces_and_moments_are_read_of_loads_that_follow_from_the_motion() {
     check(
         || {

@@ -1,0 +1,345 @@
+//! Contact of a marker, or of the line of a body, with a surface of the ground or of a rigid body. Where what is within the radius `R` of a
+//! point is below the surface, the surface pushes along its normal `n` with the force `N` of a [`OneSidedSpring`] that is compressed by the
+//! depth. Friction is `-mu N v / sqrt(v^2 + w^2)`, `v` the velocity along the surface, `w` the speed of slip: smooth, and none at rest.
+//! Along a body all of this is per reference length and counts at the Gauss points of its segments.
+//!
+//! Velocities are those of the points of both bodies that are where they touch, `R` below the point along the normal. The surface takes the
+//! opposite force there, so that both together have no force and no moment. A line takes friction on itself, without a moment.
+//!
+//! Source: as for the spring; P. Wriggers, Computational Contact Mechanics, 2nd ed. (2006), section 5.2 (Coulomb's law with a square
+//! root in place of its corner).
+
+mod frame;
+mod law;
+
+pub use frame::RigidFrame;
+pub use law::{ContactLaw, ContactSurface};
+
+#[cfg(doc)]
+use super::OneSidedSpring;
+use super::{Add, ForceElement, Instant};
+use crate::bodies::winch::{PaidOut, length_ratio};
+use crate::bodies::{Bodies, Marker, Node};
+use crate::elements::shape::Values;
+use crate::math::jet::Number;
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::Vector;
+use crate::system::end::{Attachment, between};
+pub(super) use law::Touch;
+
+/// Where contact counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// The point.
+    pub marker: Marker,
+    /// The reference length that it stands for, m; 1 of a single marker.
+    pub weight: f64,
+}
+
+/// Contact with a surface.
+#[derive(Clone, Debug)]
+pub struct Contact<const D: usize = 2> {
+    /// A single marker, or the Gauss points of all segments of a body in turn: of the elements of a chain, of the panels of a rod.
+    pub places: Vec<ContactPoint>,
+    /// Surface that is touched and its force; along a body per reference length.
+    pub law: ContactLaw<D>,
+    /// Rigid body that the surface belongs to, in whose frame it is given; none of the ground.
+    pub surface_frame: Option<RigidFrame>,
+    /// Rigid body that touches with a radius, and rolls.
+    pub rolling: Option<RigidFrame>,
+}
+
+/// How a place touches.
+struct PlaceTouch<const D: usize, N: Number> {
+    touch: Touch<D, N>,
+    /// Points where both touch: of the surface, and of the marker's body.
+    ends: [Attachment<D, N>; 2],
+}
+
+impl<const D: usize> Contact<D> {
+    /// The body, if a winch pays it out.
+    fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
+        if self.is_distributed() {
+            at.paid_out(self.first_node())
+        } else {
+            None
+        }
+    }
+
+    /// Depth of a position and the unit vector out of the surface there; none above the surface.
+    #[inline(always)]
+    fn depth<N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        position: &Vector<D, N>,
+    ) -> Option<(N, Vector<D, N>)> {
+        let Some(frame) = &self.surface_frame else {
+            return self.law.depth(position);
+        };
+        let (depth, normal) = self.law.depth(&frame.components(x, position))?;
+        Some((depth, frame.vector(x, &normal)))
+    }
+
+    /// How a place touches; none above the surface.
+    #[inline(always)]
+    fn touch<N: Number>(
+        &self,
+        marker: &Marker<N>,
+        at: Instant<'_, D, N>,
+        paid_out: Option<&PaidOut<'_, D, N>>,
+    ) -> Option<PlaceTouch<D, N>> {
+        let position = marker.position(at.x);
+        let (depth, normal) = self.depth(at.x, &position)?;
+        // A push along the normal alone has the same moment from the middle.
+        let rubs = self.law.friction > 0.0;
+        let arm = if rubs { self.law.radius } else { 0.0 };
+        let point = position - normal * N::of(arm);
+        let body = |frame: RigidFrame| Attachment::Body(frame.point(at.x, &point));
+        let rolling = self.rolling.filter(|_| rubs);
+        let ends = [
+            self.surface_frame.map_or(Attachment::Ground(point), body),
+            rolling.map_or(Attachment::Body(*marker), body),
+        ];
+        let [surface, touching] = ends.each_ref().map(|end| end.velocity(at.v));
+        let mut velocity: Vector<D, N> = touching - surface;
+        if let (Some(paid_out), Some(place)) = (paid_out, marker.element) {
+            velocity += paid_out.convective_velocity(place, marker.direction(at.x));
+        }
+        let touch = self.law.touch((depth, normal), velocity);
+        Some(PlaceTouch { touch, ends })
+    }
+
+    /// Force on a point, N or N/m.
+    fn force<N: Number>(
+        &self,
+        marker: &Marker<N>,
+        at: Instant<'_, D, N>,
+        paid_out: Option<&PaidOut<'_, D, N>>,
+    ) -> Vector<D, N> {
+        let touch = self.touch(marker, at, paid_out);
+        touch.map_or_else(Vector::zeros, |on| self.law.force(&on.touch))
+    }
+
+    /// Whether it is that of a body, not of a marker.
+    pub(in crate::system) fn is_distributed(&self) -> bool {
+        self.places.len() > 1
+    }
+
+    /// First node of the body or marker that it acts on.
+    pub(in crate::system) fn first_node(&self) -> usize {
+        self.places[0].marker.nodes[0]
+    }
+
+    /// Force per reference length at the Gauss points of a segment of a body, N/m.
+    pub(in crate::system) fn values<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        segment: usize,
+    ) -> Values<D, N> {
+        let places = &self.places[segment * GAUSS_5.len()..];
+        let paid_out = self.paid_out(at);
+        let longer = length_ratio(paid_out.as_ref());
+        std::array::from_fn(|k| {
+            self.force(&places[k].marker.lift(), at, paid_out.as_ref()) * longer
+        })
+    }
+
+    /// The whole force, N.
+    pub(in crate::system) fn whole<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
+        let mut sum = Vector::zeros();
+        self.each_pair(at, 0..self.places.len(), |_, force| sum += force);
+        sum
+    }
+
+    /// Force at the point that is nearest to a material coordinate of the body, N/m; that of a marker, N.
+    pub(in crate::system) fn nearest(&self, at: Instant<'_, D>, s: f64) -> Vector<D> {
+        let length: f64 = self.places.iter().map(|place| place.weight).sum();
+        let mut before = 0.0;
+        let place = self.places.iter().find(|place| {
+            before += place.weight;
+            before >= s * length
+        });
+        let place = place.or(self.places.last());
+        let paid_out = self.paid_out(at);
+        place.map_or_else(Vector::zeros, |place| {
+            self.force(&place.marker, at, paid_out.as_ref())
+        })
+    }
+
+    /// Calls with both ends of every place that touches, and the force on the second one, N.
+    fn each_pair<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        places: std::ops::Range<usize>,
+        mut call: impl FnMut(&[Attachment<D, N>; 2], Vector<D, N>),
+    ) {
+        let paid_out = self.paid_out(at);
+        let longer = length_ratio(paid_out.as_ref());
+        for place in &self.places[places] {
+            if let Some(on) = self.touch(&place.marker.lift(), at, paid_out.as_ref()) {
+                let force = self.law.force(&on.touch) * (N::of(place.weight) * longer);
+                call(&on.ends, force);
+            }
+        }
+    }
+
+    /// Calls with every end, and the forces on position and direction there.
+    fn each_force<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        places: std::ops::Range<usize>,
+        mut call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
+    ) {
+        self.each_pair(at, places, |[surface, touching], force| {
+            call(touching, [force, Vector::zeros()]);
+            if self.surface_frame.is_some() {
+                call(surface, [-force, Vector::zeros()]);
+            }
+        });
+    }
+
+    /// The sum over all points of what touching takes or holds there, by their weights.
+    fn sum<N: Number>(&self, at: Instant<'_, D, N>, of: impl Fn(&Touch<D, N>) -> N) -> N {
+        let (mut sum, paid_out) = (N::of(0.0), self.paid_out(at));
+        for place in &self.places {
+            if let Some(on) = self.touch(&place.marker.lift(), at, paid_out.as_ref()) {
+                sum += of(&on.touch) * N::of(place.weight);
+            }
+        }
+        sum * length_ratio(paid_out.as_ref())
+    }
+
+    fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.sum(at, |touch| self.law.dissipation(touch))
+    }
+}
+
+impl<const D: usize> ForceElement<D> for Contact<D> {
+    /// Nodes of the segments of a body, or of the marker, with those of the surface.
+    fn parts(&self, _bodies: &Bodies<D>) -> Vec<Vec<usize>> {
+        let surface = self.surface_frame.iter();
+        let surface: Vec<usize> = surface.flat_map(RigidFrame::nodes::<D>).collect();
+        let segments = self.places.chunks(GAUSS_5.len());
+        let nodes = segments.map(|places| {
+            let touching = places[0].marker.nodes.into_iter();
+            touching.chain(surface.iter().copied()).collect()
+        });
+        nodes.collect()
+    }
+
+    /// Elements of a body couple their nodes already; those of a surface are coupled with each.
+    fn couplings(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
+        match self.surface_frame {
+            Some(_) => self.parts(bodies),
+            None => Vec::new(),
+        }
+    }
+
+    /// Adds the forces of one of these.
+    fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
+        let first = part * GAUSS_5.len();
+        let last = self.places.len().min(first + GAUSS_5.len());
+        self.each_force(at, first..last, |end, [position, direction]| {
+            end.add_force(position, direction, f);
+        });
+    }
+
+    fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+        self.each_force(at, 0..self.places.len(), |end, [position, direction]| {
+            end.add_force(position, direction, f);
+        });
+    }
+
+    /// Calls with the marker and its force; not along a body.
+    fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        call: impl FnMut(&Attachment<D, N>, [Vector<D, N>; 2]),
+    ) {
+        if !self.is_distributed() {
+            self.each_force(at, 0..1, call);
+        }
+    }
+
+    fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
+        let paid_out = self.paid_out(at);
+        let longer = length_ratio(paid_out.as_ref());
+        for place in &self.places {
+            let Some(PlaceTouch { touch, ends }) = self.touch(&place.marker, at, paid_out.as_ref())
+            else {
+                continue;
+            };
+            let weight = place.weight * longer;
+            let [stiff, damped] = self.law.tangents(&touch, |axis| match &self.surface_frame {
+                Some(frame) => frame.vector(at.x, axis),
+                None => *axis,
+            });
+            between(&ends, damped * weight, 0, &mut *damping);
+            // The normal force acts on both bodies at the middle of what touches as well.
+            let surface = self.surface_frame.map(|frame| {
+                let middle = frame.point(at.x, &place.marker.position(at.x));
+                let force = self.law.push(&touch) * weight;
+                frame.add_rotation(at.x, (&middle, &place.marker), &force, &mut *stiffness);
+                middle
+            });
+            let surface = surface.map_or(Attachment::Ground(Vector::zeros()), Attachment::Body);
+            let ends = [surface, Attachment::Body(place.marker)];
+            between(&ends, stiff * weight, 0, &mut *stiffness);
+        }
+    }
+
+    /// Returns the power of touching material that a winch pays out, and the dissipated power, W.
+    fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        let mut comes_in = N::of(0.0);
+        if let Some(paid_out) = self.paid_out(at) {
+            let end = Vector::from(at.x[paid_out.winch.end()][0]);
+            if let Some((depth, _)) = self.depth(at.x, &end) {
+                comes_in = self.law.spring.energy(depth) * paid_out.speed();
+            }
+        }
+        [comes_in, self.dissipation(at)]
+    }
+
+    fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.sum(at, |touch| self.law.energy(touch))
+    }
+
+    fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        first: usize,
+        segment: usize,
+    ) -> Option<Values<D, N>> {
+        let is_on = self.is_distributed() && self.first_node() == first;
+        is_on.then(|| self.values(at, segment))
+    }
+
+    /// Friction is absent at rest.
+    fn hold(&mut self, _at: Instant<'_, D>, _fraction: f64) {
+        self.law.friction = 0.0;
+    }
+
+    fn is_conservative(&self) -> bool {
+        self.law.friction == 0.0
+    }
+
+    fn has_contact(&self) -> bool {
+        true
+    }
+
+    fn has_belt_friction(&self) -> bool {
+        self.is_distributed() && self.law.has_belt_friction()
+    }
+
+    fn is_damped(&self) -> bool {
+        self.law.is_damped()
+    }
+
+    /// The marker, where contact is that of one.
+    fn ends(&self) -> Vec<Attachment<D>> {
+        if self.is_distributed() {
+            return Vec::new();
+        }
+        vec![Attachment::Body(self.places[0].marker)]
+    }
+}
