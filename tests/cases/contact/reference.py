@@ -60,3 +60,9 @@ if __name__ == "__main__":
             speed = 1.0 + 0.4 * gain
             print("  gains", gain, "to", speed)
         print("  velocity", [repr(speed * part) for part in way])
+    # A ball on a plank: the impulse P of friction until it rolls, u = P r^2 / J, with the reduced mass of both.
+    ball, plank, inertia, radius, speed = 2.0, 3.0, 0.05, 0.2, 2.0
+    reduced = ball * plank / (ball + plank)
+    against = speed / (1.0 + inertia / (reduced * radius**2))
+    impulse = against * inertia / radius**2
+    print("rolls", repr(speed - impulse / ball), "plank", repr(impulse / plank), "spin", repr(-against / radius))
