@@ -346,11 +346,27 @@ def test_beds_are_lighter_than_bodies(browser, pages):
     browser.load(pages("mooring_line"))
     bodies, beds = browser.run("""
     const light = (object) => object.material.color.r + object.material.color.g + object.material.color.b;
-    const lines = flexbody.scene.children.filter((child) => child.type === 'Line');
+    const lines = flexbody.beds.flatMap((bed) => bed.object.children);
     return [flexbody.surfaces.map((surface) => light(surface.object)), lines.map(light)];
     """)
     assert beds and min(beds) > 2 * max(bodies)
     assert "sea_bed" in {name for name, *_ in browser.run(NAMES)}
+
+
+def test_surfaces_of_contacts_move_with_their_body(browser, pages):
+    browser.load(pages("belt_drive"))
+    script = """
+    const shown = (time) => {
+      flexbody.seek(time);
+      const { body, object } = flexbody.beds[1];
+      return [body.name, object.quaternion.angleTo(body.stance(0)), object.position.distanceTo(body.vector(0, 0)), object.rotation.z];
+    };
+    return [shown(0), shown(0.2)];
+    """
+    (name, *_, first), (_, turned, moved, last) = browser.run(script)
+    assert name == "fan_pulley"
+    assert max(turned, moved) < 1e-6
+    assert abs(last - first) > 0.5
 
 
 def test_a_body_without_a_shape_is_as_large_as_its_inertia(browser, pages):
