@@ -91,19 +91,10 @@ struct Kept {
 impl Radau {
     /// For `n` coordinates.
     pub fn new(n: usize) -> Self {
-        Self::with_newton(n, NEWTON)
-    }
-
-    /// For `n` coordinates of a system with belt friction.
-    pub fn on_belts(n: usize) -> Self {
-        Self::with_newton(n, NEWTON_ON_BELTS * NEWTON)
-    }
-
-    fn with_newton(n: usize, newton: f64) -> Self {
         let zero = vec![0.0; n];
         let stages = || [zero.clone(), zero.clone(), zero.clone()];
         Self {
-            newton,
+            newton: NEWTON,
             a: zero.clone(),
             zq: stages(),
             zv: stages(),
@@ -129,6 +120,14 @@ impl Radau {
                 a: zero.clone(),
             },
             start_a: zero,
+        }
+    }
+
+    /// The method for systems with belt friction.
+    pub fn on_belts(self) -> Self {
+        Self {
+            newton: NEWTON_ON_BELTS * NEWTON,
+            ..self
         }
     }
 

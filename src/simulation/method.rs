@@ -59,10 +59,11 @@ pub(super) fn choose<const D: usize>(
     };
     let n = system.coordinates();
     let radau = || -> Box<dyn OneStepMethod> {
+        let radau = Radau::new(n);
         Box::new(if system.has_belt_friction() {
-            Radau::on_belts(n)
+            radau.on_belts()
         } else {
-            Radau::new(n)
+            radau
         })
     };
     let named = scene.method.integrator;

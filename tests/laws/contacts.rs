@@ -66,12 +66,6 @@ fn spin(run: &mut Run, marker: &str) -> f64 {
     run.read(&if is_plane { name } else { name + "[3]" })
 }
 
-/// Energy that is there less what went in, with what was dissipated, J.
-fn balance(run: &mut Run) -> f64 {
-    let stored = run.read("energy.spring") + run.read("energy.kinetic") + run.read("energy.strain");
-    stored + run.read("energy.dissipated") - run.read("energy.input")
-}
-
 /// Bodies that nothing holds collide, with damping and friction: a ball hits another one beside its middle, a corner hits a face. All of
 /// them keep linear and angular momentum, and what is lost of the energy has been dissipated.
 #[test]
@@ -123,7 +117,7 @@ fn what_collides_keeps_momenta_and_the_books_of_energy() {
             ),
         ]);
         let mut run = Run::started(&scene(setting, &bodies, &loads));
-        let (momenta, energy) = (run.momenta(), balance(&mut run));
+        let (momenta, energy) = (run.momenta(), run.balance());
         let mut touched = 0.0_f64;
         for k in 1..=30 {
             run.step(0.01 * f64::from(k));
@@ -131,7 +125,7 @@ fn what_collides_keeps_momenta_and_the_books_of_energy() {
             for (before, now) in momenta.iter().zip(run.momenta()) {
                 is_near(now, *before, 1e-9);
             }
-            is_near(balance(&mut run), energy, 1e-6);
+            is_near(run.balance(), energy, 1e-6);
         }
         let lost = run.read("energy.dissipated");
         assert!(touched > 1.0 && lost > 1.0, "{touched} {lost}");

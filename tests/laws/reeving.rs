@@ -24,13 +24,6 @@ fn read(scene: &mut Value, output: Value) {
     outputs.push(output);
 }
 
-/// Energy that went in less energy that was dissipated, and energy that is there, J.
-fn balance(run: &mut Run) -> f64 {
-    let supplied = run.read("energy.input") - run.read("energy.dissipated");
-    let stored = run.read("energy.gravity") + run.read("energy.spring");
-    run.read("energy.kinetic") + stored - supplied
-}
-
 /// Two masses on a rope over a fixed point. Their mean moves like those on a rigid rope, `(m1 - m2) g t`, and the elongation oscillates about
 /// `T l / EA`, with the static tension of Atwood's machine.
 #[test]
@@ -120,13 +113,13 @@ fn a_pulley_on_a_rope_moves_on_an_ellipse() {
         is_near(tension, 2.0 * G / (2.0 * angle.cos()), 1e-4);
         // Let go where it is drawn, it oscillates on the ellipse with the energy that it has.
         let mut run = Run::started(&scene);
-        let before = balance(&mut run);
+        let before = run.balance();
         for t in [0.2, 0.5, 0.9] {
             run.step(t);
             let [first, second] = path(&mut run);
             let stretched = length * (1.0 + run.read("rope.tension") / 1e7);
             is_near(first + second, stretched, 1e-8);
-            is_near(balance(&mut run), before, 1e-5);
+            is_near(run.balance(), before, 1e-5);
         }
     }
 }
@@ -183,7 +176,7 @@ fn a_taut_rope_is_damped_like_an_oscillator() {
             is_near(run.read("mass.c.position[2]"), -2.0 - elongation, 1e-8);
         }
         is_near(
-            balance(&mut run),
+            run.balance(),
             2.0 * -G * 5.0 * 1.01 + 0.5 * stiffness * 0.0004,
             1e-6,
         );
@@ -216,12 +209,12 @@ fn a_mass_unwinds_a_drum() {
         read(&mut scene, json!({"kind": "position", "marker": "mass.c"}));
         read(&mut scene, json!({"kind": "angle", "joint": "axle"}));
         let mut run = Run::started(&scene);
-        let before = balance(&mut run);
+        let before = run.balance();
         run.step(0.9);
         let [down, turned] = unwound(0.9, [mass, inertia, radius, stiffness]);
         is_near(run.read("mass.c.position[2]"), -1.0 - down, 1e-7);
         is_near(run.read("axle.angle"), turned, 1e-6);
-        is_near(balance(&mut run), before, 1e-6);
+        is_near(run.balance(), before, 1e-6);
     }
 }
 
@@ -274,7 +267,7 @@ fn a_winch_lifts_a_tackle_by_half_of_what_it_hauls_in() {
                 run.set("rope.rest_length", course(0.0));
             }
             run.start();
-            let before = balance(&mut run);
+            let before = run.balance();
             for k in 1..=300 {
                 let t = 0.01 * f64::from(k);
                 if by_input {
@@ -295,7 +288,7 @@ fn a_winch_lifts_a_tackle_by_half_of_what_it_hauls_in() {
                 0.5 * 50.0 * G * half / (half * half - 0.04).sqrt(),
                 1e-3,
             );
-            is_near(balance(&mut run), before, 1e-4);
+            is_near(run.balance(), before, 1e-4);
         }
     }
 }

@@ -57,6 +57,13 @@ impl Run {
         self.read("energy.kinetic") + self.read("energy.strain")
     }
 
+    /// Energy that is there and energy that was dissipated, less what went in, of a scene that reads its energy and its work, J: it stays.
+    pub fn balance(&mut self) -> f64 {
+        let kept = ["kinetic", "strain", "gravity", "spring", "dissipated"];
+        let kept = kept.map(|of| self.read(&format!("energy.{of}")));
+        kept.iter().sum::<f64>() - self.read("energy.input")
+    }
+
     /// Outputs whose names have the word momentum.
     pub fn momenta(&mut self) -> Vec<f64> {
         let names = self.names().into_iter();

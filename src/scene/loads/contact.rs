@@ -5,7 +5,7 @@ use crate::bodies::PANELS;
 use crate::bodies::{Marker, RigidRod};
 use crate::elements::Element;
 use crate::math::quadrature::GAUSS_5;
-use crate::math::space::{Vector, components, vector};
+use crate::math::space::{components, vector};
 use crate::scene::assemble::unit;
 use crate::scene::description::Surface;
 use crate::scene::resolved::{BodyReference, Place, Rigid};
@@ -375,26 +375,10 @@ impl<const D: usize> Builder<'_, D> {
             return given;
         }
         let solid = self.resolved.solid(rigid);
-        let point = |of: Vector<D>| vector(solid.along(components(&of)));
-        let direction = |of: Vector<D>| vector(solid.directed(components(&of)));
-        match given {
-            ContactSurface::Plane {
-                point: foot,
-                normal,
-            } => ContactSurface::Plane {
-                point: point(foot),
-                normal: direction(normal),
-            },
-            ContactSurface::Round {
-                center,
-                axis,
-                radius,
-            } => ContactSurface::Round {
-                center: point(center),
-                axis: axis.map(direction),
-                radius,
-            },
-        }
+        given.map(
+            |point| vector(solid.along(components(point))),
+            |direction| vector(solid.directed(components(direction))),
+        )
     }
 
     /// The Gauss points of the elements of a cable, or of even parts of one that does not bend.

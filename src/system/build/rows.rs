@@ -168,10 +168,7 @@ pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>
         }
     };
     for load in parts.loads.iter().chain(&parts.initial_loads) {
-        tie(&owners(
-            load.ends().iter().flat_map(Attachment::nodes).collect(),
-        ));
-        for nodes in load.couplings(&parts.bodies) {
+        for nodes in load.parts(&parts.bodies) {
             tie(&owners(nodes));
         }
     }

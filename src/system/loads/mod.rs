@@ -151,13 +151,8 @@ pub trait ForceElement<const D: usize>: Clone {
         false
     }
 
-    /// Returns the ends between which the tangent couples.
+    /// Returns the ends that it acts on; none along a body.
     fn ends(&self) -> Vec<Attachment<D>> {
-        Vec::new()
-    }
-
-    /// Returns groups of nodes that the tangent couples besides the ends.
-    fn couplings(&self, _bodies: &Bodies<D>) -> Vec<Vec<usize>> {
         Vec::new()
     }
 
@@ -166,7 +161,8 @@ pub trait ForceElement<const D: usize>: Clone {
         false
     }
 
-    /// Returns the nodes on which the forces depend and act, of every part of the load that depends on no others.
+    /// Returns the nodes on which the forces depend and act, of every part of the load that depends on no others: those that its tangent
+    /// couples.
     fn parts(&self, _bodies: &Bodies<D>) -> Vec<Vec<usize>> {
         vec![self.ends().iter().flat_map(Attachment::nodes).collect()]
     }
@@ -301,12 +297,6 @@ macro_rules! loads {
             fn ends(&self) -> Vec<Attachment<D>> {
                 match self {
                     $(Self::$kind(load) => load.ends(),)*
-                }
-            }
-
-            fn couplings(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-                match self {
-                    $(Self::$kind(load) => load.couplings(bodies),)*
                 }
             }
 

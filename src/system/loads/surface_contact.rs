@@ -30,9 +30,9 @@ impl SurfaceContact {
         let patch = self.on.patch(at.bodies);
         let of = &patch.elements()[element];
         let (x, v) = (patch.element(element, at.x), patch.element(element, at.v));
-        let mut found = false;
+        let (surface, mut found) = (self.law.surface.lift(), false);
         let touches = std::array::from_fn(|place| {
-            let under = self.law.depth(&of.at_place(&x, place));
+            let under = self.law.depth(&surface, &of.at_place(&x, place));
             let touch = under.map(|under| self.law.touch(under, of.at_place(&v, place)));
             found |= touch.is_some();
             touch
@@ -102,7 +102,7 @@ impl<const D: usize> ForceElement<D> for SurfaceContact {
             let [mut stiff, mut damped] = [[Matrix3::zeros(); AREA_PLACES]; 2];
             for (place, touch) in touches.iter().enumerate() {
                 if let Some(touch) = touch {
-                    [stiff[place], damped[place]] = self.law.tangents(touch, |axis| *axis);
+                    [stiff[place], damped[place]] = self.law.tangents(&self.law.surface, touch);
                 }
             }
             let stiff = element.area_matrix(&stiff);

@@ -169,6 +169,12 @@ function shape(body, least) {
   return new ConvexGeometry(around);
 }
 
+/** Stands an object where the frame of a rigid or reduced body does. */
+function follow(object, body) {
+  object.position.copy(body.vector(0, 0));
+  object.quaternion.copy(body.stance(0));
+}
+
 /** A rigid body. */
 class Rigid {
   constructor(body, size) {
@@ -213,8 +219,7 @@ class Rigid {
   }
 
   update() {
-    this.object.position.copy(this.body.vector(0, 0));
-    this.object.quaternion.copy(this.body.stance(0));
+    follow(this.object, this.body);
   }
 }
 
@@ -266,8 +271,7 @@ class Skin {
       position.array[k] = sum;
     }
     position.needsUpdate = true;
-    this.object.position.copy(body.vector(0, 0));
-    this.object.quaternion.copy(body.stance(0));
+    follow(this.object, body);
   }
 }
 
@@ -293,9 +297,7 @@ class Bed {
   }
 
   update() {
-    if (!this.body) return;
-    this.object.position.copy(this.body.vector(0, 0));
-    this.object.quaternion.copy(this.body.stance(0));
+    if (this.body) follow(this.object, this.body);
   }
 }
 

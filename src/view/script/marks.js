@@ -113,10 +113,7 @@ export class Marks {
     (motion.surfaces ?? []).forEach(({ name, body, lines }) => {
       const line = lines[lines.length >> 1];
       const [point, owner] = [line[line.length >> 1], motion.bodies[body]];
-      add(name, palette.faint, () => {
-        const place = new Vector3(...point);
-        return owner ? place.applyQuaternion(owner.stance(0)).add(owner.vector(0, 0)) : place;
-      }, 3);
+      add(name, palette.faint, () => (owner ? motion.pointOf(owner, { point }) : new Vector3(...point)), 3);
     });
     const markers = motion.markers.map((marker, number) => ({ marker, number }));
     if (markers.length <= MOST_NAMES) {

@@ -62,6 +62,15 @@ impl RigidFrame {
         axes.fold(Vector::zeros(), |sum, (axis, part)| sum + axis * *part)
     }
 
+    /// Where the point of the body with these components is, m.
+    pub fn position<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        of: &Vector<D, N>,
+    ) -> Vector<D, N> {
+        Vector::from(x[self.node][0]) + self.vector(x, of)
+    }
+
     /// The point of the body that is at a point, m.
     pub fn point<const D: usize, N: Number>(
         &self,

@@ -9,20 +9,20 @@ use crate::system::loads::one_sided_spring::Compression;
 
 /// Surface of a contact, fixed in the frame of the scene or in that of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ContactSurface<const D: usize = 2> {
+pub enum ContactSurface<const D: usize = 2, N = f64> {
     /// All that is below a point along a unit vector.
     Plane {
         /// The point, m.
-        point: Vector<D>,
+        point: Vector<D, N>,
         /// The unit vector.
-        normal: Vector<D>,
+        normal: Vector<D, N>,
     },
     /// A circle or a sphere; a cylinder where there is an axis.
     Round {
         /// A point in the middle, m.
-        center: Vector<D>,
+        center: Vector<D, N>,
         /// Unit vector along the axis.
-        axis: Option<Vector<D>>,
+        axis: Option<Vector<D, N>>,
         /// Radius, m.
         radius: f64,
     },
@@ -56,20 +56,64 @@ pub(in crate::system::loads) struct Touch<const D: usize, N> {
 }
 
 impl<const D: usize> ContactSurface<D> {
-    /// How far a point is below, m, and the unit vector out of the surface there; none in the middle of what is round.
-    fn under<N: Number>(&self, at: &Vector<D, N>) -> Option<(N, Vector<D, N>)> {
+    /// The surface with its points and its directions elsewhere.
+    pub fn map<N>(
+        &self,
+        place: impl Fn(&Vector<D>) -> Vector<D, N>,
+        turned: impl Fn(&Vector<D>) -> Vector<D, N>,
+    ) -> ContactSurface<D, N> {
         match self {
-            Self::Plane { point, normal } => {
-                let normal = normal.map(N::of);
-                Some((normal.dot(&(point.map(N::of) - at)), normal))
+            Self::Plane { point, normal } => ContactSurface::Plane {
+                point: place(point),
+                normal: turned(normal),
+            },
+            Self::Round {
+                center,
+                axis,
+                radius,
+            } => ContactSurface::Round {
+                center: place(center),
+                axis: axis.as_ref().map(turned),
+                radius: *radius,
+            },
+        }
+    }
+
+    /// Converts it to constants of another number type.
+    #[inline(always)]
+    pub(in crate::system::loads) fn lift<N: Number>(&self) -> ContactSurface<D, N> {
+        let same = |of: &Vector<D>| of.map(N::of);
+        self.map(same, same)
+    }
+
+    /// How the unit vector out of the surface rotates with the point, 1/m.
+    fn curvature(&self, depth: f64, normal: &Vector<D>) -> SMatrix<f64, D, D> {
+        match self {
+            Self::Plane { .. } => SMatrix::zeros(),
+            Self::Round { axis, radius, .. } => {
+                let mut across = SMatrix::identity() - normal * normal.transpose();
+                if let Some(axis) = axis {
+                    across -= axis * axis.transpose();
+                }
+                across / (radius - depth)
             }
+        }
+    }
+}
+
+impl<const D: usize, N: Number> ContactSurface<D, N> {
+    /// How far a point is below, m, and the unit vector out of the surface there; none in the middle of what is round.
+    #[inline(always)]
+    fn under(&self, at: &Vector<D, N>) -> Option<(N, Vector<D, N>)> {
+        match self {
+            Self::Plane { point, normal } => Some((normal.dot(&(point - at)), *normal)),
             Self::Round {
                 center,
                 axis,
                 radius,
             } => {
-                let mut arm = at - center.map(N::of);
-                if let Some(axis) = axis.map(|axis| axis.map(N::of)) {
+                let mut arm = at - center;
+                if let Some(axis) = axis {
                     arm -= axis * axis.dot(&arm);
                 }
                 let square = arm.norm_squared();
@@ -80,35 +124,18 @@ impl<const D: usize> ContactSurface<D> {
             }
         }
     }
-
-    /// How the unit vector out of the surface rotates with the point, 1/m, where the axes of the surface stand so.
-    fn curvature(
-        &self,
-        depth: f64,
-        normal: &Vector<D>,
-        stand: impl Fn(&Vector<D>) -> Vector<D>,
-    ) -> SMatrix<f64, D, D> {
-        match self {
-            Self::Plane { .. } => SMatrix::zeros(),
-            Self::Round { axis, radius, .. } => {
-                let mut across = SMatrix::identity() - normal * normal.transpose();
-                if let Some(axis) = axis.as_ref().map(stand) {
-                    across -= axis * axis.transpose();
-                }
-                across / (radius - depth)
-            }
-        }
-    }
 }
 
 impl<const D: usize> ContactLaw<D> {
-    /// How deep what is about a point is below the surface, m, and the unit vector out of the surface; none where it does not touch.
+    /// How deep what is about a point is below the surface, m, and the unit vector out of it; none where it does not touch. The surface is
+    /// that of the law as it stands at this instant.
     #[inline(always)]
     pub(in crate::system::loads) fn depth<N: Number>(
         &self,
+        surface: &ContactSurface<D, N>,
         position: &Vector<D, N>,
     ) -> Option<(N, Vector<D, N>)> {
-        let (depth, normal) = self.surface.under(position)?;
+        let (depth, normal) = surface.under(position)?;
         let depth = depth + N::of(self.radius);
         (depth.plain() > 0.0).then_some((depth, normal))
     }
@@ -144,19 +171,19 @@ impl<const D: usize> ContactLaw<D> {
         touch.normal * push - touch.slip * (N::of(self.friction) * push / touch.speed)
     }
 
-    /// Stiffness and damping of a point that touches, where vectors in the frame of the surface stand so. A part is left out: how friction
-    /// follows from the depth. It is not symmetric, and acts one way, from the normal force to friction, so that iterations find it.
+    /// Stiffness and damping of a point that touches a surface. A part is left out: how friction follows from the depth. It is not
+    /// symmetric, and acts one way, from the normal force to friction, so that iterations find it.
     pub(in crate::system::loads) fn tangents(
         &self,
+        surface: &ContactSurface<D>,
         touch: &Touch<D, f64>,
-        stand: impl Fn(&Vector<D>) -> Vector<D>,
     ) -> [SMatrix<f64, D, D>; 2] {
         let (push, normal) = (touch.compression.force(), &touch.normal);
         let [by_depth, by_rate] = touch.compression.slopes();
         let along: SMatrix<f64, D, D> = normal * normal.transpose();
         // A round surface pushes aside.
         let depth = touch.compression.depth - self.radius;
-        let curved = self.surface.curvature(depth, normal, stand) * push;
+        let curved = surface.curvature(depth, normal) * push;
         let mut damped = along * by_rate;
         if self.friction > 0.0 {
             let way = touch.slip / touch.speed;

@@ -56,28 +56,39 @@ struct PlaceTouch<const D: usize, N: Number> {
     ends: [Attachment<D, N>; 2],
 }
 
-impl<const D: usize> Contact<D> {
+/// What all places of a contact share at an instant.
+struct Present<'a, const D: usize, N: Number> {
+    at: Instant<'a, D, N>,
+    /// Surface as it stands in the frame of the scene.
+    surface: ContactSurface<D, N>,
     /// The body, if a winch pays it out.
-    fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
-        if self.is_distributed() {
-            at.paid_out(self.first_node())
-        } else {
-            None
-        }
-    }
+    paid_out: Option<PaidOut<'a, D, N>>,
+}
 
-    /// Depth of a position and the unit vector out of the surface there; none above the surface.
-    #[inline(always)]
-    fn depth<N: Number>(
-        &self,
-        x: &[Node<D, N>],
-        position: &Vector<D, N>,
-    ) -> Option<(N, Vector<D, N>)> {
-        let Some(frame) = &self.surface_frame else {
-            return self.law.depth(position);
-        };
-        let (depth, normal) = self.law.depth(&frame.components(x, position))?;
-        Some((depth, frame.vector(x, &normal)))
+impl<const D: usize, N: Number> Present<'_, D, N> {
+    /// Length now over the reference length.
+    fn longer(&self) -> N {
+        length_ratio(self.paid_out.as_ref())
+    }
+}
+
+impl<const D: usize> Contact<D> {
+    fn present<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Present<'a, D, N> {
+        let surface = &self.law.surface;
+        let paid_out = self
+            .is_distributed()
+            .then(|| at.paid_out(self.first_node()));
+        Present {
+            at,
+            surface: match &self.surface_frame {
+                None => surface.lift(),
+                Some(frame) => surface.map(
+                    |point| frame.position(at.x, &point.map(N::of)),
+                    |direction| frame.vector(at.x, &direction.map(N::of)),
+                ),
+            },
+            paid_out: paid_out.flatten(),
+        }
     }
 
     /// How a place touches; none above the surface.
@@ -85,11 +96,11 @@ impl<const D: usize> Contact<D> {
     fn touch<N: Number>(
         &self,
         marker: &Marker<N>,
-        at: Instant<'_, D, N>,
-        paid_out: Option<&PaidOut<'_, D, N>>,
+        now: &Present<'_, D, N>,
     ) -> Option<PlaceTouch<D, N>> {
+        let at = now.at;
         let position = marker.position(at.x);
-        let (depth, normal) = self.depth(at.x, &position)?;
+        let (depth, normal) = self.law.depth(&now.surface, &position)?;
         // A push along the normal alone has the same moment from the middle.
         let rubs = self.law.friction > 0.0;
         let arm = if rubs { self.law.radius } else { 0.0 };
@@ -102,7 +113,7 @@ impl<const D: usize> Contact<D> {
         ];
         let [surface, touching] = ends.each_ref().map(|end| end.velocity(at.v));
         let mut velocity: Vector<D, N> = touching - surface;
-        if let (Some(paid_out), Some(place)) = (paid_out, marker.element) {
+        if let (Some(paid_out), Some(place)) = (&now.paid_out, marker.element) {
             velocity += paid_out.convective_velocity(place, marker.direction(at.x));
         }
         let touch = self.law.touch((depth, normal), velocity);
@@ -110,13 +121,8 @@ impl<const D: usize> Contact<D> {
     }
 
     /// Force on a point, N or N/m.
-    fn force<N: Number>(
-        &self,
-        marker: &Marker<N>,
-        at: Instant<'_, D, N>,
-        paid_out: Option<&PaidOut<'_, D, N>>,
-    ) -> Vector<D, N> {
-        let touch = self.touch(marker, at, paid_out);
+    fn force<N: Number>(&self, marker: &Marker<N>, now: &Present<'_, D, N>) -> Vector<D, N> {
+        let touch = self.touch(marker, now);
         touch.map_or_else(Vector::zeros, |on| self.law.force(&on.touch))
     }
 
@@ -137,11 +143,9 @@ impl<const D: usize> Contact<D> {
         segment: usize,
     ) -> Values<D, N> {
         let places = &self.places[segment * GAUSS_5.len()..];
-        let paid_out = self.paid_out(at);
-        let longer = length_ratio(paid_out.as_ref());
-        std::array::from_fn(|k| {
-            self.force(&places[k].marker.lift(), at, paid_out.as_ref()) * longer
-        })
+        let now = self.present(at);
+        let longer = now.longer();
+        std::array::from_fn(|k| self.force(&places[k].marker.lift(), &now) * longer)
     }
 
     /// The whole force, N.
@@ -160,10 +164,8 @@ impl<const D: usize> Contact<D> {
             before >= s * length
         });
         let place = place.or(self.places.last());
-        let paid_out = self.paid_out(at);
-        place.map_or_else(Vector::zeros, |place| {
-            self.force(&place.marker, at, paid_out.as_ref())
-        })
+        let now = self.present(at);
+        place.map_or_else(Vector::zeros, |place| self.force(&place.marker, &now))
     }
 
     /// Calls with both ends of every place that touches, and the force on the second one, N.
@@ -173,10 +175,10 @@ impl<const D: usize> Contact<D> {
         places: std::ops::Range<usize>,
         mut call: impl FnMut(&[Attachment<D, N>; 2], Vector<D, N>),
     ) {
-        let paid_out = self.paid_out(at);
-        let longer = length_ratio(paid_out.as_ref());
+        let now = self.present(at);
+        let longer = now.longer();
         for place in &self.places[places] {
-            if let Some(on) = self.touch(&place.marker.lift(), at, paid_out.as_ref()) {
+            if let Some(on) = self.touch(&place.marker.lift(), &now) {
                 let force = self.law.force(&on.touch) * (N::of(place.weight) * longer);
                 call(&on.ends, force);
             }
@@ -200,13 +202,13 @@ impl<const D: usize> Contact<D> {
 
     /// The sum over all points of what touching takes or holds there, by their weights.
     fn sum<N: Number>(&self, at: Instant<'_, D, N>, of: impl Fn(&Touch<D, N>) -> N) -> N {
-        let (mut sum, paid_out) = (N::of(0.0), self.paid_out(at));
+        let (mut sum, now) = (N::of(0.0), self.present(at));
         for place in &self.places {
-            if let Some(on) = self.touch(&place.marker.lift(), at, paid_out.as_ref()) {
+            if let Some(on) = self.touch(&place.marker.lift(), &now) {
                 sum += of(&on.touch) * N::of(place.weight);
             }
         }
-        sum * length_ratio(paid_out.as_ref())
+        sum * now.longer()
     }
 
     fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
@@ -225,14 +227,6 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
             touching.chain(surface.iter().copied()).collect()
         });
         nodes.collect()
-    }
-
-    /// Elements of a body couple their nodes already; those of a surface are coupled with each.
-    fn couplings(&self, bodies: &Bodies<D>) -> Vec<Vec<usize>> {
-        match self.surface_frame {
-            Some(_) => self.parts(bodies),
-            None => Vec::new(),
-        }
     }
 
     /// Adds the forces of one of these.
@@ -262,18 +256,13 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
     }
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
-        let paid_out = self.paid_out(at);
-        let longer = length_ratio(paid_out.as_ref());
+        let now = self.present(at);
         for place in &self.places {
-            let Some(PlaceTouch { touch, ends }) = self.touch(&place.marker, at, paid_out.as_ref())
-            else {
+            let Some(PlaceTouch { touch, ends }) = self.touch(&place.marker, &now) else {
                 continue;
             };
-            let weight = place.weight * longer;
-            let [stiff, damped] = self.law.tangents(&touch, |axis| match &self.surface_frame {
-                Some(frame) => frame.vector(at.x, axis),
-                None => *axis,
-            });
+            let weight = place.weight * now.longer();
+            let [stiff, damped] = self.law.tangents(&now.surface, &touch);
             between(&ends, damped * weight, 0, &mut *damping);
             // The normal force acts on both bodies at the middle of what touches as well.
             let surface = self.surface_frame.map(|frame| {
@@ -291,9 +280,10 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
     /// Returns the power of touching material that a winch pays out, and the dissipated power, W.
     fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let mut comes_in = N::of(0.0);
-        if let Some(paid_out) = self.paid_out(at) {
+        let now = self.present(at);
+        if let Some(paid_out) = &now.paid_out {
             let end = Vector::from(at.x[paid_out.winch.end()][0]);
-            if let Some((depth, _)) = self.depth(at.x, &end) {
+            if let Some((depth, _)) = self.law.depth(&now.surface, &end) {
                 comes_in = self.law.spring.energy(depth) * paid_out.speed();
             }
         }
