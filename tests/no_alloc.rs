@@ -184,20 +184,24 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
           "accuracy": { "relative_tolerance": 1.0e-4 },
           "method": { METHOD } }"#;
 
-/// A block that stops and rotates back under friction, and one that a latch catches.
+/// A block that stops and rotates back under friction, one that a latch catches, and one that falls, slides and sticks.
 const EVENTS: &str = r#"{ "name": "events", "dimension": 2,
           "bodies": [
             { "name": "block", "element": "rigid", "mass": 2.0, "inertia": 0.1, "position": [0.0, 0.0],
                "motion": { "velocity": [1.0, 0.0] }, "markers": { "c": [0.0, 0.0] } },
             { "name": "other", "element": "rigid", "mass": 2.0, "inertia": 0.1, "position": [0.0, 1.0],
-               "motion": { "velocity": [1.0, 0.0] }, "markers": { "c": [0.0, 0.0] } } ],
+               "motion": { "velocity": [1.0, 0.0] }, "markers": { "c": [0.0, 0.0] } },
+            { "name": "crate", "element": "rigid", "mass": 2.0, "inertia": 0.1, "position": [0.0, -1.0],
+               "motion": { "velocity": [0.5, -1.0] }, "markers": { "c": [0.0, 0.0] } } ],
           "joints": [
             { "name": "guide", "kind": "prismatic", "markers": ["ground", "block.c"], "direction": [1.0, 0.0] },
             { "name": "rail", "kind": "prismatic", "markers": ["ground", "other.c"], "direction": [1.0, 0.0] } ],
           "latches": [ { "name": "catch", "joint": "rail", "at": 0.13 } ],
           "loads": [
             { "name": "brake", "kind": "joint_friction", "joint": "guide", "force": 3.0, "static_ratio": 1.2, "stribeck_speed": 0.1 },
-            { "name": "spring", "kind": "joint_spring", "joint": "guide", "stiffness": 400.0 } ],
+            { "name": "spring", "kind": "joint_spring", "joint": "guide", "stiffness": 400.0 },
+            { "name": "floor", "kind": "contact", "marker": "crate.c", "surface": { "plane": { "point": [0.0, -1.02], "normal": [0.0, 1.0] } },
+               "stiffness": 4000.0, "damping": 0.5, "friction": 0.4, "slip_velocity": 0.01, "tangential_stiffness": 3000.0, "tangential_damping": 30.0 } ],
           "inputs": [ { "kind": "friction", "load": "brake" }, { "kind": "latch", "latch": "catch" } ],
           "outputs": [ { "kind": "load_force", "load": "brake" }, { "kind": "latch_force", "latch": "catch" }, { "kind": "work" } ],
           "accuracy": { "relative_tolerance": 1.0e-4 },

@@ -116,6 +116,7 @@ impl<const D: usize> System<D> {
             releases,
             latches: Vec::new(),
             frictions: Vec::new(),
+            sticking: Vec::new(),
             slides: Vec::new(),
             gravity: parts.gravity,
             weight: Vec::new(),
@@ -280,6 +281,7 @@ impl<const D: usize> System<D> {
         }
         self.latches = self.find_latches();
         self.frictions = self.find_frictions();
+        self.sticking = self.find_sticking();
         self.tree = Tree::of(self);
     }
 }

@@ -57,6 +57,7 @@ use joints::latch::LatchPlace;
 use joints::{Constraint, JointEquations, Linear};
 use loads::{AppliedLoad, ForceElement as _};
 use motion::prices::Prices;
+use motion::sticking::StickPlace;
 use motion::tree::Tree;
 
 /// Everything about a system that does not change in time.
@@ -94,6 +95,8 @@ pub struct System<const D: usize = 2> {
     latches: Vec<LatchPlace>,
     /// Frictions of joints.
     frictions: Vec<FrictionPlace>,
+    /// Points of contacts that may stick.
+    sticking: Vec<StickPlace>,
     /// For every slide, its constraint.
     slides: Vec<usize>,
     gravity: Vector<D>,

@@ -3,6 +3,7 @@
 use super::joints::Release;
 use super::joints::friction::FrictionChange;
 use super::joints::latch::HeldMotion;
+use super::loads::{Grip, StickMotion};
 use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
@@ -37,6 +38,8 @@ pub struct Workspace<const D: usize = 2> {
     pub(super) latches: Vec<LatchWatch>,
     /// Motions of frictions over the last step, `[frictions]`.
     pub(super) frictions: Vec<FrictionWatch>,
+    /// Points of contacts that may stick over the last step, `[sticking]`.
+    pub(super) sticking: Vec<StickWatch<D>>,
 }
 
 /// A latch before and after a step, and whether it is to close or to open.
@@ -55,6 +58,15 @@ pub(super) struct FrictionWatch {
     /// Coordinate where it was measured last, m or rad.
     pub value: f64,
     pub change: Option<FrictionChange>,
+}
+
+/// A point of a contact before and after a step, and what it is to change to.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StickWatch<const D: usize> {
+    pub motions: [StickMotion<D>; 2],
+    /// Where it was measured last.
+    pub now: StickMotion<D>,
+    pub change: Option<Grip>,
 }
 
 /// Configuration and rates of a system; the first part is what they follow from. [`System::forward_kinematics`] and
@@ -243,6 +255,7 @@ impl<const D: usize> Workspace<D> {
             before: system.blank_state(0.0),
             latches: vec![LatchWatch::default(); system.latches.len()],
             frictions: vec![FrictionWatch::default(); system.frictions.len()],
+            sticking: vec![StickWatch::default(); system.sticking.len()],
         }
     }
 

@@ -52,9 +52,10 @@ const TOGETHER: [&str; 7] = [
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
 /// whose element is chosen says is what the element says that it becomes (`elements.rs`). Plates and shells have theirs in `patches.rs` and `tests/laws/plate_sections.rs`, latches in
-/// `tests/laws/latches.rs`, friction of joints in `tests/laws/friction.rs`. What needs a file has its claims in `reduced.rs`,
+/// `tests/laws/latches.rs`, friction of joints in `tests/laws/friction.rs`, the largest one of contacts that stick in
+/// `tests/laws/sticking.rs`. What needs a file has its claims in `reduced.rs`,
 /// what reduces lines to modes in `tests/laws/modal_lines.rs` and `planar_modes.rs`.
-const OWN: [&str; 39] = [
+const OWN: [&str; 40] = [
     "about.",
     "accuracy.notes",
     "method.work_limit",
@@ -80,6 +81,7 @@ const OWN: [&str; 39] = [
     "inputs{latch}",
     "inputs{friction}",
     "loads{joint_friction}",
+    "loads{contact}.static_ratio",
     "outputs{latch_force}",
     "outputs{latch_torque}",
     "outputs{latch_state}",

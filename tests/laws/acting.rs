@@ -204,10 +204,12 @@ fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
                     },
                     friction,
                     slip_velocity: 2.0,
+                    sticking: None,
                     radius: 0.0,
                 },
                 surface_frame: None,
                 rolling: None,
+                kept: None,
             })),
             angles: Vec::new(),
         })

@@ -75,6 +75,7 @@ mod spinning;
 mod sprung;
 mod spun_beams;
 mod spun_rods;
+mod sticking;
 mod stiff_starts;
 mod tangents;
 mod turned_bushings;

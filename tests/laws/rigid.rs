@@ -6,11 +6,11 @@ use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
 use flexbody::system::loads::{
     AppliedLoad, Contact, ContactLaw, ContactPoint, ContactSurface, OneSidedSpring, RigidFrame,
-    Spring,
+    Spring, TangentialSpring,
 };
 use flexbody::system::{
-    Attachment, Derivatives, DrivenSystem, Dynamics, Evaluation, Parts, Signal, State, System,
-    Workspace,
+    Attachment, Derivatives, Drive, DrivenSystem, Dynamics, Evaluation, Parts, Signal, State,
+    System, Workspace,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -321,13 +321,38 @@ fn tethered(mechanism: &Mechanism, chance: &mut Chance) -> Parts<3> {
         }));
     }
     for body in 1..mechanism.bodies.len() {
-        parts.loads.push(touching(mechanism, body, chance));
+        let touching = touching(mechanism, body, chance);
+        let sticking = sticking(touching.clone(), &mut parts.drives, chance);
+        let loads = [touching, sticking].map(|of| AppliedLoad::Contact(Box::new(of)));
+        parts.loads.extend(loads);
     }
     parts
 }
 
+/// The contact, of a point that sticks to the surface near its place in the frame of the surface.
+fn sticking(mut of: Contact<3>, drives: &mut Vec<Drive>, chance: &mut Chance) -> Contact<3> {
+    let (point, normal) = match of.law.surface {
+        ContactSurface::Plane { point, normal } => (point, normal),
+        ContactSurface::Round { center, .. } => (center + V::x() * 2.0, V::x()),
+    };
+    of.law.surface = ContactSurface::Plane { point, normal };
+    of.kept = Some(drives.len());
+    of.law.friction = 0.5;
+    of.law.radius = 0.0;
+    of.rolling = None;
+    of.law.sticking = Some(TangentialSpring {
+        stiffness: 20.0,
+        damping: 0.0,
+        static_ratio: 1.0,
+    });
+    let end = point + chance.vector();
+    let kept = end.iter().copied().chain([1.0]);
+    drives.extend(kept.map(|value| Drive::Function(Function::constant(value))));
+    of
+}
+
 /// Contact of a place of a body with a surface of the one before it, deep below.
-fn touching(mechanism: &Mechanism, body: usize, chance: &mut Chance) -> AppliedLoad<3> {
+fn touching(mechanism: &Mechanism, body: usize, chance: &mut Chance) -> Contact<3> {
     let at = chance.vector();
     let owner = &mechanism.bodies[body - 1];
     let place = owner.axes.transpose() * (mechanism.bodies[body].point(&at) - owner.center);
@@ -349,7 +374,7 @@ fn touching(mechanism: &Mechanism, body: usize, chance: &mut Chance) -> AppliedL
         let center = Marker::framed(of, 2 * of, [0.0; 3], [1.0, 0.0, 0.0]);
         Some(RigidFrame::of(&center))
     };
-    AppliedLoad::Contact(Box::new(Contact {
+    Contact {
         places: vec![ContactPoint {
             marker: Marker::framed(body, 2 * body, at.into(), [1.0, 0.0, 0.0]),
             weight: 1.0,
@@ -362,11 +387,13 @@ fn touching(mechanism: &Mechanism, body: usize, chance: &mut Chance) -> AppliedL
             },
             friction: 0.0,
             slip_velocity: 0.0,
+            sticking: None,
             radius: 0.3,
         },
         surface_frame: frame(body - 1),
         rolling: frame(body),
-    }))
+        kept: None,
+    }
 }
 
 #[test]

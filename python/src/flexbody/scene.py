@@ -4364,12 +4364,26 @@ class ContactLoad(Part):
     slip_velocity: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     With friction only: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. A contact that
-    would stick creeps at a fraction of it.
+    would stick creeps at a fraction of it, unless `tangential_stiffness` is given.
+    """
+    static_ratio: Annotated[StrictFloat | None, Field(ge=1.0)] = None
+    """
+    With `tangential_stiffness` only: largest friction while the marker sticks, in parts of `mu N`; 1 by default.
     """
     surface_of: StrictStr | None = None
     """
     Name of the rigid body with inertia that the surface belongs to, such as a pulley, in whose frame the surface is given. By default
     it belongs to the ground.
+    """
+    tangential_damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    With `tangential_stiffness` only: damping along the surface while the marker sticks, N s/m; 0 by default.
+    """
+    tangential_stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    With friction only, at a marker: stiffness along the surface while the marker sticks, N/m. It sticks where its speed falls to
+    `slip_velocity`, and rests without creep. It slides where the force of this stiffness exceeds the largest friction. By default
+    nothing sticks.
     """
     body: StrictStr | None = None
     """

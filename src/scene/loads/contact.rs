@@ -1,5 +1,6 @@
 //! Contacts of markers and of bodies with surfaces of the ground and of rigid bodies.
 
+use super::joint_friction::check_static_ratio;
 use super::*;
 use crate::bodies::PANELS;
 use crate::bodies::{Marker, RigidRod};
@@ -11,8 +12,10 @@ use crate::scene::description::Surface;
 use crate::scene::resolved::{BodyReference, Place, Rigid};
 use crate::scene::validate::checks;
 use crate::scene::validate::checks::unknown;
+use crate::system::Drive;
 use crate::system::loads::{
     Contact, ContactLaw, ContactPoint, ContactSurface, OneSidedSpring, RigidFrame, SurfaceContact,
+    TangentialSpring,
 };
 
 /// Contact with a surface of the ground, or of a rigid body, which moves with it and takes the opposite force.
@@ -48,10 +51,24 @@ pub struct ContactLoad {
     #[schemars(range(min = 0.0))]
     pub friction: Option<f64>,
     /// With friction only: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. A contact that
-    /// would stick creeps at a fraction of it.
+    /// would stick creeps at a fraction of it, unless `tangential_stiffness` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub slip_velocity: Option<f64>,
+    /// With friction only, at a marker: stiffness along the surface while the marker sticks, N/m. It sticks where its speed falls to
+    /// `slip_velocity`, and rests without creep. It slides where the force of this stiffness exceeds the largest friction. By default
+    /// nothing sticks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub tangential_stiffness: Option<f64>,
+    /// With `tangential_stiffness` only: damping along the surface while the marker sticks, N s/m; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub tangential_damping: Option<f64>,
+    /// With `tangential_stiffness` only: largest friction while the marker sticks, in parts of `mu N`; 1 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1.0))]
+    pub static_ratio: Option<f64>,
 }
 
 /// Contact with a surface.
@@ -77,7 +94,46 @@ impl ContactLoad {
             },
             friction: self.friction.unwrap_or_default(),
             slip_velocity: self.slip_velocity.unwrap_or_default(),
+            sticking: (self.tangential_stiffness).map(|stiffness| TangentialSpring {
+                stiffness,
+                damping: self.tangential_damping.unwrap_or_default(),
+                static_ratio: self.static_ratio.unwrap_or(1.0),
+            }),
         }
+    }
+
+    /// Checks what is said of points that stick.
+    ///
+    /// # Errors
+    /// A number is out of its range, or nothing can stick.
+    fn check_sticking(&self, path: &str, by: &LoadPlace<'_>, dimension: usize) -> Found<()> {
+        let at = |key: &str| format!("{path}.{key}");
+        let Some(stiffness) = self.tangential_stiffness else {
+            if self.tangential_damping.is_some() || self.static_ratio.is_some() {
+                let wanted = "a stiffness along the surface";
+                needed(path, "tangential_stiffness", wanted, None::<f64>)?;
+            }
+            return Ok(());
+        };
+        needed(path, "friction", "a coefficient", self.friction)?;
+        needed(path, "slip_velocity", "a speed", self.slip_velocity)?;
+        let refused = |why: &str| {
+            let wanted = format!("nothing {why}");
+            Err(expected(&at("tangential_stiffness"), &wanted, "a number"))
+        };
+        match by {
+            LoadPlace::Surface(_) => return refused("at a plate or shell, which does not stick"),
+            LoadPlace::Line(_) => return refused("along a line, which does not stick"),
+            _ => {}
+        }
+        let rotates = by.rigid().is_some_and(|rigid| rotates(rigid, dimension));
+        if self.radius.is_some() && rotates {
+            return refused("at a rigid body with a radius, which rolls");
+        }
+        positive(&at("tangential_stiffness"), "N/m", stiffness)?;
+        let damping = self.tangential_damping.unwrap_or_default();
+        not_negative(&at("tangential_damping"), "N.s/m", damping)?;
+        check_static_ratio(path, self.static_ratio)
     }
 
     /// Unit of the stiffness at a place.
@@ -133,6 +189,7 @@ impl SceneLoad for ContactLoad {
             needed(path, "friction", "a coefficient", self.friction)?;
             positive(&at("slip_velocity"), "m/s", slip_velocity)?;
         }
+        self.check_sticking(path, &by, scene.scene.dimension)?;
         Ok(ResolvedContact {
             given: self,
             by,
@@ -156,6 +213,26 @@ impl SceneLoad for ContactLoad {
                 None,
                 Optional(&mut self.friction),
             ));
+        }
+        if self.tangential_stiffness.is_some() {
+            let (stiffness, damping) = (
+                Optional(&mut self.tangential_stiffness),
+                Optional(&mut self.tangential_damping),
+            );
+            numbers.extend([
+                LoadNumber::new(
+                    "tangential_stiffness",
+                    "Stiffness along the surface",
+                    Some(NEWTON_PER_METRE),
+                    stiffness,
+                ),
+                LoadNumber::new(
+                    "tangential_damping",
+                    "Damping along the surface",
+                    Some(NEWTON_SECOND_PER_METRE),
+                    damping,
+                ),
+            ]);
         }
         numbers
     }
@@ -200,6 +277,12 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
                 .collect(),
         };
         let owner = self.surface_of;
+        let kept = self.given.tangential_stiffness.map(|_| {
+            let drives = &mut builder.parts.drives;
+            let first = drives.len();
+            drives.extend(std::iter::repeat_n(Drive::Kept, Contact::<D>::KEPT));
+            first
+        });
         Ok(AppliedLoad::Contact(Box::new(Contact {
             law: self.given.law(match owner {
                 Some(rigid) => builder.surface_of(rigid, &self.given.surface),
@@ -207,6 +290,7 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
             }),
             surface_frame: owner.map(|rigid| RigidFrame::of(&builder.point(rigid, [0.0; 3]))),
             rolling: self.rolling::<D>(&places),
+            kept,
             places,
         })))
     }
@@ -251,10 +335,18 @@ impl<'a> ActingLoad<'a> for ResolvedContact<'a> {
         let friction = self.given.slip_velocity.map_or(String::new(), |speed| {
             format!(", friction {friction}, smooth below {} m/s", number(speed))
         });
+        let sticks = self.given.tangential_stiffness.map(|stiffness| {
+            let largest = words::given(", at most", self.given.static_ratio, "times that friction");
+            format!(
+                ", sticks with {} {unit} along the surface{largest}",
+                number(stiffness)
+            )
+        });
+        let sticks = sticks.unwrap_or_default();
         LoadWords {
             kind: format!("contact with a {}{owner}", self.given.surface.name()),
             on: words::code(self.by.name()),
-            size: format!("{surface}{radius}; {k} {unit}, {a} s/m{friction}"),
+            size: format!("{surface}{radius}; {k} {unit}, {a} s/m{friction}{sticks}"),
         }
     }
 }

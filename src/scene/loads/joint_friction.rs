@@ -47,6 +47,20 @@ fn units(is_angle: bool) -> [Unit; 2] {
     }
 }
 
+/// Checks the largest friction at rest over that while sliding, of a load with this path.
+///
+/// # Errors
+/// It is less than 1.
+pub(super) fn check_static_ratio(path: &str, ratio: Option<f64>) -> Found<()> {
+    match ratio {
+        Some(ratio) if !(ratio.is_finite() && ratio >= 1.0) => {
+            let at = format!("{path}.static_ratio");
+            Err(expected(&at, "a number from 1 on", ratio))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl SceneLoad for JointFrictionLoad {
     type Acting<'a> = ResolvedJointFriction<'a>;
 
@@ -56,11 +70,7 @@ impl SceneLoad for JointFrictionLoad {
         let on = scene.require_loaded(path, &self.joint, self.coordinate)?;
         let at = |key: &str| format!("{path}.{key}");
         let force = Signal::Function(value(&at("force"), &self.force, false)?);
-        if let Some(ratio) = self.static_ratio
-            && !(ratio.is_finite() && ratio >= 1.0)
-        {
-            return Err(expected(&at("static_ratio"), "a number from 1 on", ratio));
-        }
+        check_static_ratio(path, self.static_ratio)?;
         let unit = units(on.is_angle())[1].text();
         let speed = self.stribeck_speed.unwrap_or_default();
         not_negative(&at("stribeck_speed"), &unit, speed)?;

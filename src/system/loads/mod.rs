@@ -29,7 +29,10 @@ mod table_spring;
 pub use airfoil::{Airfoil, AirfoilAxes, AirfoilCoefficient, AirfoilLine, AirfoilStrip};
 pub use area_load::{AreaAction, AreaLoad, AreaValues};
 pub use bushing::{BetweenFrames, Bushing, BushingMeasure, FromAngle, FromOrientation, FromPoint};
-pub use contact::{Contact, ContactLaw, ContactPoint, ContactSurface, RigidFrame};
+pub use contact::{
+    Contact, ContactLaw, ContactPoint, ContactSurface, Grip, RigidFrame, StickMotion,
+    TangentialSpring,
+};
 pub use convective_inertia::ConvectiveInertia;
 pub use distributed::DistributedForce;
 pub use distributed_moment::DistributedMoment;

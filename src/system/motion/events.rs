@@ -1,4 +1,5 @@
-//! Events of a step: latches that close or open, and frictions that stick or slide, within it or at its ends (decisions 82 and 83).
+//! Events of a step: latches that close or open, frictions and points of contacts that stick or slide, within it or at its ends (decisions
+//! 82, 83 and 90).
 
 use super::dynamics::{DrivenSystem, Dynamics as _, StepOutcome};
 use crate::system::joints::latch::{Event, HeldMotion};
@@ -8,17 +9,16 @@ use crate::system::{State, System};
 impl<const D: usize> System<D> {
     /// Whether anything may happen within a step.
     pub(in crate::system) fn awaits_events(&self) -> bool {
-        !self.latches.is_empty() || !self.frictions.is_empty()
+        !self.latches.is_empty() || !self.frictions.is_empty() || !self.sticking.is_empty()
     }
 }
 
 impl<const D: usize> DrivenSystem<'_, D> {
-    /// Remembers a state that a step begins at. Whether a latch opens or friction changes there.
+    /// Remembers a state that a step begins at. Whether anything happens there.
     pub(super) fn remember_start(&mut self, state: &State) -> bool {
         self.work.before.copy_from(state);
         self.measure(0, state);
-        let (opens, changes) = (self.open_at_start(), self.change_at_start());
-        opens || changes
+        self.open_at_start() | self.change_at_start() | self.slide_at_start()
     }
 
     /// Finds what happens first in a step from the remembered state. A step may be cut short unless `is_last`.
@@ -42,6 +42,10 @@ impl<const D: usize> DrivenSystem<'_, D> {
             let (event, change) = self.friction_event(place, &self.work.frictions[i], h);
             self.work.frictions[i].change = takes_place(event).then_some(change);
         }
+        for (i, place) in self.system.sticking.iter().enumerate() {
+            let (event, change) = self.stick_event(place, &self.work.sticking[i]);
+            self.work.sticking[i].change = takes_place(event).then_some(change);
+        }
         match cut {
             Some(part) => {
                 state.copy_from(&self.work.before);
@@ -52,7 +56,7 @@ impl<const D: usize> DrivenSystem<'_, D> {
         }
     }
 
-    /// Coordinates, rates and forces of all latches and frictions at a state: that before a step (0) or after it (1).
+    /// Coordinates, rates and forces of all that may stick, slide, close or open at a state: that before a step (0) or after it (1).
     pub(super) fn measure(&mut self, side: usize, state: &State) {
         let system = self.system;
         let released = &self.work.kinematics.released;
@@ -90,14 +94,20 @@ impl<const D: usize> DrivenSystem<'_, D> {
                 watch.limits[side] = friction.limit(at);
             }
         }
+        self.measure_sticking(side, state.time);
     }
 
     /// Lets happen what is due at a state. Velocities after a latch has closed are those of a plastic impact.
     pub(super) fn switch_all(&mut self, state: &mut State) -> StepOutcome {
         let before = self.kinetic(state);
         let closes = self.switch_latches() | self.switch_frictions(state.time);
+        let lost = self.switch_sticking(state.time);
         let outcome = self.accepted(state);
-        if closes && self.system.tracks_work && outcome == StepOutcome::Moved {
+        if !self.system.tracks_work || outcome == StepOutcome::ConstraintsViolated {
+            return outcome;
+        }
+        state.work[1] += lost;
+        if closes && outcome == StepOutcome::Moved {
             state.work[1] += before - self.kinetic(state);
         }
         outcome

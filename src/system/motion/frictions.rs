@@ -40,7 +40,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Number of driven coordinates before one that follow no function of time.
-    fn trajectories_before(&self, drive: usize) -> usize {
+    pub(super) fn trajectories_before(&self, drive: usize) -> usize {
         let before = &self.drives[..drive];
         before.iter().filter_map(InputSignal::of).count()
     }
@@ -115,11 +115,15 @@ impl<const D: usize> DrivenSystem<'_, D> {
         sticks
     }
 
-    /// Lets frictions stick or slide at a state where a motion begins.
+    /// Lets frictions and points of contacts stick or slide at a state where a motion begins.
     pub(in crate::system) fn start_frictions(&mut self, state: &mut State) {
+        if self.system.frictions.is_empty() && self.system.sticking.is_empty() {
+            return;
+        }
         // First all stick that are at rest, then some may slide.
         for _ in 0..2 {
-            if self.system.frictions.is_empty() || !self.remember_start(state) {
+            let changes = self.remember_start(state);
+            if !(self.grip_at_start() | changes) {
                 return;
             }
             self.switch_all(state);

@@ -11,4 +11,5 @@ pub(in crate::system) mod multipliers;
 pub(in crate::system) mod prices;
 pub(in crate::system) mod rank;
 mod rotations;
+pub(in crate::system) mod sticking;
 pub(in crate::system) mod tree;

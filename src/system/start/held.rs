@@ -40,6 +40,7 @@ impl<const D: usize> System<D> {
         }
         // Directions of sliding are among the drives that stand still now.
         held.frictions.clear();
+        held.sticking.clear();
         held.tracks_work = false;
         held
     }

@@ -11,6 +11,7 @@ pub fn all() -> Vec<Specimen> {
     vec![
         on_a_plane(),
         on_a_circle(),
+        that_sticks(),
         in_space(),
         on_a_moving_body(),
         on_a_moving_body_in_space(),
@@ -136,6 +137,42 @@ fn on_a_circle() -> Specimen {
     specimen = pushed(specimen, "b", times(STIFFNESS * 0.07, second));
     let depths = 0.04 * 0.04 + 0.07 * 0.07;
     specimen.claim("energy.spring", "J", 0.5 * STIFFNESS * depths)
+}
+
+/// Markers that may stick to a plane. A slow one does: the spring along the surface begins with the friction that there is, and its damper
+/// acts beside it. A fast one slides, with the whole friction.
+fn that_sticks() -> Specimen {
+    const ALONG: f64 = 900.0;
+    const DAMPER: f64 = 7.0;
+    let (normal, point) = ([0.28, 0.96], [0.7, -1.1]);
+    let along = [0.96, -0.28];
+    let arm = turned(ANGLE, [0.5, -0.2]);
+    let depth = 0.04;
+    let place = |way: f64| {
+        let at = sum(point, sum(times(way, along), times(-depth, normal)));
+        sum(at, times(-1.0, arm))
+    };
+    let (slow, fast) = (0.5 * SLIP, -3.0 * SLIP);
+    let surface = json!({"plane": {"point": point, "normal": normal}});
+    let on = |name: &str, marker: &str| {
+        let mut load = contact(name, marker, &surface);
+        load["tangential_stiffness"] = json!(ALONG);
+        load["tangential_damping"] = json!(DAMPER);
+        load["static_ratio"] = json!(1.3);
+        load
+    };
+    let scene = json!({"name": "that_sticks", "dimension": 2,
+        "bodies": [body("a", place(0.0), times(slow, along), 0.0), body("b", place(1.0), times(fast, along), 0.0), extra()],
+        "loads": [on("of_a", "a.p"), on("of_b", "b.p")],
+        "outputs": read(&["a", "b"])});
+    let push = STIFFNESS * depth;
+    let rub = FRICTION * push * slow / norm([slow, SLIP]);
+    let force = |friction: f64| sum(times(push, normal), times(-friction, along));
+    let mut specimen = Specimen::new("that sticks", scene);
+    specimen = pushed(specimen, "a", force(rub + DAMPER * slow));
+    specimen = pushed(specimen, "b", force(-FRICTION * push));
+    let stored = STIFFNESS * depth * depth + 0.5 * rub * rub / ALONG;
+    specimen.claim("energy.spring", "J", stored)
 }
 
 /// Particles on a plane, a sphere and a cylinder.

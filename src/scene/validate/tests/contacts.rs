@@ -85,6 +85,31 @@ fn surfaces_belong_to_rigid_bodies_that_rotate() {
     );
 }
 
+/// Markers stick, where they do not roll; what says how needs a stiffness along the surface, and friction.
+#[test]
+fn markers_stick_to_surfaces() {
+    check(
+        || {
+            let mut scene = scene(2);
+            let load = json!({"name": "l", "kind": "contact", "marker": "ball.c", "stiffness": 5, "friction": 0.3, "slip_velocity": 0.1,
+                "tangential_stiffness": 4, "tangential_damping": 1, "static_ratio": 1.2, "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}});
+            scene["loads"] = json!([load]);
+            scene
+        },
+        r#"
+        /loads/0/marker | "rod.tip" | accepted
+        /loads/0/static_ratio | 0.9 | loads[0].static_ratio: expected a number from 1 on, found 0.9
+        /loads/0/tangential_stiffness | 0 | loads[0].tangential_stiffness: expected a positive number (N/m), found 0
+        /loads/0/tangential_damping | -1 | loads[0].tangential_damping: expected zero or a positive number (N.s/m), found -1
+        /loads/0/radius | 0.1 | loads[0].tangential_stiffness: expected nothing at a rigid body with a radius, which rolls, found a number
+        /loads/0/tangential_stiffness | null | loads[0].tangential_stiffness: expected a stiffness along the surface, found nothing
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "ball.c", "stiffness": 5, "tangential_stiffness": 4, "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}} | loads[0].friction: expected a coefficient, found nothing
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "ball.c", "stiffness": 5, "friction": 0, "tangential_stiffness": 4, "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}} | loads[0].slip_velocity: expected a speed, found nothing
+        /loads/0 | {"name": "l", "kind": "contact", "body": "rod", "stiffness": 5, "friction": 0.3, "slip_velocity": 0.1, "tangential_stiffness": 4, "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}} | loads[0].tangential_stiffness: expected nothing along a line, which does not stick, found a number
+        "#,
+    );
+}
+
 #[test]
 fn forces_and_moments_are_read_of_loads_that_follow_from_the_motion() {
     check(

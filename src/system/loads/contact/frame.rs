@@ -41,15 +41,23 @@ impl RigidFrame {
         })
     }
 
+    /// Components of a vector along the axes.
+    pub fn along<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        vector: &Vector<D, N>,
+    ) -> Vector<D, N> {
+        let axes = self.axes(x);
+        Vector::from_fn(|k, _| axes[k].dot(vector))
+    }
+
     /// Components along the axes of the way from the centre of mass to a point, m.
     pub fn components<const D: usize, N: Number>(
         &self,
         x: &[Node<D, N>],
         point: &Vector<D, N>,
     ) -> Vector<D, N> {
-        let way = point - Vector::from(x[self.node][0]);
-        let axes = self.axes(x);
-        Vector::from_fn(|k, _| axes[k].dot(&way))
+        self.along(x, &(point - Vector::from(x[self.node][0])))
     }
 
     /// A vector with these components along the axes.

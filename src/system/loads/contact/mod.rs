@@ -6,14 +6,20 @@
 //! Velocities are those of the points of both bodies that are where they touch, `R` below the point along the normal. The surface takes the
 //! opposite force there, so that both together have no force and no moment. A line takes friction on itself, without a moment.
 //!
+//! A marker may stick. One that sticks is held by a spring with a damper along the surface, from a place of the surface that the state
+//! keeps. It slides where the force of the spring exceeds the largest friction, with `mu N` against the velocity whatever the speed, and
+//! sticks where it stops. Both happen at events (`motion/sticking.rs`), so that steps are smooth; the force of friction goes on there.
+//!
 //! Source: as for the spring; P. Wriggers, Computational Contact Mechanics, 2nd ed. (2006), section 5.2 (Coulomb's law with a square
-//! root in place of its corner).
+//! root in place of its corner); P. A. Cundall, O. D. L. Strack, A discrete numerical model for granular assemblies, Geotechnique 29 (1979)
+//! 47-65 (tangential springs of contacts).
 
 mod frame;
 mod law;
 
 pub use frame::RigidFrame;
-pub use law::{ContactLaw, ContactSurface};
+use law::Hold;
+pub use law::{ContactLaw, ContactSurface, Grip, StickMotion, TangentialSpring};
 
 #[cfg(doc)]
 use super::OneSidedSpring;
@@ -47,6 +53,9 @@ pub struct Contact<const D: usize = 2> {
     pub surface_frame: Option<RigidFrame>,
     /// Rigid body that touches with a radius, and rolls.
     pub rolling: Option<RigidFrame>,
+    /// Where a marker may stick: index of the first of the driven coordinates in which the state keeps a vector and the number of its
+    /// [`Grip`]. The vector, in the frame of the surface, leads to where the marker sticks, or is the direction in which it slid last.
+    pub kept: Option<usize>,
 }
 
 /// How a place touches.
@@ -93,14 +102,24 @@ impl<const D: usize> Contact<D> {
 
     /// How a place touches; none above the surface.
     #[inline(always)]
-    fn touch<N: Number>(
+    fn touch<N: Number>(&self, place: usize, now: &Present<'_, D, N>) -> Option<PlaceTouch<D, N>> {
+        let marker = self.places[place].marker.lift();
+        let position = marker.position(now.at.x);
+        let under = self.law.depth(&now.surface, &position)?;
+        Some(self.meet(place, under, now))
+    }
+
+    /// How a place meets the surface at a depth (m), with the unit vector out of the surface.
+    #[inline(always)]
+    fn meet<N: Number>(
         &self,
-        marker: &Marker<N>,
+        place: usize,
+        (depth, normal): (N, Vector<D, N>),
         now: &Present<'_, D, N>,
-    ) -> Option<PlaceTouch<D, N>> {
+    ) -> PlaceTouch<D, N> {
         let at = now.at;
+        let marker: Marker<N> = self.places[place].marker.lift();
         let position = marker.position(at.x);
-        let (depth, normal) = self.law.depth(&now.surface, &position)?;
         // A push along the normal alone has the same moment from the middle.
         let rubs = self.law.friction > 0.0;
         let arm = if rubs { self.law.radius } else { 0.0 };
@@ -109,20 +128,59 @@ impl<const D: usize> Contact<D> {
         let rolling = self.rolling.filter(|_| rubs);
         let ends = [
             self.surface_frame.map_or(Attachment::Ground(point), body),
-            rolling.map_or(Attachment::Body(*marker), body),
+            rolling.map_or(Attachment::Body(marker), body),
         ];
         let [surface, touching] = ends.each_ref().map(|end| end.velocity(at.v));
         let mut velocity: Vector<D, N> = touching - surface;
         if let (Some(paid_out), Some(place)) = (&now.paid_out, marker.element) {
             velocity += paid_out.convective_velocity(place, marker.direction(at.x));
         }
-        let touch = self.law.touch((depth, normal), velocity);
-        Some(PlaceTouch { touch, ends })
+        let hold = self.hold_at(at, &position);
+        let touch = self.law.touch_held((depth, normal), velocity, hold);
+        PlaceTouch { touch, ends }
     }
 
-    /// Force on a point, N or N/m.
-    fn force<N: Number>(&self, marker: &Marker<N>, now: &Present<'_, D, N>) -> Vector<D, N> {
-        let touch = self.touch(marker, now);
+    /// Number of driven coordinates in which the state keeps the friction of a marker.
+    pub const KEPT: usize = D + 1;
+
+    /// State of friction of a marker at a position.
+    #[inline(always)]
+    fn hold_at<N: Number>(&self, at: Instant<'_, D, N>, position: &Vector<D, N>) -> Hold<D, N> {
+        let Some(kept) = self.kept else {
+            return Hold::Free;
+        };
+        let kept = &at.drives[kept..];
+        let given = Vector::from_fn(|k, _| kept[k][0]);
+        let frame = self.surface_frame.as_ref();
+        match Grip::of(kept[D][0].plain()) {
+            Grip::Free => Hold::Free,
+            Grip::Sticks => {
+                let end = frame.map_or(given, |frame| frame.position(at.x, &given));
+                Hold::Sticks(position - end)
+            }
+            Grip::Slides => Hold::Slides(frame.map_or(given, |frame| frame.vector(at.x, &given))),
+        }
+    }
+
+    /// Friction of a marker as it decides whether the marker sticks; none where it cannot.
+    pub(in crate::system) fn stick_motion(&self, at: Instant<'_, D>) -> Option<StickMotion<D>> {
+        let (spring, now) = (self.law.sticking?, self.present(at));
+        let position = self.places[0].marker.position(at.x);
+        let (depth, normal) = now.surface.under(&position)?;
+        let on = self.meet(0, (depth + self.law.radius, normal), &now);
+        let mut motion = self.law.stick_motion(spring, position, &on.touch);
+        if let Some(frame) = self.surface_frame {
+            motion.end = frame.components(at.x, &motion.end);
+            for vector in [&mut motion.slip, &mut motion.against] {
+                *vector = frame.along(at.x, vector);
+            }
+        }
+        Some(motion)
+    }
+
+    /// Force on a place, N or N/m.
+    fn force<N: Number>(&self, place: usize, now: &Present<'_, D, N>) -> Vector<D, N> {
+        let touch = self.touch(place, now);
         touch.map_or_else(Vector::zeros, |on| self.law.force(&on.touch))
     }
 
@@ -142,10 +200,10 @@ impl<const D: usize> Contact<D> {
         at: Instant<'_, D, N>,
         segment: usize,
     ) -> Values<D, N> {
-        let places = &self.places[segment * GAUSS_5.len()..];
+        let first = segment * GAUSS_5.len();
         let now = self.present(at);
         let longer = now.longer();
-        std::array::from_fn(|k| self.force(&places[k].marker.lift(), &now) * longer)
+        std::array::from_fn(|k| self.force(first + k, &now) * longer)
     }
 
     /// The whole force, N.
@@ -159,13 +217,11 @@ impl<const D: usize> Contact<D> {
     pub(in crate::system) fn nearest(&self, at: Instant<'_, D>, s: f64) -> Vector<D> {
         let length: f64 = self.places.iter().map(|place| place.weight).sum();
         let mut before = 0.0;
-        let place = self.places.iter().find(|place| {
+        let place = self.places.iter().position(|place| {
             before += place.weight;
             before >= s * length
         });
-        let place = place.or(self.places.last());
-        let now = self.present(at);
-        place.map_or_else(Vector::zeros, |place| self.force(&place.marker, &now))
+        self.force(place.unwrap_or(self.places.len() - 1), &self.present(at))
     }
 
     /// Calls with both ends of every place that touches, and the force on the second one, N.
@@ -177,10 +233,10 @@ impl<const D: usize> Contact<D> {
     ) {
         let now = self.present(at);
         let longer = now.longer();
-        for place in &self.places[places] {
-            if let Some(on) = self.touch(&place.marker.lift(), &now) {
-                let force = self.law.force(&on.touch) * (N::of(place.weight) * longer);
-                call(&on.ends, force);
+        for place in places {
+            if let Some(on) = self.touch(place, &now) {
+                let weight = N::of(self.places[place].weight) * longer;
+                call(&on.ends, self.law.force(&on.touch) * weight);
             }
         }
     }
@@ -203,8 +259,8 @@ impl<const D: usize> Contact<D> {
     /// The sum over all points of what touching takes or holds there, by their weights.
     fn sum<N: Number>(&self, at: Instant<'_, D, N>, of: impl Fn(&Touch<D, N>) -> N) -> N {
         let (mut sum, now) = (N::of(0.0), self.present(at));
-        for place in &self.places {
-            if let Some(on) = self.touch(&place.marker.lift(), &now) {
+        for (index, place) in self.places.iter().enumerate() {
+            if let Some(on) = self.touch(index, &now) {
                 sum += of(&on.touch) * N::of(place.weight);
             }
         }
@@ -257,14 +313,15 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
 
     fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         let now = self.present(at);
-        for place in &self.places {
-            let Some(PlaceTouch { touch, ends }) = self.touch(&place.marker, &now) else {
+        for (index, place) in self.places.iter().enumerate() {
+            let Some(PlaceTouch { touch, ends }) = self.touch(index, &now) else {
                 continue;
             };
             let weight = place.weight * now.longer();
             let [stiff, damped] = self.law.tangents(&now.surface, &touch);
             between(&ends, damped * weight, 0, &mut *damping);
-            // The normal force acts on both bodies at the middle of what touches as well.
+            // The normal force acts on both bodies at the middle of what touches as well. It rotates with the surface, and so does the force
+            // on what sticks.
             let surface = self.surface_frame.map(|frame| {
                 let middle = frame.point(at.x, &place.marker.position(at.x));
                 let force = self.law.push(&touch) * weight;
@@ -307,6 +364,8 @@ impl<const D: usize> ForceElement<D> for Contact<D> {
     /// Friction is absent at rest.
     fn hold(&mut self, _at: Instant<'_, D>, _fraction: f64) {
         self.law.friction = 0.0;
+        self.law.sticking = None;
+        self.kept = None;
     }
 
     fn is_conservative(&self) -> bool {
